@@ -1,0 +1,114 @@
+#include "CheckMesh.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+
+#include "ElementTypes.hpp"
+#include "atrapos/exodus/Error.hpp"
+
+namespace atrapos::exodus {
+
+namespace {
+
+constexpr std::size_t maxTitle = 80;                          // Exodus: MAX_LINE_LENGTH
+constexpr std::size_t maxName = 255;                          // NetCDF: NC_MAX_NAME less the final zero
+constexpr long long maxId = std::numeric_limits<int>::max();  // integers in a 64-bit-offset file have 32 bits
+
+class Checker {
+ public:
+  Checker(const fem::Mesh& mesh, const std::string& file) : mesh_(mesh), file_(file) {}
+
+  void operator()() {
+    require(mesh_.title.size() <= maxTitle, "the title has more than 80 characters");
+    require(mesh_.coordinates.size() % 3 == 0, "the number of coordinates is not a multiple of three");
+    require(mesh_.numNodes() > 0, "the mesh has no nodes");
+    require(std::all_of(mesh_.coordinates.begin(), mesh_.coordinates.end(),
+                        [](double x) { return std::isfinite(x); }),
+            "a node has a coordinate that is not a finite number");
+    for (const fem::Block& block : mesh_.blocks) checkBlock(block);
+    require(!sidesOfElement_.empty(), "the mesh has no elements");
+    for (const fem::NodeSet& set : mesh_.nodeSets) checkNodes(set.nodes, describe("node set", set));
+    for (const fem::SideSet& set : mesh_.sideSets) checkSides(set);
+    checkNamesAndIds(mesh_.blocks, "block");
+    checkNamesAndIds(mesh_.nodeSets, "node set");
+    checkNamesAndIds(mesh_.sideSets, "side set");
+    checkNumbers(mesh_.nodeIds, mesh_.numNodes(), "node");
+    checkNumbers(mesh_.elementIds, static_cast<int>(sidesOfElement_.size()), "element");
+  }
+
+ private:
+  void require(bool condition, const std::string& message) const {
+    if (!condition) throw Error(file_ + ": " + message);
+  }
+
+  template <class Item>
+  static std::string describe(const std::string& kind, const Item& item) {
+    return kind + " '" + item.name + "' (id " + std::to_string(item.id) + ")";
+  }
+
+  void checkNodes(const std::vector<int>& nodes, const std::string& owner) const {
+    const int numNodes = mesh_.numNodes();
+    for (int node : nodes)
+      require(node >= 0 && node < numNodes, owner + " has node " + std::to_string(node + 1LL) +
+                                                ", the mesh has " + std::to_string(numNodes));
+  }
+
+  void checkBlock(const fem::Block& block) {
+    const std::string owner = describe("block", block);
+    const std::size_t perElement = fem::nodesPerElement(block.topology);
+    require(block.nodes.size() % perElement == 0,
+            owner + " has a node list that is not a multiple of " + std::to_string(perElement) + " long");
+    const std::size_t count = block.nodes.size() / perElement;
+    require(block.attributes.size() == count * block.attributeNames.size(),
+            owner + " has not as many attributes as elements times attribute names");
+    for (const std::string& name : block.attributeNames)
+      require(name.size() <= maxName, owner + " has an attribute name of more than 255 characters");
+    checkNodes(block.nodes, owner);
+    sidesOfElement_.insert(sidesOfElement_.end(), count, static_cast<char>(numSides(block.topology)));
+  }
+
+  void checkSides(const fem::SideSet& set) const {
+    const int numElements = static_cast<int>(sidesOfElement_.size());
+    for (const fem::Side& side : set.sides) {
+      require(side.element >= 0 && side.element < numElements,
+              describe("side set", set) + " has element " + std::to_string(side.element + 1LL) +
+                  ", the mesh has " + std::to_string(numElements));
+      require(side.side >= 0 && side.side < sidesOfElement_[side.element],
+              describe("side set", set) + " has side " + std::to_string(side.side + 1LL) + " of element " +
+                  std::to_string(side.element + 1LL) + ", which has " +
+                  std::to_string(sidesOfElement_[side.element]) + " sides");
+    }
+  }
+
+  template <class Items>
+  void checkNamesAndIds(const Items& items, const std::string& kind) const {
+    std::set<long long> ids;
+    for (const auto& item : items) {
+      require(item.name.size() <= maxName,
+              kind + " " + std::to_string(item.id) + " has a name of more than 255 characters");
+      require(item.id > 0 && item.id <= maxId,
+              describe(kind, item) + " has an id that is not within 1 and 2147483647");
+      require(ids.insert(item.id).second, describe(kind, item) + " has the id of another " + kind);
+    }
+  }
+
+  void checkNumbers(const std::vector<long long>& ids, int count, const std::string& kind) const {
+    if (ids.empty()) return;
+    require(ids.size() == static_cast<std::size_t>(count),
+            "there are not as many " + kind + " ids as " + kind + "s");
+    for (long long id : ids)
+      require(id > 0 && id <= maxId, kind + " id " + std::to_string(id) + " is not within 1 and 2147483647");
+  }
+
+  const fem::Mesh& mesh_;
+  const std::string& file_;
+  std::vector<char> sidesOfElement_;
+};
+
+}  // namespace
+
+void checkMesh(const fem::Mesh& mesh, const std::string& file) { Checker(mesh, file)(); }
+
+}  // namespace atrapos::exodus

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+
+#include "atrapos/fem/Mesh.hpp"
+
+namespace atrapos::exodus {
+
+/// Throws Error, with `file` first, where a mesh's lists do not fit each other: node, element and side
+/// numbers out of range, lengths that are no multiples, coordinates that are not finite, ids or names that
+/// Exodus cannot hold.
+void checkMesh(const fem::Mesh& mesh, const std::string& file);
+
+}  // namespace atrapos::exodus

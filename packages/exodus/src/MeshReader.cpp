@@ -1,0 +1,179 @@
+#include <limits>
+#include <utility>
+
+#include "CheckMesh.hpp"
+#include "ElementTypes.hpp"
+#include "File.hpp"
+#include "atrapos/exodus/MeshFile.hpp"
+
+namespace atrapos::exodus {
+
+namespace {
+
+class MeshReader {
+ public:
+  explicit MeshReader(const std::string& name)
+      : file_(File::open(name)),
+        nameLength_(static_cast<std::size_t>(ex_inquire_int(file_.id(), EX_INQ_MAX_READ_NAME_LENGTH))) {}
+
+  fem::Mesh operator()() {
+    file_.check(ex_get_init_ext(file_.id(), &init_), "reading the sizes");
+    require(init_.num_dim == 3,
+            "the mesh has " + std::to_string(init_.num_dim) + " dimensions; three are needed");
+    require(init_.num_nodes > 0, "the mesh has no nodes");
+    require(init_.num_elem > 0, "the mesh has no elements");
+    constexpr int64_t most = std::numeric_limits<int>::max() / 3;
+    require(init_.num_nodes < most && init_.num_elem < most, "the mesh is too large");
+    mesh_.title = init_.title;
+    readCoordinates();
+    readBlocks();
+    readNodeSets();
+    readSideSets();
+    mesh_.nodeIds = idMap(EX_NODE_MAP, init_.num_nodes);
+    mesh_.elementIds = idMap(EX_ELEM_MAP, init_.num_elem);
+    require(mesh_.numElements() == init_.num_elem, "the blocks have " + std::to_string(mesh_.numElements()) +
+                                                       " elements, the file announces " +
+                                                       std::to_string(init_.num_elem));
+    checkMesh(mesh_, file_.name());
+    return std::move(mesh_);
+  }
+
+ private:
+  void require(bool condition, const std::string& message) const {
+    if (!condition) throw Error(file_.name() + ": " + message);
+  }
+
+  void readCoordinates() {
+    const auto n = static_cast<std::size_t>(init_.num_nodes);
+    std::vector<double> x(n), y(n), z(n);
+    file_.check(ex_get_coord(file_.id(), x.data(), y.data(), z.data()), "reading the coordinates");
+    mesh_.coordinates.resize(3 * n);
+    for (std::size_t i = 0; i < n; ++i) {
+      mesh_.coordinates[3 * i] = x[i];
+      mesh_.coordinates[3 * i + 1] = y[i];
+      mesh_.coordinates[3 * i + 2] = z[i];
+    }
+  }
+
+  /// Ids and names of the blocks or sets of one kind, in the file's order.
+  std::vector<std::pair<int64_t, std::string>> idsAndNames(ex_entity_type type, int64_t count,
+                                                           const std::string& kind) const {
+    std::vector<std::pair<int64_t, std::string>> result;
+    if (count <= 0) return result;
+    std::vector<int64_t> ids(static_cast<std::size_t>(count));
+    file_.check(ex_get_ids(file_.id(), type, ids.data()), "reading the ids of the " + kind);
+    Strings names(ids.size(), nameLength_);
+    file_.check(ex_get_names(file_.id(), type, names.data()), "reading the names of the " + kind);
+    const auto texts = names.get();
+    for (std::size_t i = 0; i < ids.size(); ++i) result.emplace_back(ids[i], texts[i]);
+    return result;
+  }
+
+  void readBlocks() {
+    for (const auto& [id, name] : idsAndNames(EX_ELEM_BLOCK, init_.num_elem_blk, "blocks")) {
+      const std::string owner = "block '" + name + "' (id " + std::to_string(id) + ")";
+      ex_block param{};
+      param.id = id;
+      param.type = EX_ELEM_BLOCK;
+      file_.check(ex_get_block_param(file_.id(), &param), "reading " + owner);
+      if (param.num_entry == 0) continue;
+      const auto topology = topologyOf(param.topology, static_cast<int>(param.num_nodes_per_entry));
+      require(topology.has_value(), owner + ": element type '" + param.topology + "' with " +
+                                        std::to_string(param.num_nodes_per_entry) +
+                                        " nodes is not supported; accepted are " + acceptedElementTypes());
+      require(param.num_entry > 0 && param.num_entry <= init_.num_elem,
+              owner + " has more elements than the mesh");
+      fem::Block block;
+      block.name = name;
+      block.id = id;
+      block.topology = *topology;
+      block.nodes = readConnectivity(param, owner);
+      readAttributes(param, owner, block);
+      mesh_.blocks.push_back(std::move(block));
+    }
+  }
+
+  std::vector<int> readConnectivity(const ex_block& param, const std::string& owner) const {
+    std::vector<int64_t> nodes(static_cast<std::size_t>(param.num_entry * param.num_nodes_per_entry));
+    file_.check(ex_get_conn(file_.id(), EX_ELEM_BLOCK, param.id, nodes.data(), nullptr, nullptr),
+                "reading the nodes of " + owner);
+    return zeroBased(nodes, init_.num_nodes, owner, "node");
+  }
+
+  /// Checked here too, before 64-bit numbers become 32-bit ones.
+  std::vector<int> zeroBased(const std::vector<int64_t>& numbers, int64_t count, const std::string& owner,
+                             const std::string& kind) const {
+    std::vector<int> result;
+    result.reserve(numbers.size());
+    for (int64_t n : numbers) {
+      require(n >= 1 && n <= count,
+              owner + " has " + kind + " " + std::to_string(n) + ", the mesh has " + std::to_string(count));
+      result.push_back(static_cast<int>(n - 1));
+    }
+    return result;
+  }
+
+  void readAttributes(const ex_block& param, const std::string& owner, fem::Block& block) const {
+    if (param.num_attribute <= 0) return;
+    Strings names(static_cast<std::size_t>(param.num_attribute), nameLength_);
+    file_.check(ex_get_attr_names(file_.id(), EX_ELEM_BLOCK, param.id, names.data()),
+                "reading the attribute names of " + owner);
+    block.attributeNames = names.get();
+    block.attributes.resize(static_cast<std::size_t>(param.num_entry * param.num_attribute));
+    file_.check(ex_get_attr(file_.id(), EX_ELEM_BLOCK, param.id, block.attributes.data()),
+                "reading the attributes of " + owner);
+  }
+
+  std::size_t setLength(ex_entity_type type, int64_t id, const std::string& owner) const {
+    int64_t entries = 0, factors = 0;
+    file_.check(ex_get_set_param(file_.id(), type, id, &entries, &factors), "reading the length of " + owner);
+    require(entries >= 0 && entries < std::numeric_limits<int>::max(), owner + " is too large");
+    return static_cast<std::size_t>(entries);
+  }
+
+  void readNodeSets() {
+    for (const auto& [id, name] : idsAndNames(EX_NODE_SET, init_.num_node_sets, "node sets")) {
+      const std::string owner = "node set '" + name + "' (id " + std::to_string(id) + ")";
+      std::vector<int64_t> nodes(setLength(EX_NODE_SET, id, owner));
+      if (!nodes.empty())
+        file_.check(ex_get_set(file_.id(), EX_NODE_SET, id, nodes.data(), nullptr), "reading " + owner);
+      mesh_.nodeSets.push_back({name, id, zeroBased(nodes, init_.num_nodes, owner, "node")});
+    }
+  }
+
+  void readSideSets() {
+    for (const auto& [id, name] : idsAndNames(EX_SIDE_SET, init_.num_side_sets, "side sets")) {
+      const std::string owner = "side set '" + name + "' (id " + std::to_string(id) + ")";
+      std::vector<int64_t> elements(setLength(EX_SIDE_SET, id, owner)), ordinals(elements.size());
+      if (!elements.empty())
+        file_.check(ex_get_set(file_.id(), EX_SIDE_SET, id, elements.data(), ordinals.data()),
+                    "reading " + owner);
+      const auto element = zeroBased(elements, init_.num_elem, owner, "element");
+      const auto side = zeroBased(ordinals, 6, owner, "side");
+      fem::SideSet set{name, id, {}};
+      for (std::size_t i = 0; i < element.size(); ++i) set.sides.push_back({element[i], side[i]});
+      mesh_.sideSets.push_back(std::move(set));
+    }
+  }
+
+  /// Empty where the file has no map or the trivial one.
+  std::vector<long long> idMap(ex_entity_type type, int64_t count) const {
+    std::vector<int64_t> ids(static_cast<std::size_t>(count));
+    file_.check(ex_get_id_map(file_.id(), type, ids.data()), "reading the node and element ids");
+    bool trivial = true;
+    for (std::size_t i = 0; i < ids.size(); ++i) trivial = trivial && ids[i] == static_cast<int64_t>(i) + 1;
+    if (trivial) return {};
+    return {ids.begin(), ids.end()};
+  }
+
+  File file_;
+  std::size_t nameLength_;
+  ex_init_params init_{};
+  fem::Mesh mesh_;
+};
+
+}  // namespace
+
+fem::Mesh readMesh(const std::string& file) { return MeshReader(file)(); }
+
+}  // namespace atrapos::exodus

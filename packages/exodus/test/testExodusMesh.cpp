@@ -1,0 +1,280 @@
+// Meshes to files and back, and files that hold something else than a mesh for us.
+#include <exodusII.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <fstream>
+
+#include "SampleMesh.hpp"
+#include "TempFile.hpp"
+#include "atrapos/exodus/MeshFile.hpp"
+
+using namespace atrapos;
+using fem::Mesh;
+using fem::Topology;
+
+namespace {
+
+const std::vector<Topology> topologies = {Topology::Hex8,  Topology::Hex20,  Topology::Hex27,  Topology::Tet4,
+                                          Topology::Tet10, Topology::Wedge6, Topology::Wedge15};
+
+void expectEqual(const Mesh& a, const Mesh& b) {
+  EXPECT_EQ(a.title, b.title);
+  EXPECT_EQ(a.coordinates, b.coordinates);
+  EXPECT_EQ(a.nodeIds, b.nodeIds);
+  EXPECT_EQ(a.elementIds, b.elementIds);
+  ASSERT_EQ(a.blocks.size(), b.blocks.size());
+  for (std::size_t i = 0; i < a.blocks.size(); ++i) {
+    EXPECT_EQ(a.blocks[i].name, b.blocks[i].name);
+    EXPECT_EQ(a.blocks[i].id, b.blocks[i].id);
+    EXPECT_EQ(a.blocks[i].topology, b.blocks[i].topology);
+    EXPECT_EQ(a.blocks[i].nodes, b.blocks[i].nodes);
+    EXPECT_EQ(a.blocks[i].attributeNames, b.blocks[i].attributeNames);
+    EXPECT_EQ(a.blocks[i].attributes, b.blocks[i].attributes);
+  }
+  ASSERT_EQ(a.nodeSets.size(), b.nodeSets.size());
+  for (std::size_t i = 0; i < a.nodeSets.size(); ++i) {
+    EXPECT_EQ(a.nodeSets[i].name, b.nodeSets[i].name);
+    EXPECT_EQ(a.nodeSets[i].id, b.nodeSets[i].id);
+    EXPECT_EQ(a.nodeSets[i].nodes, b.nodeSets[i].nodes);
+  }
+  ASSERT_EQ(a.sideSets.size(), b.sideSets.size());
+  for (std::size_t i = 0; i < a.sideSets.size(); ++i) {
+    EXPECT_EQ(a.sideSets[i].name, b.sideSets[i].name);
+    EXPECT_EQ(a.sideSets[i].id, b.sideSets[i].id);
+    ASSERT_EQ(a.sideSets[i].sides.size(), b.sideSets[i].sides.size());
+    for (std::size_t j = 0; j < a.sideSets[i].sides.size(); ++j) {
+      EXPECT_EQ(a.sideSets[i].sides[j].element, b.sideSets[i].sides[j].element);
+      EXPECT_EQ(a.sideSets[i].sides[j].side, b.sideSets[i].sides[j].side);
+    }
+  }
+}
+
+template <class F>
+std::string messageOf(const F& f) {
+  try {
+    f();
+  } catch (const exodus::Error& e) {
+    return e.what();
+  }
+  return "no error";
+}
+
+void expectMessage(const std::string& message, const std::string& part) {
+  EXPECT_NE(message.find(part), std::string::npos) << message;
+  EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+}
+
+// A file of one element with the library itself; the mesh is as wrong as the arguments make it.
+struct Raw {
+  std::string type = "HEX8";
+  int nodesPerElement = 8;
+  int dimensions = 3;
+  std::vector<int> nodes = {1, 2, 3, 4, 5, 6, 7, 8};
+  std::array<int, 2> side = {1, 6};
+  int setNode = 8;
+  bool emptyBlock = false;
+  int numNodes = 8;
+  int mode = EX_LARGE_MODEL;
+
+  void write(const std::string& file) const {
+    ex_opts(0);
+    int words = 8, fileWords = 8;
+    const int id = ex_create(file.c_str(), EX_CLOBBER | mode, &words, &fileWords);
+    ASSERT_GE(id, 0);
+    if (numNodes == 0) {  // the library takes no elements without nodes
+      ASSERT_EQ(ex_put_init(id, "raw", dimensions, 0, 0, 0, 0, 0), 0);
+      ASSERT_EQ(ex_close(id), 0);
+      return;
+    }
+    ASSERT_EQ(ex_put_init(id, "raw", dimensions, numNodes, 1, emptyBlock ? 2 : 1, 1, 1), 0);
+    const double x[27] = {0, 1, 1, 0, 0, 1, 1, 0}, y[27] = {0, 0, 1, 1, 0, 0, 1, 1},
+                 z[27] = {0, 0, 0, 0, 1, 1, 1, 1};
+    ASSERT_EQ(ex_put_coord(id, x, y, dimensions == 3 ? z : nullptr), 0);
+    if (emptyBlock) {
+      ASSERT_EQ(ex_put_block(id, EX_ELEM_BLOCK, 5, "SHELL4", 0, 4, 0, 0, 0), 0);
+    }
+    ASSERT_EQ(ex_put_block(id, EX_ELEM_BLOCK, 10, type.c_str(), 1, nodesPerElement, 0, 0, 0), 0);
+    ASSERT_EQ(ex_put_conn(id, EX_ELEM_BLOCK, 10, nodes.data(), nullptr, nullptr), 0);
+    ASSERT_EQ(ex_put_set_param(id, EX_NODE_SET, 20, 1, 0), 0);
+    ASSERT_EQ(ex_put_set(id, EX_NODE_SET, 20, &setNode, nullptr), 0);
+    ASSERT_EQ(ex_put_set_param(id, EX_SIDE_SET, 30, 1, 0), 0);
+    ASSERT_EQ(ex_put_set(id, EX_SIDE_SET, 30, &side[0], &side[1]), 0);
+    ASSERT_EQ(ex_close(id), 0);
+  }
+};
+
+}  // namespace
+
+TEST(ExodusMesh, roundTripOfEveryTopology) {
+  for (Topology topology : topologies) {
+    SCOPED_TRACE(fem::topologyName(topology));
+    const TempFile file;
+    const Mesh mesh = sampleMesh(topology);
+    exodus::writeMesh(mesh, file());
+    expectEqual(mesh, exodus::readMesh(file()));
+    exodus::writeMesh(exodus::readMesh(file()), file());  // over itself
+    expectEqual(mesh, exodus::readMesh(file()));
+  }
+}
+
+TEST(ExodusMesh, trivialIdsStayEmpty) {
+  const TempFile file;
+  const Mesh mesh = fem::boxMesh({});
+  exodus::writeMesh(mesh, file());
+  expectEqual(mesh, exodus::readMesh(file()));
+}
+
+TEST(ExodusMesh, fileHasOneBasedNumbersAndLargeModel) {
+  const TempFile file;
+  exodus::writeMesh(fem::boxMesh({}), file());
+  int words = 8, fileWords = 0;
+  float version = 0.0F;
+  const int id = ex_open(file().c_str(), EX_READ, &words, &fileWords, &version);
+  ASSERT_GE(id, 0);
+  EXPECT_EQ(fileWords, 8);
+  EXPECT_EQ(ex_large_model(id), 1);
+  std::array<int, 8> nodes{};
+  ASSERT_EQ(ex_get_conn(id, EX_ELEM_BLOCK, 1, nodes.data(), nullptr, nullptr), 0);
+  // One cell, lattice directions equally divided: x outermost, z innermost.
+  EXPECT_EQ(nodes, (std::array<int, 8>{1, 5, 7, 3, 2, 6, 8, 4}));
+  int element = 0, side = 0;
+  ASSERT_EQ(ex_get_set(id, EX_SIDE_SET, 6, &element, &side), 0);
+  EXPECT_EQ(element, 1);
+  EXPECT_EQ(side, 6);  // z_max: the last side, by Exodus' count from 1
+  char type[MAX_STR_LENGTH + 1] = "";
+  int count = 0, perElement = 0, edges = 0, faces = 0, attributes = 0;
+  ASSERT_EQ(ex_get_block(id, EX_ELEM_BLOCK, 1, type, &count, &perElement, &edges, &faces, &attributes), 0);
+  EXPECT_STREQ(type, "HEX8");
+  ex_close(id);
+}
+
+TEST(ExodusMesh, elementTypesByPrefixAndNodeCount) {
+  const TempFile file;
+  const std::vector<std::pair<std::string, Topology>> types = {
+      {"HEX", Topology::Hex8},       {"hex8", Topology::Hex8},     {"HEXAHEDRON", Topology::Hex20},
+      {"HEX27", Topology::Hex27},    {"TETRA", Topology::Tet4},    {"TETRA10", Topology::Tet10},
+      {"tetra", Topology::Tet10},    {"WEDGE", Topology::Wedge15}, {"PENTA6", Topology::Wedge6},
+      {"PENTA15", Topology::Wedge15}};
+  for (const auto& [type, topology] : types) {
+    SCOPED_TRACE(type);
+    Raw raw;
+    raw.type = type;
+    raw.nodesPerElement = raw.numNodes = fem::nodesPerElement(topology);
+    raw.nodes.clear();
+    for (int i = 1; i <= raw.numNodes; ++i) raw.nodes.push_back(i);
+    raw.setNode = 1;
+    raw.side[1] = 4;
+    raw.write(file());
+    const Mesh mesh = exodus::readMesh(file());
+    EXPECT_EQ(mesh.blocks[0].topology, topology);
+    EXPECT_EQ(mesh.sideSets[0].sides[0].side, 3);
+  }
+}
+
+TEST(ExodusMesh, otherFileFormatsAreRead) {
+  for (int mode : {EX_NORMAL_MODEL, EX_LARGE_MODEL, EX_NETCDF4, EX_NETCDF4 | EX_ALL_INT64_DB}) {
+    SCOPED_TRACE(mode);
+    const TempFile file;
+    Raw raw;
+    raw.mode = mode;
+    raw.emptyBlock = true;
+    raw.write(file());
+    const Mesh mesh = exodus::readMesh(file());
+    ASSERT_EQ(mesh.blocks.size(), 1u);  // the one without elements is left out, whatever its type
+    EXPECT_EQ(mesh.blocks[0].id, 10);
+    EXPECT_EQ(mesh.blocks[0].nodes, (std::vector<int>{0, 1, 2, 3, 4, 5, 6, 7}));
+    EXPECT_EQ(mesh.nodeSets[0].nodes, std::vector<int>{7});
+  }
+}
+
+TEST(ExodusMesh, whatIsNotSupportedIsNamed) {
+  const TempFile file;
+  const auto read = [&] { return messageOf([&] { exodus::readMesh(file()); }); };
+  expectMessage(read(), file() + ": no such file");
+  expectMessage(messageOf([&] { exodus::readMesh(file.directory().string()); }), "not a regular file");
+
+  Raw raw;
+  raw.type = "SHELL4";
+  raw.nodesPerElement = 4;
+  raw.write(file());
+  expectMessage(read(),
+                "block '' (id 10): element type 'SHELL4' with 4 nodes is not supported; accepted are HEX");
+
+  raw = {};
+  raw.dimensions = 2;
+  raw.type = "QUAD4";
+  raw.nodesPerElement = 4;
+  raw.write(file());
+  expectMessage(read(), "the mesh has 2 dimensions; three are needed");
+
+  raw = {};
+  raw.numNodes = 0;
+  raw.write(file());
+  expectMessage(read(), "the mesh has no nodes");
+
+  raw = {};
+  raw.nodes[3] = 9;
+  raw.write(file());
+  expectMessage(read(), "block '' (id 10) has node 9, the mesh has 8");
+
+  raw = {};
+  raw.setNode = 0;
+  raw.write(file());
+  expectMessage(read(), "node set '' (id 20) has node 0, the mesh has 8");
+
+  raw = {};
+  raw.side = {2, 1};
+  raw.write(file());
+  expectMessage(read(), "side set '' (id 30) has element 2, the mesh has 1");
+
+  raw = {};
+  raw.type = "TETRA";
+  raw.nodesPerElement = 4;
+  raw.side = {1, 5};
+  raw.write(file());
+  expectMessage(read(), "side set '' (id 30) has side 5 of element 1, which has 4 sides");
+}
+
+TEST(ExodusMesh, writesWholeOrNotAtAll) {
+  const TempFile file;
+  const Mesh good = fem::boxMesh({});
+  exodus::writeMesh(good, file());
+  const auto write = [&](const Mesh& mesh) { return messageOf([&] { exodus::writeMesh(mesh, file()); }); };
+
+  Mesh bad = good;
+  bad.sideSets[1].id = bad.sideSets[0].id;
+  expectMessage(write(bad), "side set 'x_max' (id 1) has the id of another side set");
+  bad = good;
+  bad.blocks[0].id = 0;
+  expectMessage(write(bad), "block 'body' (id 0) has an id that is not within 1 and 2147483647");
+  bad = good;
+  bad.nodeIds.assign(8, 5000000000LL);
+  expectMessage(write(bad), "node id 5000000000");
+  bad = good;
+  bad.blocks[0].nodes[0] = 8;
+  expectMessage(write(bad), "has node 9, the mesh has 8");
+  bad = good;
+  bad.coordinates[5] = 1.0 / 0.0;
+  expectMessage(write(bad), "not a finite number");
+  bad = good;
+  bad.title.assign(81, 'x');
+  expectMessage(write(bad), "title");
+  bad = good;
+  bad.nodeSets[0].name.assign(256, 'x');
+  expectMessage(write(bad), "255");
+  expectEqual(good, exodus::readMesh(file()));  // still the first one
+
+  expectMessage(messageOf([&] { exodus::writeMesh(good, file("no/such/directory.exo")); }),
+                "cannot be created");
+  // Onto a directory: the new file is complete but cannot take its place.
+  std::filesystem::create_directories(file("directory/inside"));
+  expectMessage(messageOf([&] { exodus::writeMesh(good, file("directory")); }), "cannot be put in its place");
+
+  std::size_t entries = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(file.directory())) {
+    (void)entry;
+    ++entries;
+  }
+  EXPECT_EQ(entries, 2u);  // the file and the directory; no drafts left behind
+}

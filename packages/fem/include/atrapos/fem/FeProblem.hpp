@@ -1,0 +1,73 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "atrapos/fem/Support.hpp"
+#include "atrapos/fem/Term.hpp"
+#include "atrapos/path/Problem.hpp"
+
+namespace atrapos::fem {
+
+/// What a finite-element problem is made of.
+struct FeModel {
+  int numNodes = 0;
+  std::vector<std::unique_ptr<Term>> terms;
+  Supports supports{0};
+  std::vector<double> constantLoad;  ///< F_0, [3 node + component], dead
+  std::vector<double> load;          ///< F_1: the dead load at load factor 1
+};
+
+/// R(u, lambda) = sum of the terms - F_0 - lambda F_1 with Dirichlet conditions, as a path::Problem.
+///
+/// The unknowns are all nodal displacements, 3 a node. The row of a prescribed dof reads s (u - value -
+/// lambda rate) = 0 with s the size of the tangent's diagonal, and its column is carried to the load direction
+/// (the state and every series satisfy the condition to rounding), so the tangent stays symmetric and its inertia
+/// is that of the free dofs. Nodes without an element are held at zero; a force there throws std::invalid_argument.
+///
+/// Scale of the relative residual: the norm of what the residual is the cancellation of, sqrt(sum over all
+/// elements and contact faces of |own nodal forces|^2), or that of F_0 + lambda F_1 where it is larger; at least 1e-10
+/// of the forces at load factor 1. (Assembled forces and reactions would not do: they can all vanish at a
+/// stressed state, and in a thin body the rounding of the displacements alone then exceeds any fraction of them.)
+///
+/// One rank only: a communicator of more throws std::invalid_argument.
+class FeProblem final : public path::Problem {
+ public:
+  explicit FeProblem(FeModel model);
+  ~FeProblem() override;
+
+  linear::RCP<const path::Map> map() const override;
+  bool symmetric() const override;
+  path::ResidualNorm residual(const path::Vector& u, double lambda, path::Vector& r) override;
+  linear::RCP<const path::CrsMatrix> tangent(const path::Vector& u, double lambda, path::Vector& F) override;
+  void beginSeries(const path::Vector& u, double lambda, int maxOrder) override;
+  void orderRhs(int k, path::Vector& Fk) override;
+  void completeOrder(int k, const path::Vector& Uk, double lambdaK) override;
+
+  /// The state at load factor lambda before any load acts: prescribed displacements, zero elsewhere.
+  linear::RCP<path::Vector> initialState(double lambda) const;
+
+  /// Forces that the supports exert on the body at (u, lambda), zero at free dofs: [3 node + component].
+  std::vector<double> reactions(const path::Vector& u, double lambda) const;
+
+  /// Nodal forces F(u) of one term.
+  std::vector<double> forces(const Term& term, const path::Vector& u) const;
+
+  /// A vector of the map as plain numbers [3 node + component].
+  static std::vector<double> values(const path::Vector& u);
+
+  const Term& term(int i) const;
+  int numTerms() const;
+  int numFreeDofs() const;
+  /// Bytes of the terms' histories for series of order `maxOrder`.
+  std::size_t historyBytes(int maxOrder) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// View of a vector's values for the element loops.
+ConstField field(const path::Vector& u);
+
+}  // namespace atrapos::fem

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace atrapos::fem {
+
+/// Cell shapes with their node count; node and side order are those of Exodus II (= Shards).
+enum class Topology { Hex8, Hex20, Hex27, Tet4, Tet10, Wedge6, Wedge15 };
+
+/// Cells of one topology.
+struct Block {
+  std::string name;
+  long long id = 0;
+  Topology topology = Topology::Hex8;
+  std::vector<int> nodes;  ///< [element][node], 0-based, Exodus node order
+  std::vector<std::string> attributeNames;
+  std::vector<double> attributes;  ///< [element][attribute]
+};
+
+struct NodeSet {
+  std::string name;
+  long long id = 0;
+  std::vector<int> nodes;  ///< 0-based
+};
+
+/// One face of one cell.
+struct Side {
+  int element = 0;  ///< 0-based, counted over all blocks in the mesh's order
+  int side = 0;     ///< 0-based, Exodus side order
+};
+
+struct SideSet {
+  std::string name;
+  long long id = 0;
+  std::vector<Side> sides;
+};
+
+/// A three-dimensional mesh in memory. Lengths are in the user's unit.
+struct Mesh {
+  std::string title;
+  std::vector<double> coordinates;  ///< [node][x y z]
+  std::vector<Block> blocks;
+  std::vector<NodeSet> nodeSets;
+  std::vector<SideSet> sideSets;
+  std::vector<long long> nodeIds;     ///< the file's own numbers; empty = 1, 2, ...
+  std::vector<long long> elementIds;  ///< over all blocks; empty = 1, 2, ...
+
+  int numNodes() const { return static_cast<int>(coordinates.size() / 3); }
+  int numElements() const;
+};
+
+/// Number of nodes of a cell.
+int nodesPerElement(Topology topology);
+
+/// Exodus' name of a cell type: HEX8, HEX20, HEX27, TET4, TET10, WEDGE6, WEDGE15.
+const char* topologyName(Topology topology);
+
+/// Position of the block, node set or side set with this name or (decimal) id; -1 where there is none.
+int findBlock(const Mesh& mesh, const std::string& nameOrId);
+int findNodeSet(const Mesh& mesh, const std::string& nameOrId);
+int findSideSet(const Mesh& mesh, const std::string& nameOrId);
+
+}  // namespace atrapos::fem

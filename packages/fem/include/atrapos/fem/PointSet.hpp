@@ -1,0 +1,48 @@
+#pragma once
+
+#include <vector>
+
+#include "atrapos/fem/Mesh.hpp"
+#include "atrapos/fem/ReferenceCell.hpp"
+
+namespace atrapos::fem {
+
+/// The points at which a law acts, and the linear maps between dofs and its inputs: what an element loop
+/// needs to know of a mesh. An entity is an element, a face or a single node.
+struct PointSet {
+  int numEntities = 0;
+  int nodesPerEntity = 0;
+  int pointsPerEntity = 0;
+  int shapeComponents = 0;        ///< 3: gradients dN/dX (reference configuration); 1: values N
+  std::vector<int> nodes;         ///< [entity][node]
+  std::vector<double> shape;      ///< [entity][point][node][component]
+  std::vector<double> weights;    ///< [entity][point] cubature weight times Jacobian (volume, area; 1 at a node)
+  std::vector<double> positions;  ///< [entity][point][3] in the reference configuration
+  std::vector<double> normals;    ///< faces only: outward unit normals [entity][point][3]
+
+  int numPoints() const { return numEntities * pointsPerEntity; }
+};
+
+/// Volume points of one block: gradients with respect to the reference configuration.
+/// Throws std::runtime_error naming the element where the Jacobian is not positive.
+PointSet volumePoints(const Mesh& mesh, const Block& block, const Tabulation& cell);
+
+/// Volume points of one block with shape *values* (body forces).
+PointSet volumeValuePoints(const Mesh& mesh, const Block& block, const Tabulation& cell);
+
+/// Face points of a side set, one PointSet for each face shape in it; cubature exact to `degree`.
+std::vector<PointSet> facePoints(const Mesh& mesh, const SideSet& set, int degree);
+
+/// One point at each node of a list, weight 1.
+PointSet nodePoints(const Mesh& mesh, const std::vector<int>& nodes);
+
+/// The distinct nodes of a side set, ascending.
+std::vector<int> nodesOf(const Mesh& mesh, const SideSet& set);
+
+/// The block that holds an element counted over all blocks, and the element's position in it.
+struct ElementAddress {
+  int block = 0, element = 0;
+};
+ElementAddress addressOf(const Mesh& mesh, int element);
+
+}  // namespace atrapos::fem

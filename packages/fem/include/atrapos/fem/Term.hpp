@@ -1,0 +1,68 @@
+#pragma once
+
+#include <Kokkos_Core.hpp>
+#include <string>
+#include <vector>
+
+namespace atrapos::fem {
+
+using Execution = Kokkos::DefaultExecutionSpace;
+using Memory = Execution::memory_space;
+template <class T>
+using View = Kokkos::View<T, Memory>;
+/// Nodal fields as one vector, [3 node + component].
+using Field = View<double*>;
+using ConstField = View<const double*>;
+
+/// Where a tangent is assembled: the rows of the three dofs of a node have the same columns, in ascending
+/// order, so one position serves a whole 3 x 3 block.
+struct TangentSink {
+  View<const std::size_t*> rowStart;  ///< [dof] first entry of the row
+  View<double*> values;               ///< [entry]
+};
+
+/// Named values that a law shows at its points (stresses, gaps, ...): [entity][point][name].
+struct PointValues {
+  std::vector<std::string> names;
+  std::vector<double> values;
+};
+
+/// One contribution F(u) to the residual: a law acting at the points of a set of entities, sum over points of
+/// B^T law(B u). Virtual once per loop, never inside it. Fields have 3 entries a node of the mesh.
+class Term {
+ public:
+  virtual ~Term() = default;
+
+  virtual int numEntities() const = 0;
+  virtual int nodesPerEntity() const = 0;
+  virtual const std::vector<int>& nodes() const = 0;  ///< [entity][node]
+  virtual bool symmetric() const = 0;
+
+  /// Receives the matrix graph once: position of the block (a, b) of an entity within its row,
+  /// [entity][a][b], in units of entries.
+  virtual void setPositions(const std::vector<int>& positions) = 0;
+
+  /// f += F(u). Returns the sum of squares of the entities' own nodal forces, before they are summed at nodes:
+  /// what equilibrium is the cancellation of.
+  virtual double addResidual(const ConstField& u, const Field& f) const = 0;
+
+  /// K += dF/du.
+  virtual void addTangent(const ConstField& u, const TangentSink& sink) const = 0;
+
+  /// Order 0 of the series at u; histories for orders up to maxOrder.
+  virtual void beginSeries(const ConstField& u, int maxOrder) = 0;
+
+  /// f += order k of F(u(a)) with U_k = 0, from the orders completed so far.
+  virtual void addOrder(int k, const Field& f) = 0;
+
+  /// Makes U_k known.
+  virtual void completeOrder(int k, const ConstField& Uk) = 0;
+
+  /// The law's named values at every point in the state u.
+  virtual PointValues observe(const ConstField& u) const = 0;
+
+  /// Bytes of the histories of a series of order maxOrder.
+  virtual std::size_t historyBytes(int maxOrder) const = 0;
+};
+
+}  // namespace atrapos::fem

@@ -1,0 +1,78 @@
+#include "atrapos/fem/Mesh.hpp"
+
+#include <stdexcept>
+
+namespace atrapos::fem {
+
+namespace {
+
+// A name wins over an id, so that a set named "3" can be reached even where another one has id 3.
+template <class Named>
+int findByNameOrId(const std::vector<Named>& items, const std::string& nameOrId) {
+  if (nameOrId.empty()) return -1;
+  for (std::size_t i = 0; i < items.size(); ++i)
+    if (items[i].name == nameOrId) return static_cast<int>(i);
+  for (std::size_t i = 0; i < items.size(); ++i)
+    if (std::to_string(items[i].id) == nameOrId) return static_cast<int>(i);
+  return -1;
+}
+
+}  // namespace
+
+int Mesh::numElements() const {
+  std::size_t count = 0;
+  for (const Block& block : blocks) count += block.nodes.size() / nodesPerElement(block.topology);
+  return static_cast<int>(count);
+}
+
+int nodesPerElement(Topology topology) {
+  switch (topology) {
+    case Topology::Hex8:
+      return 8;
+    case Topology::Hex20:
+      return 20;
+    case Topology::Hex27:
+      return 27;
+    case Topology::Tet4:
+      return 4;
+    case Topology::Tet10:
+      return 10;
+    case Topology::Wedge6:
+      return 6;
+    case Topology::Wedge15:
+      return 15;
+  }
+  throw std::invalid_argument("nodesPerElement: not a value of Topology");
+}
+
+const char* topologyName(Topology topology) {
+  switch (topology) {
+    case Topology::Hex8:
+      return "HEX8";
+    case Topology::Hex20:
+      return "HEX20";
+    case Topology::Hex27:
+      return "HEX27";
+    case Topology::Tet4:
+      return "TET4";
+    case Topology::Tet10:
+      return "TET10";
+    case Topology::Wedge6:
+      return "WEDGE6";
+    case Topology::Wedge15:
+      return "WEDGE15";
+  }
+  throw std::invalid_argument("topologyName: not a value of Topology");
+}
+
+int findBlock(const Mesh& mesh, const std::string& nameOrId) { return findByNameOrId(mesh.blocks, nameOrId); }
+
+int findNodeSet(const Mesh& mesh, const std::string& nameOrId) {
+  return findByNameOrId(mesh.nodeSets, nameOrId);
+}
+
+int findSideSet(const Mesh& mesh, const std::string& nameOrId) {
+  return findByNameOrId(mesh.sideSets, nameOrId);
+}
+
+}  // namespace atrapos::fem

@@ -1,0 +1,160 @@
+#include "atrapos/fem/PointSet.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <set>
+#include <stdexcept>
+
+namespace atrapos::fem {
+namespace {
+
+using Vec3 = std::array<double, 3>;
+
+Vec3 cross(const Vec3& a, const Vec3& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+/// sum_n x_n (x) dN_n/dxi_d: the tangent vectors of the map from reference coordinates, one a dimension.
+void tangents(const Mesh& mesh, const int* nodes, const Tabulation& t, int q, Vec3* g) {
+  for (int d = 0; d < t.dim; ++d) g[d] = {0, 0, 0};
+  for (int n = 0; n < t.numNodes; ++n) {
+    const double* x = &mesh.coordinates[3 * nodes[n]];
+    for (int d = 0; d < t.dim; ++d) {
+      const double dN = t.gradients[(q * t.numNodes + n) * t.dim + d];
+      for (int i = 0; i < 3; ++i) g[d][i] += dN * x[i];
+    }
+  }
+}
+
+void appendPosition(const Mesh& mesh, const int* nodes, const Tabulation& t, int q, PointSet& p) {
+  Vec3 x{0, 0, 0};
+  for (int n = 0; n < t.numNodes; ++n)
+    for (int i = 0; i < 3; ++i) x[i] += t.values[q * t.numNodes + n] * mesh.coordinates[3 * nodes[n] + i];
+  p.positions.insert(p.positions.end(), x.begin(), x.end());
+}
+
+PointSet volume(const Mesh& mesh, const Block& block, const Tabulation& t, bool gradients) {
+  PointSet p;
+  p.nodesPerEntity = t.numNodes;
+  p.pointsPerEntity = t.numPoints;
+  p.shapeComponents = gradients ? 3 : 1;
+  p.nodes = block.nodes;
+  p.numEntities = static_cast<int>(block.nodes.size()) / t.numNodes;
+  for (int e = 0; e < p.numEntities; ++e) {
+    const int* nodes = &block.nodes[static_cast<std::size_t>(e) * t.numNodes];
+    for (int q = 0; q < t.numPoints; ++q) {
+      Vec3 g[3];
+      tangents(mesh, nodes, t, q, g);
+      const double det = dot(g[0], cross(g[1], g[2]));
+      if (!(det > 0))
+        throw std::runtime_error(fmt::format(
+            "block '{}', element {} (of the block): the Jacobian is {:.3g} at a cubature point, must be positive; "
+            "check node order and shape",
+            block.name, e + 1, det));
+      p.weights.push_back(t.weights[q] * det);
+      appendPosition(mesh, nodes, t, q, p);
+      // Rows of the inverse Jacobian are the contravariant vectors.
+      const Vec3 c[3] = {cross(g[1], g[2]), cross(g[2], g[0]), cross(g[0], g[1])};
+      for (int n = 0; n < t.numNodes; ++n) {
+        if (!gradients) {
+          p.shape.push_back(t.values[q * t.numNodes + n]);
+          continue;
+        }
+        for (int i = 0; i < 3; ++i) {
+          double dN = 0;
+          for (int d = 0; d < 3; ++d) dN += t.gradients[(q * t.numNodes + n) * 3 + d] * c[d][i];
+          p.shape.push_back(dN / det);
+        }
+      }
+    }
+  }
+  return p;
+}
+
+}  // namespace
+
+PointSet volumePoints(const Mesh& mesh, const Block& block, const Tabulation& cell) {
+  return volume(mesh, block, cell, true);
+}
+
+PointSet volumeValuePoints(const Mesh& mesh, const Block& block, const Tabulation& cell) {
+  return volume(mesh, block, cell, false);
+}
+
+ElementAddress addressOf(const Mesh& mesh, int element) {
+  int first = 0;
+  for (int b = 0; b < static_cast<int>(mesh.blocks.size()); ++b) {
+    const int count = static_cast<int>(mesh.blocks[b].nodes.size()) / nodesPerElement(mesh.blocks[b].topology);
+    if (element < first + count) return {b, element - first};
+    first += count;
+  }
+  throw std::out_of_range(fmt::format("element {} is not in the mesh of {} elements", element + 1, first));
+}
+
+std::vector<PointSet> facePoints(const Mesh& mesh, const SideSet& set, int degree) {
+  std::map<Face, PointSet> byShape;
+  std::map<Face, Tabulation> tables;
+  for (const Side& side : set.sides) {
+    const auto [b, e] = addressOf(mesh, side.element);
+    const Block& block = mesh.blocks[b];
+    const Face face = sideFace(block.topology, side.side);
+    if (!tables.count(face)) tables[face] = tabulateFace(face, degree);
+    const Tabulation& t = tables.at(face);
+    PointSet& p = byShape[face];
+    p.nodesPerEntity = t.numNodes;
+    p.pointsPerEntity = t.numPoints;
+    p.shapeComponents = 1;
+    ++p.numEntities;
+    std::vector<int> nodes;
+    for (int n : sideNodes(block.topology, side.side))
+      nodes.push_back(block.nodes[static_cast<std::size_t>(e) * nodesPerElement(block.topology) + n]);
+    p.nodes.insert(p.nodes.end(), nodes.begin(), nodes.end());
+    for (int q = 0; q < t.numPoints; ++q) {
+      Vec3 g[2];
+      tangents(mesh, nodes.data(), t, q, g);
+      const Vec3 normal = cross(g[0], g[1]);
+      const double area = std::sqrt(dot(normal, normal));
+      if (!(area > 0))
+        throw std::runtime_error(
+            fmt::format("side set '{}': side {} of element {} has no area", set.name, side.side + 1, side.element + 1));
+      p.weights.push_back(t.weights[q] * area);
+      appendPosition(mesh, nodes.data(), t, q, p);
+      for (int i = 0; i < 3; ++i) p.normals.push_back(normal[i] / area);
+      for (int n = 0; n < t.numNodes; ++n) p.shape.push_back(t.values[q * t.numNodes + n]);
+    }
+  }
+  std::vector<PointSet> result;
+  for (auto& entry : byShape) result.push_back(std::move(entry.second));
+  return result;
+}
+
+PointSet nodePoints(const Mesh& mesh, const std::vector<int>& nodes) {
+  PointSet p;
+  p.numEntities = static_cast<int>(nodes.size());
+  p.nodesPerEntity = p.pointsPerEntity = p.shapeComponents = 1;
+  p.nodes = nodes;
+  p.shape.assign(nodes.size(), 1.0);
+  p.weights.assign(nodes.size(), 1.0);
+  for (int n : nodes)
+    p.positions.insert(p.positions.end(), &mesh.coordinates[3 * n], &mesh.coordinates[3 * n] + 3);
+  return p;
+}
+
+std::vector<int> nodesOf(const Mesh& mesh, const SideSet& set) {
+  std::set<int> nodes;
+  for (const Side& side : set.sides) {
+    const auto [b, e] = addressOf(mesh, side.element);
+    const Block& block = mesh.blocks[b];
+    for (int n : sideNodes(block.topology, side.side))
+      nodes.insert(block.nodes[static_cast<std::size_t>(e) * nodesPerElement(block.topology) + n]);
+  }
+  return {nodes.begin(), nodes.end()};
+}
+
+}  // namespace atrapos::fem

@@ -1,0 +1,112 @@
+#include "atrapos/fem/Support.hpp"
+
+#include <fmt/format.h>
+
+#include <Teuchos_LAPACK.hpp>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <numeric>
+#include <stdexcept>
+
+namespace atrapos::fem {
+
+Supports::Supports(int numNodes) : fixed_(3 * numNodes, 0), value_(3 * numNodes, 0.0), rate_(3 * numNodes, 0.0) {}
+
+void Supports::prescribe(int node, int component, double value, double perLoadFactor) {
+  const int dof = 3 * node + component;
+  if (fixed_[dof] && (value_[dof] != value || rate_[dof] != perLoadFactor))
+    throw std::invalid_argument(
+        fmt::format("displacement {} of node {} is prescribed twice with different values", "xyz"[component], node + 1));
+  fixed_[dof] = 1;
+  value_[dof] = value;
+  rate_[dof] = perLoadFactor;
+}
+
+bool Supports::driven() const {
+  return std::any_of(rate_.begin(), rate_.end(), [](double r) { return r != 0; });
+}
+
+namespace {
+
+/// Six rigid motions at a point, as columns of the three displacement components; lengths scaled to order 1.
+std::array<std::array<double, 6>, 3> rigidMotions(const double* x, const double* centre, double size) {
+  const double a = (x[0] - centre[0]) / size, b = (x[1] - centre[1]) / size, c = (x[2] - centre[2]) / size;
+  return {{{1, 0, 0, 0, c, -b}, {0, 1, 0, -c, 0, a}, {0, 0, 1, b, -a, 0}}};
+}
+
+int rank(std::array<double, 36> gram) {
+  std::array<double, 6> eigenvalues{};
+  std::array<double, 64> work{};
+  int info = 0;
+  Teuchos::LAPACK<int, double>().SYEV('N', 'U', 6, gram.data(), 6, eigenvalues.data(), work.data(), 64, &info);
+  // Motions are scaled to order 1, so eigenvalues of held motions are of the order of the number of held dofs
+  // times a shape factor (a thin clamped face: thickness over size, squared); 1e-12 is far below any of these and
+  // far above rounding.
+  return static_cast<int>(std::count_if(eigenvalues.begin(), eigenvalues.end(),
+                                        [&](double e) { return e > 1e-12 * std::max(1.0, eigenvalues[5]); }));
+}
+
+}  // namespace
+
+std::vector<FreeBody> freeBodies(const Mesh& mesh, const Supports& supports,
+                                 const std::vector<HeldDirection>& held) {
+  const int numNodes = mesh.numNodes();
+  std::vector<int> parent(numNodes);
+  std::iota(parent.begin(), parent.end(), 0);
+  const auto root = [&](int n) {
+    while (parent[n] != n) n = parent[n] = parent[parent[n]];
+    return n;
+  };
+  std::map<int, std::string> bodies;  // root -> first block
+  for (const Block& block : mesh.blocks) {
+    const int N = nodesPerElement(block.topology);
+    for (std::size_t i = 0; i < block.nodes.size(); ++i)
+      parent[root(block.nodes[i])] = root(block.nodes[i - i % N]);
+  }
+  for (const Block& block : mesh.blocks)
+    for (int n : block.nodes) bodies.emplace(root(n), block.name);
+
+  // Scale by the whole mesh: bodies much smaller than it would need their own, none of 1e-6 of it is meant.
+  double low[3] = {1e300, 1e300, 1e300}, high[3] = {-1e300, -1e300, -1e300}, centre[3], size = 0;
+  for (int n = 0; n < numNodes; ++n)
+    for (int i = 0; i < 3; ++i) {
+      low[i] = std::min(low[i], mesh.coordinates[3 * n + i]);
+      high[i] = std::max(high[i], mesh.coordinates[3 * n + i]);
+    }
+  for (int i = 0; i < 3; ++i) {
+    centre[i] = 0.5 * (low[i] + high[i]);
+    size = std::max(size, high[i] - low[i]);
+  }
+
+  std::map<int, std::array<double, 36>> gram;
+  for (const auto& body : bodies) gram[body.first].fill(0.0);
+  const auto hold = [&](int node, const std::array<double, 6>& row) {
+    const auto found = gram.find(root(node));
+    if (found == gram.end()) return;
+    for (int i = 0; i < 6; ++i)
+      for (int j = 0; j < 6; ++j) found->second[6 * j + i] += row[i] * row[j];
+  };
+  for (int n = 0; n < numNodes; ++n) {
+    const auto motions = rigidMotions(&mesh.coordinates[3 * n], centre, size);
+    for (int i = 0; i < 3; ++i)
+      if (supports.fixed(3 * n + i)) hold(n, motions[i]);
+  }
+  for (const HeldDirection& h : held) {
+    const auto motions = rigidMotions(&mesh.coordinates[3 * h.node], centre, size);
+    std::array<double, 6> row{};
+    for (int m = 0; m < 6; ++m)
+      for (int i = 0; i < 3; ++i) row[m] += h.direction[i] * motions[i][m];
+    hold(h.node, row);
+  }
+  std::vector<FreeBody> result;
+  for (const auto& [r, block] : bodies) {
+    const int motions = 6 - rank(gram[r]);
+    if (motions > 0) result.push_back({block, motions});
+  }
+  return result;
+}
+
+}  // namespace atrapos::fem

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "atrapos/fem/FeProblem.hpp"
+#include "atrapos/linear/TangentSolver.hpp"
+
+/// A problem's vectors and matrices as plain numbers, so that the tests need no Tpetra header.
+namespace atrapos::fem::test {
+
+using Numbers = std::vector<double>;
+
+linear::RCP<path::Vector> vectorOf(const path::Problem& problem, const Numbers& values);
+linear::RCP<path::Vector> zeroVector(const path::Problem& problem);
+void copyInto(const Numbers& values, path::Vector& vector);
+
+struct Residual {
+  Numbers r;
+  path::ResidualNorm norm;
+};
+Residual residual(path::Problem& problem, const Numbers& u, double lambda);
+
+/// The tangent in compressed rows, and F = -dR/dlambda.
+struct Tangent {
+  std::vector<std::size_t> start;
+  std::vector<int> column;
+  Numbers value, F;
+
+  Numbers times(const Numbers& x) const;
+  double at(int row, int column) const;  ///< 0 where there is no entry
+};
+Tangent tangent(path::Problem& problem, const Numbers& u, double lambda);
+
+/// Newton's method at fixed lambda until the largest change of u is below `tolerance` in 20 iterations; throws
+/// std::runtime_error where it is not.
+struct Equilibrium {
+  Numbers u;
+  std::optional<linear::Inertia> inertia;  ///< of the last tangent
+};
+Equilibrium equilibrium(path::Problem& problem, double lambda, Numbers start, double tolerance = 1e-12);
+
+double norm(const Numbers& x);
+double dot(const Numbers& x, const Numbers& y);
+double largest(const Numbers& x);                    ///< of the absolute values
+Numbers sum(const Numbers& x, double c, const Numbers& y);  ///< x + c y
+
+}  // namespace atrapos::fem::test

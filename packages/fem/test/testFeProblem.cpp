@@ -1,0 +1,354 @@
+// Residual, tangent and load direction of FeProblem against plain loops and finite differences.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "atrapos/fem/Loads.hpp"
+#include "support/Model.hpp"
+#include "support/Vectors.hpp"
+
+using namespace atrapos::fem;
+using namespace atrapos::fem::test;
+
+namespace {
+
+/// sum over points of weight B^T law(B u), one point after the other, without lanes or batches.
+template <class Law>
+Numbers plainForces(const Law& law, const PointSet& p, const Numbers& data, const Numbers& u) {
+  Numbers f(u.size(), 0.0);
+  const int C = p.shapeComponents, I = Law::numInputs;
+  for (int e = 0; e < p.numEntities; ++e)
+    for (int q = 0; q < p.pointsPerEntity; ++q) {
+      const int point = e * p.pointsPerEntity + q;
+      const double* shape = &p.shape[static_cast<std::size_t>(point) * p.nodesPerEntity * C];
+      double in[9] = {}, out[9];
+      for (int i = 0; C == 1 && i < 3; ++i) in[i] = p.positions[3 * point + i];
+      for (int n = 0; n < p.nodesPerEntity; ++n)
+        for (int m = 0; m < I; ++m)
+          in[m] += u[3 * p.nodes[e * p.nodesPerEntity + n] + m / C] * shape[n * C + m % C];
+      law(in, data.data() + point * Law::numData, out);
+      for (int n = 0; n < p.nodesPerEntity; ++n)
+        for (int m = 0; m < I; ++m)
+          f[3 * p.nodes[e * p.nodesPerEntity + n] + m / C] += p.weights[point] * out[m] * shape[n * C + m % C];
+    }
+  return f;
+}
+
+/// A change of (u, lambda) that keeps to the supports.
+struct Direction {
+  Numbers u;
+  double lambda;
+};
+Direction randomDirection(const FeModel& model, double amplitude, unsigned seed) {
+  Direction d{randomNumbers(3 * model.numNodes, amplitude, seed), 0.3};
+  std::vector<char> used(model.numNodes, 0);
+  for (const auto& term : model.terms)
+    for (int n : term->nodes()) used[n] = 1;
+  for (int i = 0; i < 3 * model.numNodes; ++i)
+    if (model.supports.fixed(i) || !used[i / 3]) d.u[i] = d.lambda * model.supports.perLoadFactor(i);
+  return d;
+}
+
+/// K v - mu F against central differences of R, whose error must fall like h^2.
+void checkTangent(FeModel model) {
+  const Numbers u = randomNumbers(3 * model.numNodes, 0.02, 31);
+  const Direction d = randomDirection(model, 0.05, 32);
+  FeProblem problem(std::move(model));
+  const double lambda = 0.4;
+  const Tangent K = tangent(problem, u, lambda);
+  const Numbers exact = sum(K.times(d.u), -d.lambda, K.F);
+  const auto error = [&](double h) {
+    const Numbers plus = residual(problem, sum(u, h, d.u), lambda + h * d.lambda).r;
+    const Numbers minus = residual(problem, sum(u, -h, d.u), lambda - h * d.lambda).r;
+    return norm(sum(sum(plus, -1, minus), -2 * h, exact)) / (2 * h * norm(exact));
+  };
+  const double coarse = error(0.2), fine = error(0.1);
+  // h^2 with terms of h^4 behind, which are about 1 % at these h.
+  EXPECT_NEAR(std::log2(coarse / fine), 2.0, 0.1) << coarse << ' ' << fine;
+  // Truncation at h = 1e-4 is 1e-6 of that at 0.1, rounding 1e-16 / h.
+  EXPECT_LT(error(1e-4), 1e-6 * fine + 1e-11);
+}
+
+double asymmetry(const Tangent& K, const Numbers& x, const Numbers& y) {
+  const double a = dot(K.times(x), y), b = dot(K.times(y), x);
+  return std::abs(a - b) / (norm(K.times(x)) * norm(y));
+}
+
+class Cells : public testing::TestWithParam<Topology> {};
+
+}  // namespace
+
+TEST_P(Cells, ForcesAreThoseOfAPlainLoop) {
+  const Mesh mesh = distorted(box(GetParam()), 0.03);
+  const PointSet points = volumePoints(mesh, mesh.blocks[0], tabulate(GetParam()));
+  ASSERT_NE(points.numEntities % kLanes, 0) << "the last batch must be an incomplete one";
+  const Numbers scale = unevenScale(points, 11), u = randomNumbers(3 * mesh.numNodes(), 0.02, 12);
+  FeModel model;
+  model.numNodes = mesh.numNodes();
+  model.terms = solidTerms(mesh);
+  model.supports = Supports(mesh.numNodes());
+  FeProblem problem(std::move(model));
+  const Numbers expected = plainForces(ExponentialSolid{}, points, scale, u);
+  // Sums of about a hundred terms.
+  EXPECT_LT(norm(sum(residual(problem, u, 0).r, -1, expected)), 1e-14 * norm(expected) * 10);
+}
+
+TEST_P(Cells, TangentIsTheDerivativeOfTheResidual) {
+  checkTangent(busyModel(distorted(box(GetParam()), 0.03)));
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Cells, testing::ValuesIn(allCells()),
+                         [](const auto& info) { return std::string(topologyName(info.param)); });
+
+TEST(FeProblem, TangentOfSeveralBlocksWithContactLikeTerms) {
+  const Mesh mesh = mixedMesh();
+  FeModel model = busyModel(mesh);
+  for (const char* set : {"x_max", "y_min"})
+    for (const PointSet& p : facePoints(mesh, sideSet(mesh, set), 3))
+      model.terms.push_back(std::make_unique<LawTerm<CentralForce, CurrentPosition>>(CentralForce{}, p));
+  model.terms.push_back(
+      std::make_unique<LawTerm<CentralForce, CurrentPosition>>(CentralForce{0.7}, nodePoints(mesh, {3, 8, 50})));
+  checkTangent(std::move(model));
+}
+
+TEST(FeProblem, TermsAddUpAndLoadsAreSubtracted) {
+  const Mesh mesh = mixedMesh();
+  FeModel model = busyModel(mesh);
+  const Supports supports = model.supports;
+  const Numbers constant = model.constantLoad, load = model.load;
+  const PointSet faces = facePoints(mesh, sideSet(mesh, "x_max"), 3).at(0);
+  model.terms.push_back(std::make_unique<LawTerm<CentralForce, CurrentPosition>>(CentralForce{}, faces));
+  const Numbers u = randomNumbers(3 * mesh.numNodes(), 0.02, 12);
+  Numbers expected(u.size(), 0.0);
+  for (std::size_t b = 0; b < mesh.blocks.size(); ++b) {
+    const PointSet p = volumePoints(mesh, mesh.blocks[b], tabulate(mesh.blocks[b].topology));
+    expected = sum(expected, 1, plainForces(ExponentialSolid{}, p, unevenScale(p, 11 + b), u));
+  }
+  const Numbers central = plainForces(CentralForce{}, faces, {}, u);
+  expected = sum(expected, 1, central);
+  const double lambda = 0.6;
+  expected = sum(sum(expected, -1, constant), -lambda, load);
+
+  FeProblem problem(std::move(model));
+  EXPECT_EQ(problem.numTerms(), 8);
+  const auto got = residual(problem, u, lambda);
+  Numbers reactions = problem.reactions(*vectorOf(problem, u), lambda);
+  Numbers difference, reactionError;
+  double free2 = 0;
+  for (std::size_t d = 0; d < u.size(); ++d) {
+    const bool loose = d / 3 + 2 >= static_cast<std::size_t>(mesh.numNodes());
+    if (supports.fixed(d)) {
+      reactionError.push_back(reactions[d] - expected[d]);
+    } else {
+      EXPECT_EQ(reactions[d], 0.0);
+      if (loose) continue;
+      difference.push_back(got.r[d] - expected[d]);
+      free2 += expected[d] * expected[d];
+    }
+  }
+  // Sums of a few hundred terms.
+  const double rounding = 1e-13 * norm(expected);
+  EXPECT_LT(norm(difference), rounding);
+  EXPECT_LT(norm(reactionError), rounding);
+  EXPECT_NEAR(got.norm.norm, std::sqrt(free2), rounding);
+  EXPECT_LT(norm(sum(problem.forces(problem.term(7), *vectorOf(problem, u)), -1, central)), rounding);
+}
+
+TEST(FeProblem, TangentIsSymmetricWhereAllLawsAre) {
+  const Mesh mesh = mixedMesh();
+  const auto x = randomNumbers(3 * mesh.numNodes(), 1, 1), y = randomNumbers(3 * mesh.numNodes(), 1, 2);
+  const auto u = randomNumbers(3 * mesh.numNodes(), 0.02, 3);
+  FeProblem symmetric(busyModel(mesh));
+  EXPECT_TRUE(symmetric.symmetric());
+  EXPECT_LT(asymmetry(tangent(symmetric, u, 0.4), x, y), 1e-14);  // rounding of sums of like signs
+
+  FeModel model = busyModel(mesh);
+  model.terms.push_back(std::make_unique<LawTerm<Swirl, CurrentPosition>>(
+      Swirl{}, facePoints(mesh, sideSet(mesh, "x_max"), 3).at(0)));
+  FeProblem unsymmetric(std::move(model));
+  EXPECT_FALSE(unsymmetric.symmetric());
+  EXPECT_GT(asymmetry(tangent(unsymmetric, u, 0.4), x, y), 1e-6);
+}
+
+TEST(FeProblem, TangentOfAnUnsymmetricLaw) {
+  const Mesh mesh = box(Topology::Hex8);
+  FeModel model = busyModel(mesh);
+  for (const char* set : {"z_max", "y_max"})
+    model.terms.push_back(std::make_unique<LawTerm<Swirl, CurrentPosition>>(
+        Swirl{2.0}, facePoints(mesh, sideSet(mesh, set), 3).at(0)));
+  checkTangent(std::move(model));
+}
+
+TEST(FeProblem, RowsAndColumnsOfPrescribedDofs) {
+  const Mesh mesh = mixedMesh();
+  FeModel model = busyModel(mesh);
+  const Supports supports = model.supports;
+  FeProblem problem(std::move(model));
+  const Tangent K = tangent(problem, randomNumbers(3 * mesh.numNodes(), 0.02, 12), 0.3);
+  double s = 0;
+  int fixed = 0;
+  for (int d = 0; d < 3 * mesh.numNodes(); ++d) {
+    const bool loose = d / 3 + 2 >= mesh.numNodes();
+    if (!supports.fixed(d) && !loose) continue;
+    ++fixed;
+    s = K.at(d, d);
+    for (std::size_t e = K.start[d]; e < K.start[d + 1]; ++e)
+      EXPECT_EQ(K.value[e], K.column[e] == d ? s : 0.0);
+    EXPECT_EQ(K.F[d], s * supports.perLoadFactor(d));
+  }
+  EXPECT_EQ(problem.numFreeDofs(), 3 * mesh.numNodes() - fixed);
+  double diagonal = 0;
+  for (int row = 0; row < 3 * mesh.numNodes(); ++row) {
+    const bool free = !supports.fixed(row) && row / 3 + 2 < mesh.numNodes();
+    if (free) diagonal = std::max(diagonal, std::abs(K.at(row, row)));
+    for (std::size_t e = K.start[row]; free && e < K.start[row + 1]; ++e)
+      if (supports.fixed(K.column[e])) {
+        EXPECT_EQ(K.value[e], 0.0);
+      }
+  }
+  EXPECT_EQ(s, diagonal) << "the rows have the size of the tangent";
+  // The residual's rows are those of K: one Newton step repairs a state off its supports.
+  Numbers u(3 * mesh.numNodes(), 0.0);
+  const Numbers r = residual(problem, u, 0.3).r;
+  for (int d = 0; d < 3 * mesh.numNodes(); ++d)
+    if (supports.fixed(d)) {
+      EXPECT_DOUBLE_EQ(r[d], -s * supports.at(d, 0.3));
+    }
+}
+
+TEST(FeProblem, InitialStateKeepsTheSupports) {
+  const Mesh mesh = mixedMesh();
+  FeModel model = busyModel(mesh);
+  const Supports supports = model.supports;
+  FeProblem problem(std::move(model));
+  const Numbers u = FeProblem::values(*problem.initialState(0.7));
+  for (int d = 0; d < 3 * mesh.numNodes(); ++d) EXPECT_EQ(u[d], supports.at(d, 0.7));
+}
+
+// At an equilibrium the loads and the reactions on the deformed body have no force and no moment.
+TEST(FeProblem, ReactionsBalanceTheLoads) {
+  // Not HEX20: reduced integration lets forces at single nodes excite its hourglass modes without bound.
+  for (Topology cell : {Topology::Hex27, Topology::Tet10, Topology::Wedge6}) {
+    const Mesh mesh = distorted(box(cell), 0.02);
+    FeModel model = busyModel(mesh);
+    for (double& f : model.load) f *= 0.2;
+    const Numbers constant = model.constantLoad, load = model.load;
+    FeProblem problem(std::move(model));
+    const double lambda = 0.5;
+    Equilibrium state{FeProblem::values(*problem.initialState(0.0)), {}};
+    for (int i = 0; i <= 5; ++i) state = equilibrium(problem, 0.2 * i * lambda, state.u);
+    const Numbers forces = sum(sum(problem.reactions(*vectorOf(problem, state.u), lambda), 1, constant), lambda, load);
+    const Numbers x = sum(mesh.coordinates, 1, state.u);
+    double force[3] = {}, moment[3] = {};
+    for (int n = 0; n < mesh.numNodes(); ++n)
+      for (int i = 0; i < 3; ++i) {
+        const int j = (i + 1) % 3, k = (i + 2) % 3;
+        force[i] += forces[3 * n + i];
+        moment[i] += x[3 * n + j] * forces[3 * n + k] - x[3 * n + k] * forces[3 * n + j];
+      }
+    EXPECT_GT(largest(forces), 0.01);
+    for (int i = 0; i < 3; ++i) {
+      // Newton leaves residuals of rounding, 1e-15, at each of up to 500 dofs.
+      EXPECT_NEAR(force[i], 0.0, 1e-12);
+      EXPECT_NEAR(moment[i], 0.0, 1e-12);
+    }
+  }
+}
+
+TEST(FeProblem, UnloadedBodyHasNoNegativePivot) {
+  for (Topology cell : allCells()) {
+    SCOPED_TRACE(topologyName(cell));
+    const Mesh mesh = box(cell);
+    FeModel model = busyModel(mesh);
+    model.supports = Supports(mesh.numNodes());
+    for (int n : nodesOfSet(mesh, "x_min"))
+      for (int c = 0; c < 3; ++c) model.supports.prescribe(n, c, 0.0, 0.0);
+    for (int n : nodesOfSet(mesh, "x_max")) model.supports.prescribe(n, 1, 0.0, 0.5);
+    model.constantLoad.assign(3 * mesh.numNodes(), 0.0);
+    FeProblem problem(std::move(model));
+    const auto state = equilibrium(problem, 0.0, Numbers(3 * mesh.numNodes(), 0.0));
+    EXPECT_EQ(largest(state.u), 0.0);
+    ASSERT_TRUE(state.inertia);
+    EXPECT_EQ(state.inertia->negative, 0);
+  }
+}
+
+TEST(FeProblem, ScaleIsTheLargestOfTheForces) {
+  const Mesh mesh = box(Topology::Hex8, {1, 1, 1});
+  FeModel model = busyModel(mesh);
+  const Numbers constant = model.constantLoad, load = model.load;
+  FeProblem problem(std::move(model));
+  Numbers u(3 * mesh.numNodes(), 0.0);
+  EXPECT_DOUBLE_EQ(residual(problem, u, 0.0).norm.scale, norm(constant));
+  EXPECT_DOUBLE_EQ(residual(problem, u, 100.0).norm.scale, norm(sum(constant, 100.0, load)));
+  u = randomNumbers(u.size(), 0.3, 4);
+  const Numbers internal = problem.forces(problem.term(0), *vectorOf(problem, u));
+  EXPECT_GT(norm(internal), norm(constant));
+  EXPECT_DOUBLE_EQ(residual(problem, u, 0.0).norm.scale, norm(internal));
+}
+
+// Nothing acts at lambda = 0: the scale must stay above zero, also where supports alone drive the body.
+TEST(FeProblem, ScaleOfAnUnloadedState) {
+  const Mesh mesh = box(Topology::Hex8, {2, 1, 1});
+  FeModel model;
+  model.numNodes = mesh.numNodes();
+  model.terms = solidTerms(mesh);
+  model.supports = Supports(mesh.numNodes());
+  for (int n : nodesOfSet(mesh, "x_max")) model.supports.prescribe(n, 0, 0.0, 0.1);
+  FeProblem problem(std::move(model));
+  const auto norm = residual(problem, Numbers(3 * mesh.numNodes(), 0.0), 0.0).norm;
+  EXPECT_EQ(norm.norm, 0.0);
+  EXPECT_GT(norm.scale, 1e-14);
+  EXPECT_EQ(norm.relative(), 0.0);
+}
+
+TEST(FeProblem, ObserveShowsEveryPointInItsPlace) {
+  const Mesh mesh = distorted(box(Topology::Tet10, {1, 1, 2}), 0.03);
+  FeModel model;
+  model.numNodes = mesh.numNodes();
+  model.terms = solidTerms(mesh);
+  const PointSet faces = facePoints(mesh, sideSet(mesh, "y_max"), 2).at(0);
+  model.terms.push_back(std::make_unique<LawTerm<CentralForce, CurrentPosition>>(CentralForce{}, faces));
+  model.supports = Supports(mesh.numNodes());
+  const PointSet points = volumePoints(mesh, mesh.blocks[0], tabulate(Topology::Tet10));
+  FeProblem problem(std::move(model));
+  Numbers u = mesh.coordinates;  // u = A x: trace of A at every point
+  for (int n = 0; n < mesh.numNodes(); ++n) {
+    const double *x = &mesh.coordinates[3 * n], y = x[1];
+    u[3 * n] = 0.1 * x[0] + 0.5 * y;
+    u[3 * n + 1] = -0.3 * y;
+    u[3 * n + 2] = 0.05 * x[2];
+  }
+  const auto state = vectorOf(problem, u);
+  const PointValues seen = problem.term(0).observe(field(*state));
+  ASSERT_EQ(seen.names, (std::vector<std::string>{"trace", "scale"}));
+  ASSERT_EQ(seen.values.size(), 2u * points.numPoints());
+  const Numbers scale = unevenScale(points, 11);
+  for (int p = 0; p < points.numPoints(); ++p) {
+    EXPECT_NEAR(seen.values[2 * p], -0.15, 1e-13);  // rounding of ten terms of size one
+    EXPECT_EQ(seen.values[2 * p + 1], scale[p]);
+  }
+  const PointValues places = problem.term(1).observe(field(*state));
+  ASSERT_EQ(places.values.size(), 3u * faces.numPoints());
+  for (int p = 0; p < faces.numPoints(); ++p)  // x + u of a linear field, rounding of six terms
+    EXPECT_NEAR(places.values[3 * p + 1], 0.7 * faces.positions[3 * p + 1], 1e-14);
+}
+
+TEST(FeProblem, MistakesAreNamed) {
+  const Mesh mesh = box(Topology::Hex8, {1, 1, 1});
+  const PointSet gradients = volumePoints(mesh, mesh.blocks[0], tabulate(Topology::Hex8));
+  const PointSet values = volumeValuePoints(mesh, mesh.blocks[0], tabulate(Topology::Hex8));
+  using Solid = LawTerm<ExponentialSolid, DisplacementGradient>;
+  EXPECT_THROW(Solid(ExponentialSolid{}, values, unevenScale(values, 1)), std::logic_error);
+  EXPECT_THROW(Solid(ExponentialSolid{}, gradients), std::logic_error);
+  const PointSet many = volumePoints(mesh, mesh.blocks[0], tabulate(Topology::Hex8, 9));  // 125 points
+  EXPECT_THROW(Solid(ExponentialSolid{}, many, unevenScale(many, 1)), std::invalid_argument);
+
+  FeModel model = busyModel(mesh);
+  model.supports = Supports(mesh.numNodes() + 1);
+  EXPECT_THROW(FeProblem{std::move(model)}, std::logic_error);
+
+  FeModel lost = busyModel(mixedMesh());  // a force at a node that nothing carries
+  lost.load.back() = 1.0;
+  EXPECT_THROW(FeProblem{std::move(lost)}, std::invalid_argument);
+}

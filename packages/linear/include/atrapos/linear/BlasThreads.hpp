@@ -1,0 +1,19 @@
+#pragma once
+
+namespace atrapos::linear {
+
+/// Sets how many threads the BLAS under the direct solvers uses, process-wide; n >= 1.
+///
+/// A threaded BLAS that takes all cores makes MUMPS 5 to 10 times slower on a loaded machine or with several
+/// ranks on one node, because its dense blocks are small. Applications call this once at start, before the
+/// first factorization, typically with 1.
+///
+/// The control is looked up at run time among the libraries the process has loaded (OpenBLAS, MKL, BLIS), so
+/// exchanging the BLAS needs no rebuild. Returns false where none of them is there, as with the reference
+/// BLAS, which has one thread anyway. n < 1 throws SolverError.
+bool setBlasThreads(int n);
+
+/// Number of threads the BLAS uses at most; 0 where it offers no control.
+int blasThreads();
+
+}  // namespace atrapos::linear

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "AnalysedGraph.hpp"
+#include "MumpsInstance.hpp"
+#include "atrapos/linear/TangentSolver.hpp"
+
+namespace atrapos::linear {
+
+struct MumpsOptions {
+  bool symmetric = true;              ///< SYM=2, K's lower triangle is read; else SYM=0
+  double nullPivotTolerance = 1e-14;  ///< CNTL(3): null pivot rows, relative to the scaled matrix
+  int workspacePercent = 30;  ///< ICNTL(14) to start with; doubled as often as needed, 10 times at most
+};
+
+/// MUMPS, called directly: multifrontal L D L^T (SYM=2) or L U (SYM=0) with METIS ordering, on any number of
+/// ranks. K enters distributed as it is; right-hand sides are gathered on rank 0 and solutions scattered
+/// back.
+///
+/// SYM=2 gives the exact inertia (Sylvester). A K with null pivots throws SingularTangentError with their
+/// number; inertia() is then still that of K, but nothing can be solved.
+///
+/// Construction needs a running MPI, and destruction is collective: the owner destroys solvers before
+/// MPI_Finalize (later, MUMPS' memory cannot be freed and stays with the process).
+class MumpsSolver final : public TangentSolver {
+ public:
+  explicit MumpsSolver(const MumpsOptions& options = {});
+  ~MumpsSolver() override;
+
+  void analyze(const RCP<const CrsMatrix>& K) override;
+  void factor(const RCP<const CrsMatrix>& K) override;
+  void solve(const MultiVector& b, MultiVector& x) const override { solveWith(b, x, false); }
+  void solveTransposed(const MultiVector& b, MultiVector& x) const override { solveWith(b, x, true); }
+  std::optional<Inertia> inertia() const override { return inertia_; }
+  std::string name() const override;
+  const Counters& counters() const override { return counters_; }
+
+  /// Factorizations repeated with a larger work space, since construction.
+  int memoryRetries() const { return memoryRetries_; }
+
+ private:
+  std::vector<MUMPS_INT> orderingOnRoot(int n) const;
+  void solveWith(const MultiVector& b, MultiVector& x, bool transposed) const;
+
+  MumpsOptions options_;
+  std::unique_ptr<AnalysedGraph> graph_;
+  std::unique_ptr<MumpsInstance> mumps_;
+  MPI_Comm comm_ = MPI_COMM_NULL;
+  int rank_ = 0;
+  bool factored_ = false;
+  int memoryRetries_ = 0;
+  std::optional<Inertia> inertia_;
+  mutable Counters counters_;
+
+  std::vector<MUMPS_INT> rows_, columns_;  // of the entries passed, from 1
+  std::vector<std::size_t> positions_;     // SYM=2: where they are among K's local values
+  std::vector<double> values_;             // SYM=2: their values
+  std::vector<int> counts_, offsets_;      // rank 0: rows of every rank
+  mutable std::vector<double> rhs_;        // rank 0: n x columns
+};
+
+}  // namespace atrapos::linear

@@ -1,0 +1,44 @@
+#pragma once
+
+#include "atrapos/path/Report.hpp"
+
+namespace atrapos::path {
+
+/// The Problem and the tangent solver of one path: every call goes through here, is timed and counted, and
+/// failures come out as PathError.
+class Calls {
+ public:
+  Calls(Problem& problem, linear::TangentSolver& solver) : problem_(problem), solver_(solver) {}
+
+  const Problem& problem() const { return problem_; }
+  const linear::TangentSolver& solver() const { return solver_; }
+
+  /// r = R(state); the result may hold values that are not finite.
+  ResidualNorm residual(const State& state, Vector& r);
+
+  /// Factors K_T(state) and fills F. Throws PathError: singularTangent or solverFailed, with the solver's
+  /// message.
+  void factor(const State& state, Vector& F);
+
+  /// x = K_T^-1 b with the last factorization.
+  void solve(const Vector& b, Vector& x);
+
+  void beginSeries(const State& state, int maxOrder);
+  void orderRhs(int k, Vector& Fk);
+  /// (v, internal variables of order k for U_k = v, lambda_k = mu).
+  Increment internalOrder(int k, RCP<Vector> v, double mu);
+  void completeOrder(int k, const Vector& Uk, double lambdaK);
+
+  /// A new zero vector on the Problem's map.
+  RCP<Vector> newVector() const;
+
+  const Work& work() const { return work_; }
+
+ private:
+  Problem& problem_;
+  linear::TangentSolver& solver_;
+  bool analysed_ = false;
+  Work work_;
+};
+
+}  // namespace atrapos::path

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <limits>
+#include <optional>
+
+namespace atrapos::path {
+
+/// The knobs of path following. Lengths are lengths of the path parameter a, which at the start of the path
+/// changes by sqrt(2) times the change of lambda unless `weight` is given.
+struct Options {
+  int order = 20;        ///< K, the order of the series, >= 1
+  double delta = 1e-6;   ///< accuracy asked of the series, eq. (36), in (0, 1)
+  double direction = 1;  ///< +1: lambda grows at the start of the path; -1: it falls
+
+  /// w in a = w <X - X0, X_1> + (lambda - lambda0) lambda_1, > 0, fixed for the whole path. Empty: chosen at
+  /// the path's first step so that both terms weigh the same there, w = 1 / <Xhat, Xhat> with K_T Uhat = F. A
+  /// value so large that |lambda_1| < 1e-8 reads as a singular tangent.
+  std::optional<double> weight;
+
+  double residualBound = 1e-6;  ///< largest relative residual accepted at the end of a step
+
+  /// The residual left at a step's start is taken to zero along the step: order 1 gets -R0 / (last length) on
+  /// its right-hand side. Costs one solve and no factorization, and does most of what Newton corrections do.
+  bool relaxResidual = true;
+
+  /// Newton correction at the end of a step whose relative residual exceeds this part of residualBound, in
+  /// (0, 1]. Each iteration costs a factorization. With relaxResidual off, 1e-2 is a good value: a series
+  /// started near the bound has no room left.
+  double correctAbove = 0.5;
+  int maxCorrections = 4;       ///< Newton iterations of one correction, >= 0 (0: never correct)
+  int maxStartIterations = 25;  ///< Newton iterations at fixed lambda where the start is not in equilibrium
+
+  double maxStep = 1e3;     ///< longest step; bounds series that terminate
+  double firstStep = 1e-3;  ///< first trial step of order 1, which has no estimate; later trials double
+  double minStep = 1e-10;   ///< a cut-back below this ends the path
+  int maxCutBacks = 12;     ///< trials of shorter lengths of one series, >= 0
+  int maxSteps = 1000;      ///< >= 0
+
+  /// Throws std::invalid_argument with one line that names the knob, its value and what is accepted.
+  void validate() const;
+};
+
+}  // namespace atrapos::path

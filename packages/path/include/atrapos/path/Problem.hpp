@@ -1,0 +1,76 @@
+#pragma once
+
+#include <vector>
+
+#include "atrapos/linear/Types.hpp"
+
+namespace atrapos::path {
+
+using linear::CrsMatrix;
+using linear::Map;
+using linear::RCP;
+using linear::Vector;
+
+/// Size of a residual: its Euclidean norm and the norm of the forces it is the difference of.
+struct ResidualNorm {
+  double norm = 0;   ///< ||R||, in force units
+  double scale = 0;  ///< ||forces||, same units, > 0; chosen by the Problem
+  double relative() const { return norm / scale; }
+};
+
+/// A change of state: unknowns, and the internal variables that the Problem condenses locally (may be empty).
+struct Increment {
+  RCP<Vector> u;
+  std::vector<double> internal;
+};
+
+/// What path following needs from any physics: R(U, lambda) = 0 and its series.
+///
+/// With U(a) = sum a^k U_k and lambda(a) = sum a^k lambda_k around a solution, order k of R is linear in
+/// (U_k, lambda_k) with the same tangent for every k:
+///
+///     K_T U_k = lambda_k F + F_k,   K_T = dR/dU,   F = -dR/dlambda,
+///     F_k = -[order k of R(U(a), lambda(a)) with U_k = 0 and lambda_k = 0].
+///
+/// One step calls tangent, beginSeries, then for k = 1, 2, ...: orderRhs(k), [internalOrder(k, ...)],
+/// completeOrder(k, U_k, lambda_k). Vectors live on map().
+class Problem {
+ public:
+  virtual ~Problem() = default;
+
+  virtual RCP<const Map> map() const = 0;
+
+  /// True where K_T is symmetric at every state (decides the tangent solver).
+  virtual bool symmetric() const { return true; }
+
+  /// r = R(u, lambda); r is overwritten.
+  virtual ResidualNorm residual(const Vector& u, double lambda, Vector& r) = 0;
+
+  /// K_T and F = -dR/dlambda at (u, lambda). The matrix is the Problem's own: its graph never changes,
+  /// its values hold until the next call.
+  virtual RCP<const CrsMatrix> tangent(const Vector& u, double lambda, Vector& F) = 0;
+
+  /// Starts a series at (u, lambda) with coefficients up to maxOrder.
+  virtual void beginSeries(const Vector& u, double lambda, int maxOrder) = 0;
+
+  /// F_k of order k >= 1 from the orders completed so far.
+  virtual void orderRhs(int k, Vector& Fk) = 0;
+
+  /// Makes order k known: U_k and lambda_k.
+  virtual void completeOrder(int k, const Vector& Uk, double lambdaK) = 0;
+
+  /// Number of internal variables that take part in inner(); 0 where there are none.
+  virtual int internalCount() const { return 0; }
+
+  /// Coefficient k of the internal variables if U_k were v and lambda_k were mu. Called between orderRhs(k)
+  /// and completeOrder(k); y has internalCount() entries and is overwritten.
+  virtual void internalOrder(int /*k*/, const Vector& /*v*/, double /*mu*/,
+                             std::vector<double>& /*y*/) const {}
+
+  /// The inner product behind the path parameter (without its weight w and its load term):
+  /// a = w <X - X0, X_1> + (lambda - lambda0) lambda_1 with X = (unknowns, internal variables).
+  /// Default: the Euclidean product of the unknowns.
+  virtual double inner(const Increment& x, const Increment& y) const;
+};
+
+}  // namespace atrapos::path

@@ -1,0 +1,107 @@
+#pragma once
+
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "atrapos/linear/TangentSolver.hpp"
+#include "atrapos/path/Series.hpp"
+
+namespace atrapos::path {
+
+/// A limit point of the load: dlambda/da = 0 inside a step.
+struct LimitPoint {
+  double a = 0;       ///< on the step's series
+  double lambda = 0;  ///< load factor there
+  bool maximum = false;
+};
+
+/// What happened in one step.
+struct StepReport {
+  int step = 0;       ///< from 1
+  int order = 0;      ///< of the series
+  double radius = 0;  ///< eq. (36); infinity where the series terminates or has order 1
+  double length = 0;  ///< accepted length a
+  int cutBacks = 0;   ///< trial lengths rejected by the residual
+  double lambdaStart = 0, lambdaEnd = 0;
+  double residual = 0;          ///< relative, at the end, after corrections
+  double residualOfSeries = 0;  ///< the same before corrections
+  int corrections = 0;          ///< Newton iterations at the end, one factorization each
+  int restarts = 0;  ///< singular tangents at the start, each stepped over along the previous series
+  std::optional<linear::Inertia> inertia;  ///< of the tangent at the step's start
+  std::vector<LimitPoint> limitPoints;
+  double pathLengthStart = 0, pathLengthEnd = 0;  ///< sums of the lengths
+  State end;                                      ///< the accepted state, after corrections
+};
+
+/// Watches a path as it is followed.
+class Observer {
+ public:
+  virtual ~Observer() = default;
+
+  /// After every accepted step; valid for a in [0, report.length]. Return false to end the path.
+  virtual bool onStep(const StepReport& report, const Series& series) = 0;
+};
+
+enum class EndReason {
+  stopReached,            ///< one of Stops
+  stepLimit,              ///< Options::maxSteps
+  observerStopped,        ///< onStep returned false
+  startNotInEquilibrium,  ///< the Newton start failed
+  singularTangent,        ///< K_T is singular where a step starts, and stepping over it failed
+  solverFailed,           ///< the tangent solver failed for another reason than singularity
+  loadWithoutEffect,      ///< Uhat = 0: the load parameter does not move the unknowns
+  notFinite,              ///< the Problem or the solver gave a value that is not a number
+  stepTooSmall,           ///< the residual bound cannot be met by a step of sensible length
+  problemFailed           ///< the Problem threw; its message is in the text
+};
+
+/// "stopReached" and so on.
+const char* toString(EndReason reason);
+
+/// Why a series or a state could not be computed. PathFollower turns it into an Outcome.
+class PathError : public std::runtime_error {
+ public:
+  PathError(EndReason reason, const std::string& text) : std::runtime_error(text), reason_(reason) {}
+  EndReason reason() const { return reason_; }
+
+ private:
+  EndReason reason_;
+};
+
+/// Wall-clock seconds by part.
+struct Timings {
+  double tangent = 0;   ///< Problem::tangent
+  double factor = 0;    ///< symbolic analysis and factorizations
+  double solve = 0;     ///< forward and backward substitutions
+  double orderRhs = 0;  ///< beginSeries, orderRhs, internalOrder, completeOrder
+  double residual = 0;  ///< Problem::residual
+  double total = 0;
+};
+
+/// Calls made to the tangent solver and the Problem.
+struct Work {
+  int factorizations = 0;
+  int solves = 0;
+  int orders = 0;  ///< right-hand sides F_k computed
+  Timings seconds;
+};
+
+/// How a path ended, and what it cost. factorizations = steps + startIterations + corrections + restarts,
+/// plus 1 where the last series did not become a step.
+struct Outcome : Work {
+  EndReason reason = EndReason::problemFailed;
+  std::string text;  ///< one line
+  int steps = 0;
+  int startIterations = 0;  ///< Newton iterations before the first step
+  int corrections = 0;      ///< Newton iterations at the ends of steps
+  int restarts = 0;         ///< singular tangents met at the start of a step
+  int cutBacks = 0;
+  double worstResidual = 0;  ///< largest relative residual at the end of a step
+  double weight = 0;         ///< w of the path parameter; 0 where no step was started
+  double pathLength = 0;
+  State final;  ///< the last accepted state
+};
+
+}  // namespace atrapos::path

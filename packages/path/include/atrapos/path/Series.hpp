@@ -1,0 +1,67 @@
+#pragma once
+
+#include <vector>
+
+#include "atrapos/path/Polynomial.hpp"
+#include "atrapos/path/State.hpp"
+
+namespace atrapos::path {
+
+/// One step's Taylor series: X(a) = sum_{k=0..K} a^k X_k, lambda(a) = sum_{k=0..K} a^k lambda_k, with
+/// X = (unknowns, internal variables). Anywhere inside the step the path is this series: dense output
+/// costs no solve.
+///
+/// Order 0 is the state that the series starts from; the internal variables of order 0 are not known to path
+/// following and are left empty.
+class Series {
+ public:
+  /// Starts with order 0 only.
+  Series(const State& start, double weight);
+
+  /// The highest order present, K.
+  int order() const { return static_cast<int>(lambda_.size()) - 1; }
+
+  const Increment& coefficient(int k) const { return x_.at(k); }
+  double lambdaCoefficient(int k) const { return lambda_.at(k); }
+
+  /// ||X_k|| in the Problem's inner product.
+  double norm(int k) const { return norm_.at(k); }
+
+  /// w of a = w <X - X0, X_1> + (lambda - lambda0) lambda_1.
+  double weight() const { return weight_; }
+
+  /// u = U(a); returns lambda(a).
+  double evaluate(double a, Vector& u) const;
+
+  /// du = dU/da (a); returns dlambda/da (a).
+  double derivative(double a, Vector& du) const;
+
+  /// dX/da with the internal variables, and dlambda/da.
+  PathTangent tangent(double a) const;
+
+  double lambda(double a) const;
+  Polynomial lambdaPolynomial() const { return Polynomial(lambda_); }
+
+  /// weights . U(a) as a polynomial of a: a displacement, a mean, a reaction.
+  Polynomial functional(const Vector& weights) const;
+
+  /// Validity, eq. (36): (delta ||X_1|| / ||X_K||)^(1/(K-1)), once with the norm of X alone as printed and
+  /// once with w ||X||^2 + lambda^2 (where U is the better parameter, lambda is what the truncation spoils);
+  /// the smaller. Where X_K is nearly zero by symmetry, order K-1 stands in for it. Infinity where both
+  /// vanish (the series terminates) and for K = 1 (nothing to estimate from).
+  double radius(double delta) const;
+
+  /// Appends order K+1; `norm` is ||x|| in the Problem's inner product.
+  void append(Increment x, double lambda, double norm);
+
+ private:
+  /// (||X_1|| / ||X_k||)^(1/(k-1)), the smaller over both norms.
+  double convergence(int k) const;
+
+  double weight_;
+  std::vector<Increment> x_;
+  std::vector<double> lambda_;
+  std::vector<double> norm_;
+};
+
+}  // namespace atrapos::path

@@ -1,0 +1,87 @@
+#include "atrapos/path/Calls.hpp"
+
+#include <Tpetra_CrsMatrix.hpp>
+#include <Tpetra_Vector.hpp>
+
+#include "Stopwatch.hpp"
+#include "atrapos/linear/Error.hpp"
+
+namespace atrapos::path {
+
+namespace {
+
+/// What the Problem throws ends the path with its message.
+template <class Call>
+auto problemCall(Call call) {
+  try {
+    return call();
+  } catch (const std::exception& error) {
+    throw PathError(EndReason::problemFailed, error.what());
+  }
+}
+
+template <class Call>
+void solverCall(Call call) {
+  try {
+    call();
+  } catch (const linear::SingularTangentError& error) {
+    throw PathError(EndReason::singularTangent, error.what());
+  } catch (const std::exception& error) {
+    throw PathError(EndReason::solverFailed, error.what());
+  }
+}
+
+}  // namespace
+
+ResidualNorm Calls::residual(const State& state, Vector& r) {
+  Stopwatch watch(work_.seconds.residual);
+  return problemCall([&] { return problem_.residual(*state.u, state.lambda, r); });
+}
+
+void Calls::factor(const State& state, Vector& F) {
+  RCP<const CrsMatrix> K;
+  {
+    Stopwatch watch(work_.seconds.tangent);
+    K = problemCall([&] { return problem_.tangent(*state.u, state.lambda, F); });
+  }
+  Stopwatch watch(work_.seconds.factor);
+  ++work_.factorizations;
+  solverCall([&] {
+    if (!analysed_) solver_.analyze(K);
+    analysed_ = true;
+    solver_.factor(K);
+  });
+}
+
+void Calls::solve(const Vector& b, Vector& x) {
+  Stopwatch watch(work_.seconds.solve);
+  ++work_.solves;
+  solverCall([&] { solver_.solve(b, x); });
+}
+
+void Calls::beginSeries(const State& state, int maxOrder) {
+  Stopwatch watch(work_.seconds.orderRhs);
+  problemCall([&] { problem_.beginSeries(*state.u, state.lambda, maxOrder); });
+}
+
+void Calls::orderRhs(int k, Vector& Fk) {
+  Stopwatch watch(work_.seconds.orderRhs);
+  ++work_.orders;
+  problemCall([&] { problem_.orderRhs(k, Fk); });
+}
+
+Increment Calls::internalOrder(int k, RCP<Vector> v, double mu) {
+  Stopwatch watch(work_.seconds.orderRhs);
+  Increment x{std::move(v), std::vector<double>(problem_.internalCount(), 0.0)};
+  problemCall([&] { problem_.internalOrder(k, *x.u, mu, x.internal); });
+  return x;
+}
+
+void Calls::completeOrder(int k, const Vector& Uk, double lambdaK) {
+  Stopwatch watch(work_.seconds.orderRhs);
+  problemCall([&] { problem_.completeOrder(k, Uk, lambdaK); });
+}
+
+RCP<Vector> Calls::newVector() const { return Teuchos::rcp(new Vector(problem_.map())); }
+
+}  // namespace atrapos::path

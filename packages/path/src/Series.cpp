@@ -1,0 +1,74 @@
+#include "atrapos/path/Series.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <Tpetra_Vector.hpp>
+
+namespace atrapos::path {
+
+Series::Series(const State& start, double weight) : weight_(weight) {
+  auto u = Teuchos::rcp(new Vector(start.u->getMap(), false));
+  Tpetra::deep_copy(*u, *start.u);
+  x_.push_back({u, {}});
+  lambda_.push_back(start.lambda);
+  norm_.push_back(0);
+}
+
+void Series::append(Increment x, double lambda, double norm) {
+  x_.push_back(std::move(x));
+  lambda_.push_back(lambda);
+  norm_.push_back(norm);
+}
+
+double Series::evaluate(double a, Vector& u) const {
+  u.putScalar(0);
+  for (int k = order(); k >= 0; --k) u.update(1, *x_[k].u, a);
+  return lambda(a);
+}
+
+double Series::derivative(double a, Vector& du) const {
+  du.putScalar(0);
+  for (int k = order(); k >= 1; --k) du.update(k, *x_[k].u, a);
+  return lambdaPolynomial().derivative()(a);
+}
+
+PathTangent Series::tangent(double a) const {
+  PathTangent t;
+  t.x.u = Teuchos::rcp(new Vector(x_[0].u->getMap(), false));
+  t.lambda = derivative(a, *t.x.u);
+  t.x.internal.assign(x_.back().internal.size(), 0);
+  for (int k = order(); k >= 1; --k)
+    for (std::size_t i = 0; i < t.x.internal.size(); ++i)
+      t.x.internal[i] = t.x.internal[i] * a + k * x_[k].internal[i];
+  return t;
+}
+
+double Series::lambda(double a) const { return lambdaPolynomial()(a); }
+
+Polynomial Series::functional(const Vector& weights) const {
+  std::vector<double> c;
+  for (const auto& x : x_) c.push_back(weights.dot(*x.u));
+  return Polynomial(std::move(c));
+}
+
+double Series::convergence(int k) const {
+  const auto both = [&](int j) { return std::hypot(std::sqrt(weight_) * norm_[j], lambda_[j]); };
+  const auto ratio = [&](double first, double last) {
+    return last > 0 ? std::pow(first / last, 1.0 / (k - 1)) : std::numeric_limits<double>::infinity();
+  };
+  return std::min(ratio(norm_[1], norm_[k]), ratio(both(1), both(k)));
+}
+
+double Series::radius(double delta) const {
+  const int K = order();
+  if (K < 2) return std::numeric_limits<double>::infinity();
+  double rho = convergence(K);
+  // An odd or even series has every other coefficient zero (or rounding noise, which would pass for a huge
+  // range); elsewhere the two estimates differ by a few per cent.
+  if (K > 2 && rho > 2 * convergence(K - 1)) rho = convergence(K - 1);
+  return rho * std::pow(delta, 1.0 / (K - 1));
+}
+
+}  // namespace atrapos::path

@@ -1,0 +1,86 @@
+#include "atrapos/path/SeriesStep.hpp"
+
+#include <cmath>
+#include <sstream>
+
+#include <Tpetra_Vector.hpp>
+
+namespace atrapos::path {
+
+namespace {
+
+/// Below this lambda_1 a tangent is singular to working accuracy: U_k = V_k + lambda_k Uhat loses the digits
+/// that lambda_1 is short of 1, and half of them must stay.
+constexpr double nearlySingular = 1e-8;
+
+[[noreturn]] void notFinite(const char* what, int k, const State& start) {
+  std::ostringstream text;
+  text << what << " of order " << k << " is not finite (series at lambda = " << start.lambda << ")";
+  throw PathError(EndReason::notFinite, text.str());
+}
+
+/// x + mu y.
+Increment combine(Increment x, double mu, const Increment& y) {
+  x.u->update(mu, *y.u, 1);
+  for (std::size_t i = 0; i < x.internal.size(); ++i) x.internal[i] += mu * y.internal[i];
+  return x;
+}
+
+}  // namespace
+
+Series buildSeries(Calls& calls, const State& start, const SeriesRequest& request) {
+  const Problem& problem = calls.problem();
+  auto F = calls.newVector();
+  calls.factor(start, *F);
+  if (!std::isfinite(F->norm2())) notFinite("the load F", 1, start);
+
+  auto Uhat = calls.newVector();
+  calls.solve(*F, *Uhat);
+  calls.beginSeries(start, request.order);
+  auto Fk = calls.newVector();
+  calls.orderRhs(1, *Fk);  // zero at a solution; called for what it leaves behind for the later orders
+  const Increment Xhat = calls.internalOrder(1, Uhat, 1);
+  const double hat2 = problem.inner(Xhat, Xhat);
+  if (!std::isfinite(hat2)) notFinite("the tangent direction", 1, start);
+  if (!(hat2 > 0)) {
+    std::ostringstream text;
+    text << "the load parameter does not move the unknowns (K_T^-1 F = 0 at lambda = " << start.lambda << ")";
+    throw PathError(EndReason::loadWithoutEffect, text.str());
+  }
+
+  const double w = request.weight.value_or(1 / hat2);
+  double lambda1 = request.direction / std::sqrt(1 + w * hat2);
+  if (std::abs(lambda1) < nearlySingular) {
+    std::ostringstream text;
+    text << "the tangent is singular to working accuracy at lambda = " << start.lambda
+         << " (lambda_1 = " << lambda1 << ')';
+    throw PathError(EndReason::singularTangent, text.str());
+  }
+  if (const auto* previous = request.previous) {
+    const double along = w * problem.inner(Xhat, previous->x) + previous->lambda;
+    lambda1 = std::copysign(lambda1, along);
+  }
+
+  Series series(start, w);
+  for (int k = 1; k <= request.order; ++k) {
+    auto V = calls.newVector();
+    const bool zero = k == 1 && !request.residual;  // order 1 of an exact solution has no right-hand side
+    if (k > 1)
+      calls.orderRhs(k, *Fk);
+    else if (request.residual)
+      Fk->update(-1 / request.relaxOver, *request.residual, 0);
+    if (!zero) calls.solve(*Fk, *V);
+    const Increment Xv = calls.internalOrder(k, V, 0);
+    // <X_k, D> w + lambda_k lambda_1 = [k = 1] with D = lambda_1 Xhat, (1 + w <Xhat, Xhat>) lambda_1^2 = 1.
+    const double lambdaK = lambda1 * ((k == 1 ? 1.0 : 0.0) - w * lambda1 * problem.inner(Xv, Xhat));
+    if (!std::isfinite(lambdaK)) notFinite("the coefficient", k, start);
+    Increment Xk = combine(Xv, lambdaK, Xhat);
+    const double norm = std::sqrt(problem.inner(Xk, Xk));
+    if (!std::isfinite(norm)) notFinite("the coefficient", k, start);
+    calls.completeOrder(k, *Xk.u, lambdaK);
+    series.append(std::move(Xk), lambdaK, norm);
+  }
+  return series;
+}
+
+}  // namespace atrapos::path

@@ -1,0 +1,63 @@
+#include "atrapos/path/Stops.hpp"
+
+#include <cmath>
+#include <sstream>
+#include <stdexcept>
+
+namespace atrapos::path {
+
+void Stops::validate() const {
+  for (const double value : loadFactors)
+    if (!std::isfinite(value))
+      throw std::invalid_argument("path stops: a load factor is not a finite number");
+  for (const auto& f : functionals) {
+    if (f.weights.is_null())
+      throw std::invalid_argument("path stops: functional '" + f.name + "' has no weights");
+    if (!std::isfinite(f.value))
+      throw std::invalid_argument("path stops: functional '" + f.name + "' has no finite value");
+  }
+  if (!(pathLength > 0)) throw std::invalid_argument("path stops: the path length must be positive");
+}
+
+namespace {
+
+/// First root of p - value in (0, end].
+std::optional<double> firstRoot(const Polynomial& p, double value, double end, bool atStart) {
+  auto q = p.minus(value);
+  // Relative to what p is made of: a start that came from an earlier stop satisfies it to rounding only.
+  constexpr double satisfied = 1e-12;
+  const double scale = std::abs(value) + p.magnitude(end);
+  if (atStart && std::abs(q(0)) <= satisfied * scale) q = q.withoutRootAtZero();
+  const auto roots = q.roots(end);
+  if (roots.empty()) return std::nullopt;
+  return roots.front();
+}
+
+}  // namespace
+
+std::optional<StopHit> firstStop(const Stops& stops, const Series& series, double pathLengthSoFar, double end,
+                                 bool atStart) {
+  std::optional<StopHit> first;
+  const auto offer = [&](std::optional<double> a, StopHit::Kind kind, int index, const std::string& what,
+                         double value) {
+    if (!a || (first && first->a <= *a)) return;
+    std::ostringstream text;
+    text.precision(12);
+    text << what << ' ' << value << " reached";
+    first = StopHit{*a, kind, index, text.str()};
+  };
+  const auto lambda = series.lambdaPolynomial();
+  for (std::size_t i = 0; i < stops.loadFactors.size(); ++i)
+    offer(firstRoot(lambda, stops.loadFactors[i], end, atStart), StopHit::Kind::loadFactor,
+          static_cast<int>(i), "load factor", stops.loadFactors[i]);
+  for (std::size_t i = 0; i < stops.functionals.size(); ++i) {
+    const auto& f = stops.functionals[i];
+    offer(firstRoot(series.functional(*f.weights), f.value, end, atStart), StopHit::Kind::functional,
+          static_cast<int>(i), f.name, f.value);
+  }
+  const double remaining = stops.pathLength - pathLengthSoFar;
+  if (remaining <= end) offer(remaining, StopHit::Kind::pathLength, 0, "path length", stops.pathLength);
+  return first;
+}
+
+}  // namespace atrapos::path

@@ -1,0 +1,173 @@
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include <gtest/gtest.h>
+
+#include "problems/Record.hpp"
+
+using namespace atrapos::path;
+
+namespace {
+
+struct Fold : Linear {
+  template <class S>
+  std::vector<S> residual(const std::vector<S>& u, const S& lambda) const {
+    return {u[0] * u[0] - lambda};
+  }
+};
+
+struct NoLoad : Linear {
+  template <class S>
+  std::vector<S> residual(const std::vector<S>& u, const S&) const {
+    return {2 * u[0]};
+  }
+};
+
+struct Nan : Linear {
+  template <class S>
+  std::vector<S> residual(const std::vector<S>& u, const S& lambda) const {
+    return {2 * u[0] - lambda + S(std::numeric_limits<double>::quiet_NaN())};
+  }
+};
+
+struct NoSolution : Linear {
+  template <class S>
+  std::vector<S> residual(const std::vector<S>& u, const S& lambda) const {
+    return {u[0] * u[0] + 1 + lambda};
+  }
+};
+
+Stops load(double value) {
+  Stops stops;
+  stops.loadFactors = {value};
+  return stops;
+}
+
+TEST(Failures, SingularStart) {
+  // The tangent of u^2 = lambda is exactly zero at 0.
+  Followed<Fold> f(Fold{}, {0}, 0, Options{}, load(1));
+  EXPECT_EQ(f.outcome.reason, EndReason::singularTangent);
+  EXPECT_NE(f.outcome.text.find("cannot start here"), std::string::npos) << f.outcome.text;
+  EXPECT_EQ(f.outcome.steps, 0);
+}
+
+TEST(Failures, SingularTangentOnTheWayIsSteppedOver) {
+  JetProblem<TrussOnSpring> problem(TrussOnSpring{});
+  DenseSolver solver;
+  solver.pretendSingularAt = {4, 5};
+  Record record;
+  Stops stops;
+  stops.functionals.push_back({"x", problem.vector({1, 0}), 2.2});
+  const auto outcome =
+      PathFollower(problem, solver, Options{}, stops).run({problem.vector({0, 0}), 0}, record);
+  EXPECT_EQ(outcome.reason, EndReason::stopReached) << outcome.text;
+  EXPECT_EQ(outcome.restarts, 2);
+  EXPECT_EQ(outcome.factorizations, outcome.steps + outcome.corrections + outcome.restarts);
+  EXPECT_LE(outcome.worstResidual, 1e-6);
+
+  DenseSolver stubborn;
+  stubborn.pretendSingularAt = {4, 5, 6, 7, 8};
+  Record before;
+  const auto failed =
+      PathFollower(problem, stubborn, Options{}, stops).run({problem.vector({0, 0}), 0}, before);
+  EXPECT_EQ(failed.reason, EndReason::singularTangent);
+  EXPECT_EQ(failed.steps, 3);  // the steps before stay valid
+  EXPECT_EQ(before.steps.size(), 3u);
+  EXPECT_EQ(failed.factorizations, failed.steps + failed.corrections + failed.restarts + 1);
+}
+
+TEST(Failures, LoadWithoutEffect) {
+  Followed<NoLoad> f(NoLoad{}, {0}, 0, Options{}, load(1));
+  EXPECT_EQ(f.outcome.reason, EndReason::loadWithoutEffect) << f.outcome.text;
+}
+
+TEST(Failures, NotANumberAtTheStart) {
+  Followed<Nan> f(Nan{}, {0}, 0, Options{}, load(1));
+  EXPECT_EQ(f.outcome.reason, EndReason::notFinite) << f.outcome.text;
+}
+
+/// Residual is fine, an order is not.
+TEST(Failures, NotANumberInAnOrder) {
+  struct Broken : JetProblem<StvkBar> {
+    using JetProblem::JetProblem;
+    void orderRhs(int k, Vector& Fk) override {
+      JetProblem::orderRhs(k, Fk);
+      if (k == 7) Fk.putScalar(std::numeric_limits<double>::quiet_NaN());
+    }
+  };
+  Broken problem{StvkBar{}};
+  DenseSolver solver;
+  Record record;
+  const auto outcome = PathFollower(problem, solver, Options{}).run({problem.vector({0}), 0}, record);
+  EXPECT_EQ(outcome.reason, EndReason::notFinite);
+  EXPECT_NE(outcome.text.find("order 7"), std::string::npos) << outcome.text;
+}
+
+/// A residual that the series does not belong to: the bound cannot be met.
+TEST(Failures, BoundThatCannotBeMet) {
+  struct Wrong : JetProblem<StvkBar> {
+    using JetProblem::JetProblem;
+    ResidualNorm residual(const Vector& u, double lambda, Vector& r) override {
+      auto n = JetProblem::residual(u, lambda, r);
+      if (lambda != 0) n.norm += 1e-3;
+      return n;
+    }
+  };
+  Wrong problem{StvkBar{}};
+  DenseSolver solver;
+  Record record;
+  const auto outcome = PathFollower(problem, solver, Options{}).run({problem.vector({0}), 0}, record);
+  EXPECT_EQ(outcome.reason, EndReason::stepTooSmall) << outcome.text;
+  EXPECT_EQ(outcome.steps, 0);
+  EXPECT_GT(outcome.cutBacks, 0);
+}
+
+TEST(Failures, ProblemAndSolverExceptionsBecomeReasons) {
+  struct Throws : JetProblem<StvkBar> {
+    using JetProblem::JetProblem;
+    ResidualNorm residual(const Vector& u, double lambda, Vector& r) override {
+      if (residuals > 4) throw std::runtime_error("element 12 is turned inside out");
+      return JetProblem::residual(u, lambda, r);
+    }
+  };
+  Throws problem{StvkBar{}};
+  DenseSolver solver;
+  Record record;
+  const auto outcome = PathFollower(problem, solver, Options{}).run({problem.vector({0}), 0}, record);
+  EXPECT_EQ(outcome.reason, EndReason::problemFailed);
+  EXPECT_EQ(outcome.text, "element 12 is turned inside out");
+  EXPECT_EQ(outcome.steps, static_cast<int>(record.steps.size()));
+
+  struct OutOfMemory : DenseSolver {
+    void factor(const Teuchos::RCP<const CrsMatrix>&) override {
+      throw atrapos::linear::SolverError("out of memory");
+    }
+  };
+  OutOfMemory broken;
+  JetProblem<StvkBar> bar{StvkBar{}};
+  const auto second = PathFollower(bar, broken, Options{}).run({bar.vector({0}), 0}, record);
+  EXPECT_EQ(second.reason, EndReason::solverFailed);
+  EXPECT_EQ(second.text, "out of memory");
+}
+
+TEST(Failures, StartOutOfEquilibriumIsCorrectedOrRefused) {
+  Followed<Truss> f(Truss{}, {0.35}, 0.3, Options{}, load(0.36));
+  EXPECT_EQ(f.outcome.reason, EndReason::stopReached) << f.outcome.text;
+  EXPECT_GT(f.outcome.startIterations, 0);
+  EXPECT_EQ(f.outcome.factorizations, f.outcome.steps + f.outcome.corrections + f.outcome.startIterations);
+  Followed<NoSolution> g(NoSolution{}, {0.7}, 0, Options{}, load(1));
+  EXPECT_EQ(g.outcome.reason, EndReason::startNotInEquilibrium);
+  EXPECT_EQ(g.outcome.factorizations, g.outcome.startIterations);
+}
+
+TEST(Failures, TheCallersStartIsNotChanged) {
+  JetProblem<Truss> problem(Truss{});
+  DenseSolver solver;
+  Record record;
+  const auto u = problem.vector({0.35});
+  PathFollower(problem, solver, Options{}, load(0.36)).run({u, 0.3}, record);
+  EXPECT_EQ(u->getData()[0], 0.35);
+}
+
+}  // namespace

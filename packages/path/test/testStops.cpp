@@ -1,0 +1,135 @@
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "problems/Record.hpp"
+
+using namespace atrapos::path;
+
+namespace {
+
+Stops load(std::vector<double> values) {
+  Stops stops;
+  stops.loadFactors = std::move(values);
+  return stops;
+}
+
+TEST(Stops, LoadFactorIsHitExactly) {
+  Followed<Truss> f(Truss{}, {0}, 0, Options{}, load({0.3}));
+  EXPECT_EQ(f.outcome.reason, EndReason::stopReached);
+  EXPECT_EQ(f.outcome.text, "load factor 0.3 reached");
+  EXPECT_NEAR(f.outcome.final.lambda, 0.3, 1e-15);  // root to rounding
+  EXPECT_LT(f.final(0), 1 - 1 / std::sqrt(3.0));    // the first crossing, before the limit point
+}
+
+TEST(Stops, FallingLoadComesAfterTheLimitPoint) {
+  Followed<Truss> f(Truss{}, {0}, 0, Options{}, load({-0.2}));
+  EXPECT_NEAR(f.outcome.final.lambda, -0.2, 1e-15);
+  EXPECT_GT(f.final(0), 1);
+  Options down;
+  down.direction = -1;
+  Followed<Truss> g(Truss{}, {0}, 0, down, load({-0.2}));
+  EXPECT_NEAR(g.outcome.final.lambda, -0.2, 1e-15);
+  EXPECT_LT(g.final(0), 0);
+}
+
+TEST(Stops, WhicheverComesFirst) {
+  JetProblem<Truss> p(Truss{});
+  Stops stops = load({0.38, 2.0});
+  stops.functionals.push_back({"deflection", p.vector({1}), 0.2});
+  Followed<Truss> f(Truss{}, {0}, 0, Options{}, stops);
+  EXPECT_EQ(f.outcome.text, "deflection 0.2 reached");
+  EXPECT_NEAR(f.final(0), 0.2, 1e-15);
+  EXPECT_NEAR(f.outcome.final.lambda, 0.288, 1e-7);  // residual bound x scale
+}
+
+TEST(Stops, PathLengthIsHitExactly) {
+  Stops stops;
+  stops.pathLength = 1.75;
+  Followed<Truss> f(Truss{}, {0}, 0, Options{}, stops);
+  EXPECT_EQ(f.outcome.reason, EndReason::stopReached);
+  EXPECT_NEAR(f.outcome.pathLength, 1.75, 1e-15);
+}
+
+TEST(Stops, ACorrectionAtAStopKeepsTheStop) {
+  Options options;
+  options.relaxResidual = false;
+  options.correctAbove = 1e-9;  // always correct
+  JetProblem<TrussOnSpring> p(TrussOnSpring{});
+  Stops stops;
+  stops.functionals.push_back({"z", p.vector({0, 1}), 1.0});
+  Followed<TrussOnSpring> f(TrussOnSpring{}, {0, 0}, 0, options, stops);
+  EXPECT_NEAR(f.final(1), 1.0, 1e-14);        // a few roundings of the corrected state
+  EXPECT_LE(f.outcome.worstResidual, 1e-14);  // correctAbove is below rounding: Newton went as far as it goes
+  Followed<TrussOnSpring> g(TrussOnSpring{}, {0, 0}, 0, options, load({0.33}));
+  EXPECT_NEAR(g.outcome.final.lambda, 0.33, 1e-15);
+}
+
+TEST(Stops, StartOnTheStopMovesOn) {
+  // Starts at lambda = 0, asks for lambda = 0: the next such point is the flat truss, x = 1.
+  Followed<Truss> f(Truss{}, {0}, 0, Options{}, load({0}));
+  EXPECT_EQ(f.outcome.reason, EndReason::stopReached);
+  EXPECT_NEAR(f.final(0), 1, 1e-6);
+  // And from a state that an earlier run left on its stop.
+  Followed<Truss> first(Truss{}, {0}, 0, Options{}, load({0.3}));
+  Followed<Truss> second(Truss{}, {first.final(0)}, first.outcome.final.lambda, Options{}, load({0.3}));
+  EXPECT_GT(second.final(0), 1 - 1 / std::sqrt(3.0));
+  EXPECT_NEAR(second.outcome.final.lambda, 0.3, 1e-15);
+  // Off by a rounding, so that the crossing lies a hair ahead of the start.
+  Followed<Truss> third(Truss{}, {first.final(0)}, std::nextafter(0.3, 0.0), Options{}, load({0.3}));
+  EXPECT_GT(third.final(0), 1 - 1 / std::sqrt(3.0));
+}
+
+TEST(Stops, StepLimitAndObserver) {
+  Options options;
+  options.maxSteps = 3;
+  Followed<Truss> f(Truss{}, {0}, 0, options);
+  EXPECT_EQ(f.outcome.reason, EndReason::stepLimit);
+  EXPECT_EQ(f.outcome.steps, 3);
+  JetProblem<Truss> problem(Truss{});
+  DenseSolver solver;
+  Record record;
+  record.goOn = [&] { return record.steps.size() < 2; };
+  const auto outcome = PathFollower(problem, solver, Options{}).run({problem.vector({0}), 0}, record);
+  EXPECT_EQ(outcome.reason, EndReason::observerStopped);
+  EXPECT_EQ(outcome.steps, 2);
+}
+
+TEST(Stops, TerminatingSeriesGoesAsFarAsAllowed) {
+  Followed<Linear> f(Linear{}, {0}, 0, Options{}, load({5}));
+  EXPECT_EQ(f.outcome.steps, 1);
+  EXPECT_NEAR(f.final(0), 2.5, 1e-13);  // roundings of a step of length 7
+  EXPECT_TRUE(std::isinf(f.record.steps[0].radius));
+  Options options;
+  options.maxStep = 2;
+  options.maxSteps = 4;
+  Followed<Linear> g(Linear{}, {0}, 0, options);
+  EXPECT_EQ(g.outcome.reason, EndReason::stepLimit);
+  for (const auto& s : g.record.steps) EXPECT_EQ(s.length, 2);
+  EXPECT_NEAR(g.outcome.final.lambda, 8 * std::sqrt(0.5),
+              1e-13);  // dlambda/da = 1/sqrt(2) with the default weight
+}
+
+TEST(Stops, BadInputIsRefused) {
+  JetProblem<Truss> problem(Truss{});
+  DenseSolver solver;
+  Options options;
+  options.delta = 2;
+  EXPECT_THROW(PathFollower(problem, solver, options), std::invalid_argument);
+  options = {};
+  options.order = 0;
+  EXPECT_THROW(PathFollower(problem, solver, options), std::invalid_argument);
+  Stops stops;
+  stops.functionals.push_back({"nothing", Teuchos::null, 1});
+  EXPECT_THROW(PathFollower(problem, solver, Options{}, stops), std::invalid_argument);
+  try {
+    options = {};
+    options.correctAbove = -1;
+    options.validate();
+    FAIL() << "accepted";
+  } catch (const std::invalid_argument& error) {
+    EXPECT_STREQ(error.what(), "path options: correctAbove = -1, must be in (0, 1]");
+  }
+}
+
+}  // namespace

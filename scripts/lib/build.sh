@@ -1,0 +1,37 @@
+# shellcheck shell=bash disable=SC2154
+# Setup, configuration and compilation of one preset. Sourced after common.sh.
+
+# runSetup PRESET
+runSetup() {
+  if [ "$1" = openmp ]; then "$root/scripts/setup" --openmp; else "$root/scripts/setup"; fi
+}
+
+# configure PRESET
+configure() {
+  local preset=$1 log=$root/build/$1-configure.log prefix options=()
+  if [ "$preset" = openmp ]; then
+    . "$root/scripts/lib/trilinos-openmp.sh"
+    prefix=$(findTrilinosOpenmp)
+    [ -n "$prefix" ] || die "no finished Trilinos with Kokkos OpenMP found: run scripts/setup --openmp"
+    export ATRAPOS_TRILINOS_OPENMP=$prefix
+    options+=(-DATRAPOS_KOKKOS_DEVICE=OPENMP)
+  fi
+  if command -v ccache >/dev/null; then
+    options+=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache -DCMAKE_C_COMPILER_LAUNCHER=ccache)
+  fi
+  mkdir -p "$root/build"
+  (cd "$root" && cmake --preset "$preset" "${options[@]}") >"$log" 2>&1 || {
+    cat "$log" >&2
+    die "preset $preset could not be configured"
+  }
+  say "configured preset $preset in $root/build/$preset"
+}
+
+# build PRESET JOBS [TARGET...]
+build() {
+  local preset=$1 jobs=$2 started=$SECONDS
+  shift 2
+  say "compiling with $jobs jobs"
+  ninja -C "$root/build/$preset" -j "$jobs" "$@" || die "preset $preset did not compile"
+  say "compiled in $((SECONDS - started)) s"
+}

@@ -1,0 +1,55 @@
+#include "MeshCommand.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <stdexcept>
+
+#include "atrapos/exodus/MeshFile.hpp"
+#include "atrapos/fem/StructuredMesh.hpp"
+
+namespace atrapos {
+namespace {
+
+struct Builder {
+  fem::Mesh operator()(const fem::BoxOptions& o) const { return fem::boxMesh(o); }
+  fem::Mesh operator()(const fem::StripOptions& o) const { return fem::stripMesh(o); }
+  fem::Mesh operator()(const fem::CylinderPanelOptions& o) const { return fem::cylinderPanelMesh(o); }
+  fem::Mesh operator()(const fem::SpherePanelOptions& o) const { return fem::spherePanelMesh(o); }
+};
+
+}  // namespace
+
+fem::Mesh generateMesh(const deck::Deck& deck) {
+  if (!deck.mesh.generate)
+    throw deck::DeckError(fmt::format("{}: mesh/generate: missing; `atrapos mesh` needs it to make {}", deck.file,
+                                      deck.mesh.file));
+  try {
+    fem::Mesh mesh = std::visit(Builder{}, *deck.mesh.generate);
+    mesh.title = deck.title.substr(0, 80);  // what Exodus holds
+    return mesh;
+  } catch (const std::invalid_argument& e) {
+    throw deck::DeckError(fmt::format("{}: mesh/generate: {}", deck.file, e.what()));
+  }
+}
+
+fem::Mesh readDeckMesh(const deck::Deck& deck) {
+  if (!std::filesystem::exists(deck.mesh.path))
+    throw deck::DeckError(fmt::format("{}: mesh/file: {} does not exist{}", deck.file, deck.mesh.path,
+                                      deck.mesh.generate ? fmt::format("; `atrapos mesh {}` makes it", deck.file) : ""));
+  try {
+    return exodus::readMesh(deck.mesh.path);
+  } catch (const exodus::Error& e) {
+    throw deck::DeckError(fmt::format("{}: mesh/file: {}", deck.file, e.what()));
+  }
+}
+
+std::string describeMesh(const fem::Mesh& mesh) {
+  std::string text = fmt::format("{} nodes", mesh.numNodes());
+  for (const fem::Block& block : mesh.blocks)
+    text += fmt::format(", {} {} in block '{}'", block.nodes.size() / fem::nodesPerElement(block.topology),
+                        fem::topologyName(block.topology), block.name);
+  return text;
+}
+
+}  // namespace atrapos

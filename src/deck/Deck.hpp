@@ -1,0 +1,226 @@
+#pragma once
+
+#include <array>
+#include <iosfwd>
+#include <map>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "atrapos/fem/StructuredMesh.hpp"
+
+/// The deck: the input of the `atrapos` command, as plain data. docs/deck.md explains every key.
+/// Units are the user's own, consistent ones; "force", "length", "pressure" below mean those.
+namespace atrapos::deck {
+
+/// What is wrong with a deck, in one line: deck file, key path, problem, what would be accepted.
+class DeckError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+using Vector3 = std::array<double, 3>;
+
+// ---------------------------------------------------------------------------------------------- mesh
+
+/// How `atrapos mesh` makes the mesh file.
+using Generate =
+    std::variant<fem::BoxOptions, fem::StripOptions, fem::CylinderPanelOptions, fem::SpherePanelOptions>;
+
+struct MeshInput {
+  std::string file;  ///< as written in the deck
+  std::string path;  ///< the same, relative names resolved against the deck's folder
+  std::optional<Generate> generate;
+};
+
+// -------------------------------------------------------------------------------- materials, supports
+
+struct SaintVenantKirchhoff {
+  double youngsModulus = 0;  ///< pressure, > 0
+  double poissonsRatio = 0;  ///< in (-1, 0.5)
+};
+
+struct Material {
+  std::string name;
+  std::variant<SaintVenantKirchhoff> law;
+  std::vector<std::string> blocks;  ///< names or ids
+};
+
+/// A prescribed displacement component: value + loadFactor * perLoadFactor.
+struct Prescribed {
+  double value = 0;
+  double perLoadFactor = 0;
+};
+
+struct Support {
+  std::string name;
+  std::string set;                                        ///< node set, else side set; name or id
+  std::array<std::optional<Prescribed>, 3> components{};  ///< x, y, z; empty = free
+};
+
+// ---------------------------------------------------------------------------------------------- loads
+
+/// Forces on the nodes of a set.
+struct NodalLoad {
+  std::string set;       ///< node set, else side set
+  bool perNode = false;  ///< force acts on every node; otherwise it is the total, spread equally
+  Vector3 force{};
+};
+
+/// A dead load on a side set; areas and normals are those of the reference configuration.
+struct SurfaceLoad {
+  enum class Kind {
+    Total,     ///< vector = resultant force, spread uniformly over the area
+    Traction,  ///< vector = force per area
+    Pressure   ///< -pressure times the outward normal, per area
+  };
+  std::string set;
+  Kind kind = Kind::Total;
+  Vector3 vector{};
+  double pressure = 0;  ///< > 0 pushes on the body
+};
+
+/// Force per reference volume.
+struct VolumeLoad {
+  std::vector<std::string> blocks;
+  Vector3 force{};
+};
+
+struct Load {
+  std::string name;
+  bool constant = false;  ///< not multiplied by the load factor
+  std::variant<NodalLoad, SurfaceLoad, VolumeLoad> load;
+};
+
+// ------------------------------------------------------------------------------------ tools, contact
+
+struct CylinderTool {
+  Vector3 center{};  ///< any point of the axis
+  Vector3 axis{};    ///< direction, not zero, any length
+  double radius = 0;
+};
+
+struct PlaneTool {
+  Vector3 point{};
+  Vector3 normal{};  ///< to the free side, not zero, any length
+};
+
+struct Tool {
+  std::string name;
+  std::variant<CylinderTool, PlaneTool> surface;
+};
+
+/// Contact of a set with a tool by R (R/alpha + h) = eta (Delta - h), eq. (15) of the paper.
+struct Contact {
+  enum class Points {
+    Nodes,      ///< R, eta: force at each node; alpha: force per length
+    Quadrature  ///< R, eta: pressure; alpha: pressure per length
+  };
+  std::string name;
+  std::string tool;
+  std::string set;  ///< side set; with nodes: node set, else side set
+  Points points = Points::Quadrature;
+  int quadratureDegree = 4;            ///< polynomial degree integrated exactly; unused with nodes
+  std::optional<double> stiffness;     ///< alpha > 0; empty = rigid, 1/alpha = 0
+  double regularisation = 0;           ///< eta > 0
+  std::optional<double> referenceGap;  ///< Delta > eta/alpha; empty = each point's own initial gap
+};
+
+// ----------------------------------------------------------------------------------------------- path
+
+/// The path ends at whichever comes first; a deck gives at least one.
+struct Stop {
+  std::optional<double> loadFactor;
+  int steps = 1000;
+  std::optional<double> pathLength;
+  std::map<std::string, double> displacement;  ///< name of a displacement monitor -> value
+};
+
+struct Path {
+  int order = 20;          ///< K, 1..60
+  double accuracy = 1e-6;  ///< delta of eq. (36)
+  double residual = 1e-6;  ///< bound of the relative residual
+  int direction = 1;       ///< sign of the load factor's first change
+  Stop stop;
+};
+
+struct Solver {
+  enum class Type { Mumps, Amesos2 };
+  Type type = Type::Mumps;
+  std::string name;  ///< Amesos2's own name of a solver, e.g. klu2; empty with MUMPS
+  /// As linear::makeTangentSolver takes it: "mumps" or "amesos2:<name>".
+  std::string spec() const { return type == Type::Mumps ? "mumps" : "amesos2:" + name; }
+};
+
+// --------------------------------------------------------------------------------------------- output
+
+enum class OutputField { Displacement, Stress, Contact, Reaction };
+enum class Component { X, Y, Z, Normal };
+
+struct DisplacementMonitor {
+  enum class Reduce { Mean, Sum };
+  std::string set;  ///< node set, else side set
+  Component component = Component::X;
+  Reduce reduce = Reduce::Mean;  ///< over the set's nodes
+};
+
+/// Total contact force on the tool's side of a contact: the sum of the normal forces, or a component of the
+/// resultant that acts on the body.
+struct ContactForceMonitor {
+  std::string contact;
+  Component component = Component::Normal;
+};
+
+/// Total force with which a support holds the body.
+struct ReactionMonitor {
+  std::string support;
+  Component component = Component::X;
+};
+
+struct Monitor {
+  std::string name;
+  std::variant<DisplacementMonitor, ContactForceMonitor, ReactionMonitor> quantity;
+};
+
+struct Output {
+  int pointsPerStep = 5;            ///< states written per step, its end included
+  std::vector<OutputField> fields;  ///< never empty after readDeck
+  std::vector<Monitor> monitors;
+};
+
+// ----------------------------------------------------------------------------------------------- deck
+
+struct Deck {
+  std::string file;  ///< as named by the caller; begins every message
+  std::string text;  ///< the whole file, for the result file's info records
+  std::string title;
+  MeshInput mesh;
+  std::vector<Material> materials;  ///< all entries in the deck's order
+  std::vector<Support> supports;
+  std::vector<Load> loads;
+  std::vector<Tool> tools;
+  std::vector<Contact> contacts;
+  Path path;
+  Solver solver;
+  Output output;
+};
+
+/// Reads and validates a whole deck. Throws DeckError for the first thing that is wrong.
+Deck readDeck(const std::string& file);
+
+/// The same for a deck in memory; `file` names it in messages and gives the folder of relative file names.
+Deck readDeckText(const std::string& text, const std::string& file);
+
+/// Checks every block and set name against the mesh, and that each block of the mesh has exactly one
+/// material. Throws DeckError, naming what the mesh has.
+void checkAgainstMesh(const Deck& deck, const fem::Mesh& mesh);
+
+/// Prints the effective values, defaults included, as a deck that reads back to the same values.
+void describe(const Deck& deck, std::ostream& out);
+
+/// Prints every key with what it accepts, its default and its meaning, one line each.
+void describeKeys(std::ostream& out);
+
+}  // namespace atrapos::deck

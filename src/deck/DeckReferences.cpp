@@ -1,0 +1,122 @@
+#include "deck/DeckReferences.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "deck/DeckTables.hpp"
+
+namespace atrapos::deck {
+namespace {
+
+template <class Entry>
+std::vector<std::string> namesOf(const std::vector<Entry>& entries) {
+  std::vector<std::string> names;
+  for (const auto& entry : entries) {
+    names.push_back(entry.name);
+  }
+  return names;
+}
+
+/// Throws at `v` where `name` is none of `entries`.
+template <class Entry>
+const Entry& find(const Value& v, const std::string& name, const std::vector<Entry>& entries,
+                  const char* block) {
+  const auto found =
+      std::find_if(entries.begin(), entries.end(), [&](const Entry& entry) { return entry.name == name; });
+  if (found == entries.end()) {
+    const auto names = namesOf(entries);
+    v.fail(fmt::format("no entry '{}' in {}{}; there {}", name, block, suggestion(name, names),
+                       names.empty() ? "are none" : "are " + joined(names)));
+  }
+  return *found;
+}
+
+void checkMaterials(const Value& materials, const Deck& deck) {
+  std::map<std::string, std::string> materialOf;
+  for (const auto& material : deck.materials) {
+    for (const auto& block : material.blocks) {
+      const auto [previous, isNew] = materialOf.emplace(block, material.name);
+      if (!isNew) {
+        materials.at(material.name)
+            .at("blocks")
+            .fail(fmt::format("block '{}' already has the material '{}'", block, previous->second));
+      }
+    }
+  }
+}
+
+void checkMonitor(const Value& v, const Monitor& monitor, const Deck& deck) {
+  if (const auto* force = std::get_if<ContactForceMonitor>(&monitor.quantity)) {
+    find(v.at("contact"), force->contact, deck.contacts, "contact");
+  } else if (const auto* reaction = std::get_if<ReactionMonitor>(&monitor.quantity)) {
+    const auto& support = find(v.at("support"), reaction->support, deck.supports, "supports");
+    if (!support.components[static_cast<std::size_t>(reaction->component)]) {
+      v.at("component")
+          .fail(fmt::format("support '{}' does not hold {}", support.name, wordOf(reaction->component)));
+    }
+  }
+}
+
+void checkStop(const Value& stop, const Deck& deck) {
+  for (const auto& [name, value] : deck.path.stop.displacement) {
+    const Value v = stop.at("displacement").at(name);
+    const auto& monitor = find(v, name, deck.output.monitors, "output/monitors");
+    if (!std::holds_alternative<DisplacementMonitor>(monitor.quantity)) {
+      v.fail(fmt::format("the monitor '{}' is not of type displacement", name));
+    }
+  }
+}
+
+bool isZero(const Vector3& v) { return v[0] == 0 && v[1] == 0 && v[2] == 0; }
+
+bool isZero(const Load& load) {
+  if (const auto* nodal = std::get_if<NodalLoad>(&load.load)) {
+    return isZero(nodal->force);
+  }
+  if (const auto* surface = std::get_if<SurfaceLoad>(&load.load)) {
+    return surface->kind == SurfaceLoad::Kind::Pressure ? surface->pressure == 0 : isZero(surface->vector);
+  }
+  return isZero(std::get<VolumeLoad>(load.load).force);
+}
+
+void checkSomethingIsDriven(const Value& root, const Deck& deck) {
+  for (const auto& load : deck.loads) {
+    if (!load.constant && !isZero(load)) {
+      return;
+    }
+  }
+  for (const auto& support : deck.supports) {
+    for (const auto& component : support.components) {
+      if (component && component->perLoadFactor != 0) {
+        return;
+      }
+    }
+  }
+  root.fail(
+      "nothing depends on the load factor; expected a load that is neither constant nor zero, or a support "
+      "with "
+      "per_load_factor");
+}
+
+}  // namespace
+
+void checkReferences(const Value& root, const Deck& deck) {
+  checkMaterials(root.at("materials"), deck);
+  for (const auto& contact : deck.contacts) {
+    find(root.at("contact").at(contact.name).at("tool"), contact.tool, deck.tools, "tools");
+  }
+  for (const auto& monitor : deck.output.monitors) {
+    checkMonitor(root.at("output").at("monitors").at(monitor.name), monitor, deck);
+  }
+  checkStop(root.at("path").at("stop"), deck);
+  const auto& fields = deck.output.fields;
+  if (deck.contacts.empty() &&
+      std::find(fields.begin(), fields.end(), OutputField::Contact) != fields.end()) {
+    root.at("output").at("fields").fail("'contact' needs the block contact");
+  }
+  checkSomethingIsDriven(root, deck);
+}
+
+}  // namespace atrapos::deck

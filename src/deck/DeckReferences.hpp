@@ -1,0 +1,12 @@
+#pragma once
+
+#include "deck/Deck.hpp"
+#include "deck/DeckValue.hpp"
+
+namespace atrapos::deck {
+
+/// Checks what involves several blocks: names of other entries, a load factor that has something to drive.
+/// Throws DeckError.
+void checkReferences(const Value& root, const Deck& deck);
+
+}  // namespace atrapos::deck

@@ -1,0 +1,33 @@
+#pragma once
+
+#include "deck/Deck.hpp"
+#include "deck/Fields.hpp"
+#include "deck/Variants.hpp"
+
+namespace atrapos::deck {
+
+/// Generate as a member, so that it can be read like any other block with kinds.
+struct GenerateInput {
+  Generate shape;
+};
+
+// The keys of every block of a deck. Alternatives stand in the order of the std::variant they fill.
+const Variants<GenerateInput, Generate>& generateVariants();
+const Variants<Material, decltype(Material::law)>& materialVariants();
+const Table<Support>& supportTable();
+const Variants<Load, decltype(Load::load)>& loadVariants();
+const Variants<Tool, decltype(Tool::surface)>& toolVariants();
+const Table<Contact>& contactTable();
+const Table<Stop>& stopTable();
+const Table<Path>& pathTable();
+const Table<Solver>& solverTable();
+const Variants<Monitor, decltype(Monitor::quantity)>& monitorVariants();
+const Table<Output>& outputTable();
+const Table<MeshInput>& meshTable();
+const Table<Deck>& deckTable();
+
+/// Words of the output fields, for messages.
+std::string wordOf(OutputField field);
+std::string wordOf(Component component);
+
+}  // namespace atrapos::deck

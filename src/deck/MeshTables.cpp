@@ -1,0 +1,148 @@
+// Keys of the block `mesh`.
+#include "deck/DeckTables.hpp"
+
+namespace atrapos::deck {
+namespace {
+
+const Choices<fem::Topology>& cells() {
+  using fem::Topology;
+  static const Choices<Topology> choices{{"HEX8", Topology::Hex8},      {"HEX20", Topology::Hex20},
+                                         {"HEX27", Topology::Hex27},    {"TET4", Topology::Tet4},
+                                         {"TET10", Topology::Tet10},    {"WEDGE6", Topology::Wedge6},
+                                         {"WEDGE15", Topology::Wedge15}};
+  return choices;
+}
+
+template <class S>
+Field<S> divisions(std::string meaning) {
+  return {"divisions",
+          true,
+          "a list of 3 whole numbers, at least 1",
+          std::move(meaning),
+          [](const Value& v, S& s) {
+            const auto n = v.integers(3, check::count);
+            std::copy(n.begin(), n.end(), s.divisions.begin());
+          },
+          [](const S& s) {
+            return Node{yamlList(s.divisions), {}};
+          }};
+}
+
+template <class S>
+Field<S> range(std::string key, double S::*low, double S::*high, std::string meaning) {
+  return {std::move(key),
+          true,
+          "a list of 2 ascending numbers",
+          std::move(meaning),
+          [=](const Value& v, S& s) {
+            const auto x = v.reals(2);
+            if (x[0] >= x[1]) {
+              v.fail(fmt::format("must ascend, got {}", v.shown()));
+            }
+            s.*low = x[0];
+            s.*high = x[1];
+          },
+          [=](const S& s) {
+            return Node{yamlList(std::array<double, 2>{s.*low, s.*high}), {}};
+          }};
+}
+
+// The keys that every shape ends with.
+template <class S>
+Table<S> withCells(Table<S> table, const std::string& directions) {
+  table.push_back(divisions<S>("cells along " + directions));
+  table.push_back(choice("cell", optional, &S::topology, cells(), "Exodus' name of the cells"));
+  table.push_back(text("block", optional, &S::blockName, "a text", "name of the mesh's one block"));
+  return table;
+}
+
+template <class S>
+std::function<void(const Value&, const S&)> thinnerThanRadius() {
+  return [](const Value& map, const S& s) {
+    if (s.thickness >= 2 * s.midRadius) {
+      map.at("thickness")
+          .fail(fmt::format("must be below twice mid_radius = {}, got {}", s.midRadius, s.thickness));
+    }
+  };
+}
+
+}  // namespace
+
+const Variants<GenerateInput, Generate>& generateVariants() {
+  using fem::BoxOptions, fem::StripOptions, fem::CylinderPanelOptions, fem::SpherePanelOptions;
+  static const Variants<GenerateInput, Generate> variants = [] {
+    auto lengths = vector3("lengths", required, &BoxOptions::lengths, "edges along x, y, z");
+    lengths.accepts = "a list of 3 positive numbers";
+    lengths.read = [inner = lengths.read](const Value& v, BoxOptions& s) {
+      inner(v, s);
+      for (const double length : s.lengths) {
+        if (length <= 0) {
+          v.fail(fmt::format("each length must be positive, got {}", v.shown()));
+        }
+      }
+    };
+    Variants<GenerateInput, Generate> v{"shape", &GenerateInput::shape, {}, {}};
+    v.alternatives.push_back(alternative<Generate, BoxOptions>(
+        "box", withCells<BoxOptions>({lengths, vector3("origin", optional, &BoxOptions::origin,
+                                                       "corner with the least x, y, z")},
+                                     "x, y, z")));
+    v.alternatives.push_back(alternative<Generate, StripOptions>(
+        "strip", withCells<StripOptions>(
+                     {real("length", required, &StripOptions::length, check::positive, "along x"),
+                      real("width", required, &StripOptions::width, check::positive, "along y"),
+                      real("thickness", required, &StripOptions::thickness, check::positive, "along z"),
+                      vector3("origin", optional, &StripOptions::origin, "corner with the least x, y, z")},
+                     "length, width, thickness")));
+    using Cylinder = CylinderPanelOptions;
+    v.alternatives.push_back(alternative<Generate, Cylinder>(
+        "cylinder_panel",
+        withCells<Cylinder>(
+            {real("mid_radius", required, &Cylinder::midRadius, check::positive,
+                  "radius of the middle surface"),
+             real("thickness", required, &Cylinder::thickness, check::positive, "of the panel"),
+             range("theta", &Cylinder::thetaMin, &Cylinder::thetaMax,
+                   "first and last angle, degrees from z to x"),
+             real("length", required, &Cylinder::length, check::positive, "along y"),
+             real("y_min", optional, &Cylinder::yMin, check::any, "where the length begins")},
+            "theta, y, thickness"),
+        thinnerThanRadius<Cylinder>()));
+    using Sphere = SpherePanelOptions;
+    auto latitude = range("latitude", &Sphere::latitudeMin, &Sphere::latitudeMax,
+                          "first and last, degrees from the x-y plane, above -90 and below 90");
+    latitude.read = [inner = latitude.read](const Value& value, Sphere& s) {
+      inner(value, s);
+      if (s.latitudeMin <= -90 || s.latitudeMax >= 90) {
+        value.fail(fmt::format("must stay above -90 and below 90 degrees, got {}", value.shown()));
+      }
+    };
+    v.alternatives.push_back(alternative<Generate, Sphere>(
+        "sphere_panel",
+        withCells<Sphere>({real("mid_radius", required, &Sphere::midRadius, check::positive,
+                                "radius of the middle surface"),
+                           real("thickness", required, &Sphere::thickness, check::positive, "of the panel"),
+                           range("longitude", &Sphere::longitudeMin, &Sphere::longitudeMax,
+                                 "first and last, degrees from x to y"),
+                           latitude},
+                          "longitude, latitude, thickness"),
+        thinnerThanRadius<Sphere>()));
+    return v;
+  }();
+  return variants;
+}
+
+const Table<MeshInput>& meshTable() {
+  static const Table<MeshInput> table{
+      text("file", required, &MeshInput::file, "a file name", "Exodus file, relative to the deck's folder"),
+      {"generate", false, "a map with shape, ...", "how `atrapos mesh` makes the file",
+       [](const Value& v, MeshInput& mesh) {
+         GenerateInput input;
+         read(generateVariants(), v, input);
+         mesh.generate = input.shape;
+       },
+       [](const MeshInput& mesh) {
+         return mesh.generate ? print(generateVariants(), GenerateInput{*mesh.generate}) : Node{};
+       }}};
+  return table;
+}
+
+}  // namespace atrapos::deck

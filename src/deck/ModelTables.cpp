@@ -1,0 +1,223 @@
+// Keys of the blocks that describe the body and what acts on it: materials, supports, loads, tools, contact.
+#include "deck/DeckTables.hpp"
+
+namespace atrapos::deck {
+namespace {
+
+constexpr const char* setOfNodes = "a node set or side set, name or id";
+
+/// x, y or z of a support: a number, or a map with value and per_load_factor.
+Field<Support> component(std::size_t axis) {
+  static const Table<Prescribed> table{
+      real("value", optional, &Prescribed::value, check::any, "displacement at load factor 0"),
+      real("per_load_factor", optional, &Prescribed::perLoadFactor, check::any,
+           "added times the load factor")};
+  const std::string key(1, "xyz"[axis]);
+  return {key,
+          false,
+          "a number, or a map with value, per_load_factor",
+          "prescribed displacement along " + key,
+          [=](const Value& v, Support& s) {
+            Prescribed p;
+            if (v.isMap() && !v.isEmptyMap()) {
+              read(table, v, p);
+            } else {
+              p.value = v.real();
+            }
+            s.components[axis] = p;
+          },
+          [=](const Support& s) {
+            if (!s.components[axis]) {
+              return Node{};
+            }
+            const Prescribed p = *s.components[axis];
+            return p.perLoadFactor == 0 ? Node{yaml(p.value), {}} : print(table, p);
+          }};
+}
+
+Field<NodalLoad> nodalForce(const std::string& key, bool perNode, std::string meaning) {
+  return {key,
+          false,
+          "a list of 3 numbers",
+          std::move(meaning),
+          [=](const Value& v, NodalLoad& s) {
+            const auto x = v.reals(3);
+            std::copy(x.begin(), x.end(), s.force.begin());
+            s.perNode = perNode;
+          },
+          [=](const NodalLoad& s) {
+            return s.perNode == perNode ? Node{yamlList(s.force), {}} : Node{};
+          }};
+}
+
+Field<SurfaceLoad> surfaceVector(const std::string& key, SurfaceLoad::Kind kind, std::string meaning) {
+  return {key,
+          false,
+          "a list of 3 numbers",
+          std::move(meaning),
+          [=](const Value& v, SurfaceLoad& s) {
+            const auto x = v.reals(3);
+            std::copy(x.begin(), x.end(), s.vector.begin());
+            s.kind = kind;
+          },
+          [=](const SurfaceLoad& s) {
+            return s.kind == kind ? Node{yamlList(s.vector), {}} : Node{};
+          }};
+}
+
+void requireExactlyOne(const Value& map, const std::vector<std::string>& keys) {
+  std::vector<std::string> given;
+  for (const auto& key : keys) {
+    if (map.has(key)) {
+      given.push_back(key);
+    }
+  }
+  if (given.size() != 1) {
+    map.fail(
+        fmt::format("needs exactly one of {}, got {}", joined(keys), given.empty() ? "none" : joined(given)));
+  }
+}
+
+/// A positive number or one word for its absence.
+Field<Contact> positiveOr(std::string key, Need need, std::optional<double> Contact::*member,
+                          const std::string& word, std::string meaning) {
+  return {std::move(key),
+          need == required,
+          "a positive number or " + word,
+          std::move(meaning),
+          [=](const Value& v, Contact& s) {
+            if (v.isText() && v.text() == word) {
+              (s.*member).reset();
+            } else if (v.isText()) {
+              v.fail(fmt::format("expected a positive number or {}, got {}", word, v.shown()));
+            } else {
+              s.*member = v.real(check::positive);
+            }
+          },
+          [=](const Contact& s) {
+            return Node{s.*member ? yaml(*(s.*member)) : word, {}};
+          }};
+}
+
+}  // namespace
+
+const Variants<Material, decltype(Material::law)>& materialVariants() {
+  using V = decltype(Material::law);
+  static const Variants<Material, V> variants{
+      "law",
+      &Material::law,
+      {alternative<V, SaintVenantKirchhoff>(
+          "saint_venant_kirchhoff", {real("youngs_modulus", required, &SaintVenantKirchhoff::youngsModulus,
+                                          check::positive, "E, a pressure"),
+                                     real("poissons_ratio", required, &SaintVenantKirchhoff::poissonsRatio,
+                                          check::poissonsRatio, "nu")})},
+      {names("blocks", required, &Material::blocks, "blocks of the mesh that are made of it")}};
+  return variants;
+}
+
+const Table<Support>& supportTable() {
+  static const Table<Support> table{name("set", required, &Support::set, setOfNodes, "nodes that are held"),
+                                    component(0), component(1), component(2)};
+  return table;
+}
+
+const Variants<Load, decltype(Load::load)>& loadVariants() {
+  using V = decltype(Load::load);
+  using Kind = SurfaceLoad::Kind;
+  const Field<SurfaceLoad> pressure{"pressure",
+                                    false,
+                                    "a number",
+                                    "force per reference area along the inward reference normal",
+                                    [](const Value& v, SurfaceLoad& s) {
+                                      s.pressure = v.real();
+                                      s.kind = Kind::Pressure;
+                                    },
+                                    [](const SurfaceLoad& s) {
+                                      return s.kind == Kind::Pressure ? Node{yaml(s.pressure), {}} : Node{};
+                                    }};
+  static const Variants<Load, V> variants{
+      "type",
+      &Load::load,
+      {alternative<V, NodalLoad>("nodal",
+                                 {name("set", required, &NodalLoad::set, setOfNodes, "nodes that are loaded"),
+                                  nodalForce("total", false, "force, spread equally over the nodes"),
+                                  nodalForce("per_node", true, "force on every node")},
+                                 [](const Value& map, const NodalLoad&) {
+                                   requireExactlyOne(map, {"total", "per_node"});
+                                 }),
+       alternative<V, SurfaceLoad>(
+           "surface",
+           {name("set", required, &SurfaceLoad::set, "a side set, name or id", "faces that are loaded"),
+            surfaceVector("total", Kind::Total, "force, spread uniformly over the reference area"),
+            surfaceVector("traction", Kind::Traction, "force per reference area"), pressure},
+           [](const Value& map, const SurfaceLoad&) {
+             requireExactlyOne(map, {"total", "traction", "pressure"});
+           }),
+       alternative<V, VolumeLoad>(
+           "volume", {names("blocks", required, &VolumeLoad::blocks, "blocks that are loaded"),
+                      vector3("force", required, &VolumeLoad::force, "force per reference volume")})},
+      {{"constant", false, "true or false", "true: not multiplied by the load factor",
+        [](const Value& v, Load& s) { s.constant = v.boolean(); },
+        [](const Load& s) {
+          return Node{s.constant ? "true" : "false", {}};
+        }}}};
+  return variants;
+}
+
+const Variants<Tool, decltype(Tool::surface)>& toolVariants() {
+  using V = decltype(Tool::surface);
+  static const Variants<Tool, V> variants{
+      "type",
+      &Tool::surface,
+      {alternative<V, CylinderTool>(
+           "cylinder",
+           {vector3("center", required, &CylinderTool::center, "any point of the axis"),
+            direction("axis", required, &CylinderTool::axis, "direction of the axis, of any length"),
+            real("radius", required, &CylinderTool::radius, check::positive, "of the cylinder")}),
+       alternative<V, PlaneTool>(
+           "plane", {vector3("point", required, &PlaneTool::point, "any point of the plane"),
+                     direction("normal", required, &PlaneTool::normal, "to the free side, of any length")})},
+      {}};
+  return variants;
+}
+
+const Table<Contact>& contactTable() {
+  static const Choices<Contact::Points> points{{"nodes", Contact::Points::Nodes},
+                                               {"quadrature", Contact::Points::Quadrature}};
+  static const Table<Contact> table = [] {
+    auto degree = integer("quadrature_degree", optional, &Contact::quadratureDegree, check::degree,
+                          "polynomial degree integrated exactly on a face");
+    degree.print = [inner = degree.print](const Contact& s) {
+      return s.points == Contact::Points::Quadrature ? inner(s) : Node{};
+    };
+    degree.read = [inner = degree.read](const Value& v, Contact& s) {
+      if (s.points == Contact::Points::Nodes) {
+        v.fail("has no meaning with points: nodes");
+      }
+      inner(v, s);
+    };
+    auto gap = positiveOr("reference_gap", optional, &Contact::referenceGap, "initial",
+                          "Delta, the gap at which the force is zero; initial: that of each point");
+    gap.read = [inner = gap.read](const Value& v, Contact& s) {
+      inner(v, s);
+      const double least = s.stiffness ? s.regularisation / *s.stiffness : 0.0;
+      if (s.referenceGap && *s.referenceGap <= least) {
+        v.fail(fmt::format("must be above regularisation/stiffness = {}, got {}", least, v.shown()));
+      }
+    };
+    return Table<Contact>{
+        name("tool", required, &Contact::tool, "the name of a tool", "what the set may touch"),
+        name("set", required, &Contact::set, "a side set (with points: nodes also a node set), name or id",
+             "where the body may touch it"),
+        choice("points", optional, &Contact::points, points, "where the law acts"),
+        degree,
+        positiveOr("stiffness", required, &Contact::stiffness, "rigid",
+                   "alpha: pressure per length, with points: nodes force per length; rigid: 1/alpha = 0"),
+        real("regularisation", required, &Contact::regularisation, check::positive,
+             "eta: a pressure, with points: nodes a force"),
+        gap};
+  }();
+  return table;
+}
+
+}  // namespace atrapos::deck

@@ -1,0 +1,733 @@
+// The deck: good ones give the right values, every kind of bad one its one line.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <limits>
+#include <sstream>
+
+#include "atrapos/fem/StructuredMesh.hpp"
+#include "deck/Deck.hpp"
+
+namespace {
+
+using namespace atrapos;
+using namespace atrapos::deck;
+
+const char* const goodDeck = R"(# a comment with any text: é { [ "
+title: Strip on a roll
+mesh:
+  file: strip.exo
+  generate: {shape: box, lengths: [10, 2.0, 1], divisions: [10, 2, 1], cell: HEX20, block: strip}
+materials:
+  steel: {law: saint_venant_kirchhoff, youngs_modulus: 220000, poissons_ratio: 0, blocks: [strip]}
+supports:
+  clamp: {set: x_min, x: 0, y: 0, z: 0}
+  pull:
+    set: x_max
+    x: {value: 0.5, per_load_factor: 1.5}
+loads:
+  tip: {type: surface, set: x_max, total: [0, 0, -100]}
+tools:
+  roll: {type: cylinder, center: [200, 0, -54.4], axis: [0, 1, 0], radius: 50}
+contact:
+  lower: {tool: roll, set: z_min, stiffness: 1.0e3, regularisation: 0.1}
+path:
+  order: 15
+  stop: {load_factor: 0.25}
+output:
+  monitors:
+    tip_uz: {type: displacement, set: x_max, component: z}
+)";
+
+/// goodDeck with one piece of text replaced, which must occur.
+std::string changed(const std::string& from, const std::string& to) {
+  std::string text = goodDeck;
+  const auto at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << "the good deck has no '" << from << "'";
+  return at == std::string::npos ? text : text.replace(at, from.size(), to);
+}
+
+std::string errorOf(const std::string& text) {
+  try {
+    readDeckText(text, "some/folder/solid.yaml");
+  } catch (const DeckError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+/// Exact start of the line (file and key path) and words that it must hold; never more than one line.
+void expectError(const std::string& text, const std::string& start, const std::vector<std::string>& words) {
+  const std::string error = errorOf(text);
+  const std::string begin = "some/folder/solid.yaml: " + start;
+  EXPECT_EQ(error.substr(0, begin.size()), begin) << error;
+  EXPECT_EQ(error.find('\n'), std::string::npos) << error;
+  for (const auto& word : words) {
+    EXPECT_NE(error.find(word), std::string::npos) << "'" << word << "' is not in: " << error;
+  }
+}
+
+void expectError(const std::string& from, const std::string& to, const std::string& start,
+                 const std::vector<std::string>& words) {
+  SCOPED_TRACE(to);
+  expectError(changed(from, to), start, words);
+}
+
+std::string described(const Deck& deck) {
+  std::ostringstream out;
+  describe(deck, out);
+  return out.str();
+}
+
+}  // namespace
+
+TEST(Deck, goodDeckGivesItsValues) {
+  const Deck deck = readDeckText(goodDeck, "some/folder/solid.yaml");
+  EXPECT_EQ(deck.file, "some/folder/solid.yaml");
+  EXPECT_EQ(deck.text, goodDeck);
+  EXPECT_EQ(deck.title, "Strip on a roll");
+  EXPECT_EQ(deck.mesh.file, "strip.exo");
+  EXPECT_EQ(deck.mesh.path, "some/folder/strip.exo");
+  ASSERT_TRUE(deck.mesh.generate);
+  const auto& box = std::get<fem::BoxOptions>(*deck.mesh.generate);
+  EXPECT_EQ(box.lengths, (Vector3{10, 2, 1}));
+  EXPECT_EQ(box.origin, (Vector3{0, 0, 0}));
+  EXPECT_EQ(box.divisions, (std::array<int, 3>{10, 2, 1}));
+  EXPECT_EQ(box.topology, fem::Topology::Hex20);
+  EXPECT_EQ(box.blockName, "strip");
+
+  ASSERT_EQ(deck.materials.size(), 1u);
+  EXPECT_EQ(deck.materials[0].name, "steel");
+  EXPECT_EQ(deck.materials[0].blocks, std::vector<std::string>{"strip"});
+  const auto& law = std::get<SaintVenantKirchhoff>(deck.materials[0].law);
+  EXPECT_EQ(law.youngsModulus, 220000.0);
+  EXPECT_EQ(law.poissonsRatio, 0.0);
+
+  ASSERT_EQ(deck.supports.size(), 2u);
+  EXPECT_EQ(deck.supports[0].name, "clamp");
+  EXPECT_EQ(deck.supports[0].set, "x_min");
+  for (const auto& component : deck.supports[0].components) {
+    ASSERT_TRUE(component);
+    EXPECT_EQ(component->value, 0.0);
+    EXPECT_EQ(component->perLoadFactor, 0.0);
+  }
+  ASSERT_TRUE(deck.supports[1].components[0]);
+  EXPECT_EQ(deck.supports[1].components[0]->value, 0.5);
+  EXPECT_EQ(deck.supports[1].components[0]->perLoadFactor, 1.5);
+  EXPECT_FALSE(deck.supports[1].components[1]);
+  EXPECT_FALSE(deck.supports[1].components[2]);
+
+  ASSERT_EQ(deck.loads.size(), 1u);
+  EXPECT_FALSE(deck.loads[0].constant);
+  const auto& load = std::get<SurfaceLoad>(deck.loads[0].load);
+  EXPECT_EQ(load.set, "x_max");
+  EXPECT_EQ(load.kind, SurfaceLoad::Kind::Total);
+  EXPECT_EQ(load.vector, (Vector3{0, 0, -100}));
+
+  ASSERT_EQ(deck.tools.size(), 1u);
+  const auto& roll = std::get<CylinderTool>(deck.tools[0].surface);
+  EXPECT_EQ(roll.center, (Vector3{200, 0, -54.4}));
+  EXPECT_EQ(roll.axis, (Vector3{0, 1, 0}));
+  EXPECT_EQ(roll.radius, 50.0);
+
+  ASSERT_EQ(deck.contacts.size(), 1u);
+  const auto& contact = deck.contacts[0];
+  EXPECT_EQ(contact.name, "lower");
+  EXPECT_EQ(contact.tool, "roll");
+  EXPECT_EQ(contact.set, "z_min");
+  EXPECT_EQ(contact.points, Contact::Points::Quadrature);
+  EXPECT_EQ(contact.quadratureDegree, 4);
+  EXPECT_EQ(contact.stiffness, 1000.0);
+  EXPECT_EQ(contact.regularisation, 0.1);
+  EXPECT_FALSE(contact.referenceGap);
+
+  EXPECT_EQ(deck.path.order, 15);
+  EXPECT_EQ(deck.path.accuracy, 1e-6);
+  EXPECT_EQ(deck.path.residual, 1e-6);
+  EXPECT_EQ(deck.path.direction, 1);
+  EXPECT_EQ(deck.path.stop.loadFactor, 0.25);
+  EXPECT_EQ(deck.path.stop.steps, 1000);
+  EXPECT_FALSE(deck.path.stop.pathLength);
+  EXPECT_TRUE(deck.path.stop.displacement.empty());
+  EXPECT_EQ(deck.solver.spec(), "mumps");
+
+  EXPECT_EQ(deck.output.pointsPerStep, 5);
+  EXPECT_EQ(deck.output.fields, (std::vector<OutputField>{OutputField::Displacement, OutputField::Stress,
+                                                          OutputField::Reaction, OutputField::Contact}));
+  ASSERT_EQ(deck.output.monitors.size(), 1u);
+  const auto& monitor = std::get<DisplacementMonitor>(deck.output.monitors[0].quantity);
+  EXPECT_EQ(monitor.set, "x_max");
+  EXPECT_EQ(monitor.component, Component::Z);
+  EXPECT_EQ(monitor.reduce, DisplacementMonitor::Reduce::Mean);
+}
+
+TEST(Deck, everyOtherKindOfEntry) {
+  const Deck deck = readDeckText(R"(
+mesh: {file: /data/a.exo}
+materials:
+  soft: {law: saint_venant_kirchhoff, youngs_modulus: 1, poissons_ratio: -0.5, blocks: [1, 2]}
+  hard:
+    law: saint_venant_kirchhoff
+    youngs_modulus: 2.5e3
+    poissons_ratio: 0.3
+    blocks:
+      - core
+      - 7
+supports:
+  held: {set: 12, x: 1, z: -2.5e-1}
+loads:
+  a: {type: nodal, set: 3, per_node: [1, 2, 3]}
+  b: {type: nodal, set: n, total: [1.5, 2, 3], constant: true}
+  c: {type: surface, set: s, traction: [1, 0, 0]}
+  d: {type: surface, set: s, pressure: -2}
+  e: {type: volume, blocks: core, force: [0, 0, -9.81]}
+tools:
+  table: {type: plane, point: [0, 0, -1], normal: [0, 0, 2]}
+contact:
+  foot: {tool: table, set: n, points: nodes, stiffness: rigid, regularisation: 1, reference_gap: 4}
+path: {direction: -1, accuracy: 1e-8, residual: 1.0e-7, order: 60,
+       stop: {steps: 7, path_length: 100, displacement: {u: -50, v: 1.5}}}
+solver: {type: amesos2, name: klu2}
+output:
+  points_per_step: 1
+  fields: [contact, displacement]
+  monitors:
+    u: {type: displacement, set: n, component: z, reduce: sum}
+    v: {type: displacement, set: n, component: y}
+    f: {type: contact_force, contact: foot}
+    fx: {type: contact_force, contact: foot, component: x}
+    r: {type: reaction, support: held, component: z}
+)",
+                                 "all.yaml");
+  EXPECT_EQ(deck.title, "all");  // the file's stem
+  EXPECT_EQ(deck.mesh.path, "/data/a.exo");
+  EXPECT_FALSE(deck.mesh.generate);
+  EXPECT_EQ(deck.materials[0].blocks, (std::vector<std::string>{"1", "2"}));
+  EXPECT_EQ(std::get<SaintVenantKirchhoff>(deck.materials[0].law).poissonsRatio, -0.5);
+  EXPECT_EQ(deck.materials[1].blocks, (std::vector<std::string>{"core", "7"}));
+  EXPECT_EQ(std::get<SaintVenantKirchhoff>(deck.materials[1].law).youngsModulus, 2500.0);
+  EXPECT_EQ(deck.supports[0].set, "12");
+  EXPECT_EQ(deck.supports[0].components[0]->value, 1.0);
+  EXPECT_FALSE(deck.supports[0].components[1]);
+  EXPECT_EQ(deck.supports[0].components[2]->value, -0.25);
+
+  ASSERT_EQ(deck.loads.size(), 5u);
+  const auto& a = std::get<NodalLoad>(deck.loads[0].load);
+  EXPECT_EQ(a.set, "3");
+  EXPECT_TRUE(a.perNode);
+  EXPECT_EQ(a.force, (Vector3{1, 2, 3}));
+  EXPECT_FALSE(deck.loads[0].constant);
+  EXPECT_FALSE(std::get<NodalLoad>(deck.loads[1].load).perNode);
+  EXPECT_TRUE(deck.loads[1].constant);
+  EXPECT_EQ(std::get<SurfaceLoad>(deck.loads[2].load).kind, SurfaceLoad::Kind::Traction);
+  EXPECT_EQ(std::get<SurfaceLoad>(deck.loads[2].load).vector, (Vector3{1, 0, 0}));
+  EXPECT_EQ(std::get<SurfaceLoad>(deck.loads[3].load).kind, SurfaceLoad::Kind::Pressure);
+  EXPECT_EQ(std::get<SurfaceLoad>(deck.loads[3].load).pressure, -2.0);
+  EXPECT_EQ(std::get<VolumeLoad>(deck.loads[4].load).blocks, std::vector<std::string>{"core"});
+  EXPECT_EQ(std::get<VolumeLoad>(deck.loads[4].load).force, (Vector3{0, 0, -9.81}));
+
+  const auto& table = std::get<PlaneTool>(deck.tools[0].surface);
+  EXPECT_EQ(table.point, (Vector3{0, 0, -1}));
+  EXPECT_EQ(table.normal, (Vector3{0, 0, 2}));
+  EXPECT_EQ(deck.contacts[0].points, Contact::Points::Nodes);
+  EXPECT_FALSE(deck.contacts[0].stiffness);
+  EXPECT_EQ(deck.contacts[0].referenceGap, 4.0);
+  EXPECT_EQ(deck.path.direction, -1);
+  EXPECT_EQ(deck.path.accuracy, 1e-8);
+  EXPECT_EQ(deck.path.residual, 1e-7);
+  EXPECT_EQ(deck.path.order, 60);
+  EXPECT_FALSE(deck.path.stop.loadFactor);
+  EXPECT_EQ(deck.path.stop.steps, 7);
+  EXPECT_EQ(deck.path.stop.pathLength, 100.0);
+  EXPECT_EQ(deck.path.stop.displacement, (std::map<std::string, double>{{"u", -50}, {"v", 1.5}}));
+  EXPECT_EQ(deck.solver.spec(), "amesos2:klu2");
+  EXPECT_EQ(deck.output.pointsPerStep, 1);
+  EXPECT_EQ(deck.output.fields, (std::vector<OutputField>{OutputField::Contact, OutputField::Displacement}));
+  ASSERT_EQ(deck.output.monitors.size(), 5u);
+  EXPECT_EQ(std::get<DisplacementMonitor>(deck.output.monitors[0].quantity).reduce,
+            DisplacementMonitor::Reduce::Sum);
+  EXPECT_EQ(std::get<ContactForceMonitor>(deck.output.monitors[2].quantity).contact, "foot");
+  EXPECT_EQ(std::get<ContactForceMonitor>(deck.output.monitors[2].quantity).component, Component::Normal);
+  EXPECT_EQ(std::get<ContactForceMonitor>(deck.output.monitors[3].quantity).component, Component::X);
+  EXPECT_EQ(std::get<ReactionMonitor>(deck.output.monitors[4].quantity).support, "held");
+  EXPECT_EQ(std::get<ReactionMonitor>(deck.output.monitors[4].quantity).component, Component::Z);
+}
+
+TEST(Deck, shapesToGenerate) {
+  const auto generate = [](const std::string& shape) {
+    return *readDeckText(
+                changed(
+                    "{shape: box, lengths: [10, 2.0, 1], divisions: [10, 2, 1], cell: HEX20, block: strip}",
+                    shape),
+                "d.yaml")
+                .mesh.generate;
+  };
+  const auto strip =
+      std::get<fem::StripOptions>(generate("{shape: strip, length: 400, width: 20, thickness: 0.8, origin: "
+                                           "[0, -10, -0.4], divisions: [4, 2, 1]}"));
+  EXPECT_EQ(strip.length, 400.0);
+  EXPECT_EQ(strip.width, 20.0);
+  EXPECT_EQ(strip.thickness, 0.8);
+  EXPECT_EQ(strip.origin, (Vector3{0, -10, -0.4}));
+  EXPECT_EQ(strip.divisions, (std::array<int, 3>{4, 2, 1}));
+  EXPECT_EQ(strip.topology, fem::StripOptions{}.topology);
+  EXPECT_EQ(strip.blockName, fem::StripOptions{}.blockName);
+  const auto roof = std::get<fem::CylinderPanelOptions>(generate(
+      "{shape: cylinder_panel, mid_radius: 25, thickness: 0.25, theta: [-40, 40.5], length: 50, y_min: -25, "
+      "divisions: [8, 4, 1], cell: WEDGE15}"));
+  EXPECT_EQ(roof.midRadius, 25.0);
+  EXPECT_EQ(roof.thickness, 0.25);
+  EXPECT_EQ(roof.thetaMin, -40.0);
+  EXPECT_EQ(roof.thetaMax, 40.5);
+  EXPECT_EQ(roof.length, 50.0);
+  EXPECT_EQ(roof.yMin, -25.0);
+  EXPECT_EQ(roof.topology, fem::Topology::Wedge15);
+  const auto dome = std::get<fem::SpherePanelOptions>(generate(
+      "{shape: sphere_panel, mid_radius: 10, thickness: 0.04, longitude: [0, 90], latitude: [1, 72], "
+      "divisions: [8, 8, 1], block: dome}"));
+  EXPECT_EQ(dome.midRadius, 10.0);
+  EXPECT_EQ(dome.longitudeMax, 90.0);
+  EXPECT_EQ(dome.latitudeMin, 1.0);
+  EXPECT_EQ(dome.latitudeMax, 72.0);
+  EXPECT_EQ(dome.blockName, "dome");
+}
+
+TEST(Deck, describedDeckReadsBackToTheSame) {
+  for (const std::string file : {"solid", "solid_fine", "solid_nu03"}) {
+    const Deck deck = readDeck(fmt::format("{}/strip_roll/{}.yaml", ATRAPOS_EXAMPLES, file));
+    const std::string once = described(deck);
+    EXPECT_EQ(described(readDeckText(once, file)), once);
+  }
+  // Numbers in every notation, a quote in a text, names that look like numbers or truth values.
+  std::string text = changed("title: Strip on a roll", "title: it's 100 % [odd]: 'yes'");
+  text = changed("title: Strip on a roll", "title: \"it's odd: [yes]\"");
+  text.replace(text.find("220000"), 6, "2.2e-300");
+  text.replace(text.find("blocks: [strip]"), 15, "blocks: [12, 'yes', \"a b\"]");
+  text.replace(text.find("radius: 50"), 10, "radius: 1e+21");
+  const Deck deck = readDeckText(text, "odd");
+  EXPECT_EQ(deck.title, "it's odd: [yes]");
+  const std::string once = described(deck);
+  const Deck again = readDeckText(once, "odd");
+  EXPECT_EQ(described(again), once);
+  EXPECT_EQ(again.title, deck.title);
+  EXPECT_EQ(again.materials[0].blocks, (std::vector<std::string>{"12", "yes", "a b"}));
+  EXPECT_EQ(std::get<SaintVenantKirchhoff>(again.materials[0].law).youngsModulus, 2.2e-300);
+  EXPECT_EQ(std::get<CylinderTool>(again.tools[0].surface).radius, 1e21);
+  // Defaults are shown.
+  EXPECT_NE(once.find("accuracy: 1e-06"), std::string::npos) << once;
+  EXPECT_NE(once.find("reference_gap: initial"), std::string::npos) << once;
+}
+
+TEST(Deck, examplesParse) {
+  const std::string folder = std::string(ATRAPOS_EXAMPLES) + "/strip_roll/";
+  const Deck solid = readDeck(folder + "solid.yaml");
+  const Deck fine = readDeck(folder + "solid_fine.yaml");
+  const Deck nu03 = readDeck(folder + "solid_nu03.yaml");
+  for (const Deck* deck : {&solid, &fine, &nu03}) {
+    SCOPED_TRACE(deck->file);
+    const auto& strip = std::get<fem::StripOptions>(deck->mesh.generate.value());
+    EXPECT_EQ(strip.length, 400.0);
+    EXPECT_EQ(strip.width, 20.0);
+    EXPECT_EQ(strip.thickness, 0.8);
+    EXPECT_EQ(strip.topology, fem::Topology::Hex20);
+    EXPECT_EQ(strip.origin[2], -0.4);
+    EXPECT_EQ(strip.divisions, (std::array<int, 3>{deck == &fine ? 80 : 40, deck == &fine ? 4 : 2, 1}));
+    const auto& law = std::get<SaintVenantKirchhoff>(deck->materials.at(0).law);
+    EXPECT_EQ(law.youngsModulus, 220000.0);
+    EXPECT_EQ(law.poissonsRatio, deck == &nu03 ? 0.3 : 0.0);
+    const auto& roll = std::get<CylinderTool>(deck->tools.at(0).surface);
+    // The gap of 4 mm to the lower surface; the sum of two numbers rounded to double: within 4 ulp of the
+    // larger.
+    EXPECT_NEAR(roll.center[2] + roll.radius, -4.4, 4 * 54.4 * std::numeric_limits<double>::epsilon());
+    EXPECT_EQ(std::get<SurfaceLoad>(deck->loads.at(0).load).vector, (Vector3{0, 0, -100}));
+    EXPECT_EQ(deck->path.stop.loadFactor, 0.25);
+    ASSERT_EQ(deck->output.monitors.size(), 3u);
+    EXPECT_NO_THROW(checkAgainstMesh(*deck, fem::stripMesh(strip)));
+  }
+}
+
+// ------------------------------------------------------------------------------------------- bad decks
+
+TEST(BadDeck, fileThatCannotBeRead) {
+  for (const std::string file : {"no/such/deck.yaml", "/"}) {
+    try {
+      readDeck(file);
+      ADD_FAILURE() << file;
+    } catch (const DeckError& error) {
+      EXPECT_EQ(std::string(error.what()).find(file + ": "), 0u) << error.what();
+    }
+  }
+}
+
+TEST(BadDeck, emptyFiles) {
+  for (const std::string text : {"", "\n\n", "# only a comment\n", "---\n"}) {
+    SCOPED_TRACE(text);
+    expectError(text, "the deck is empty", {"expected the blocks"});
+  }
+}
+
+TEST(BadDeck, textThatIsNoMap) {
+  expectError("hello\n", "line 1, column 1: ", {"expected 'key: value', got 'hello'"});
+  expectError("[1, 2]\n", "line 1, column 1: ", {"not a list"});
+  expectError("- a\n- b\n", "line 1, column 1: ", {"not a list"});
+  expectError(std::string(1000000, 'x'), "line 1, column 1: ", {"got 'xxx", "xxx...'"});
+  expectError("mesh:\n  hello\n", "line 2, column 3: ", {"got 'hello'"});
+  expectError("a: 1\n---\nb: 2\n", "line 2, column 1: ", {"one YAML document"});
+  expectError("%YAML 1.1\n---\na: 1\n", "line 1, column 1: ", {"one YAML document"});
+  expectError("mesh: 3\n", "mesh: ", {"expected a map of keys, got 3", "(line 1)"});
+  expectError(std::string("CDF\x01\0\0\0\0", 8), "line 1, column 4: ", {"ASCII"});
+}
+
+TEST(BadDeck, indentation) {
+  expectError("mesh:\n\tfile: a\n", "line 2, column 1: ", {"spaces, not tabs"});
+  // Teuchos' reader drops such a line without a word.
+  expectError("mesh:\n    file: a\n  generate: b\n", "line 3, column 3: ", {"matches no enclosing block"});
+  expectError("a:\n- 1\n- 2\n", "line 2, column 1: ", {"must be indented below its key"});
+  expectError("a:\n  b: 1\n  - 2\n", "line 3, column 3: ", {"must be indented below its key"});
+  expectError("a:\n  - 2\n  b: 1\n", "line 3, column 3: ", {"expected a list item"});
+  expectError("title: a\n   mesh: b\n", "line 2, column ", {"indented more"});
+}
+
+TEST(BadDeck, keysGivenTwice) {
+  expectError("title: a\nmesh: {file: b}\ntitle: c\n",
+              "line 3, column 1: ", {"'title' is given twice, first on line 1"});
+  expectError("tools:\n  roll: {}\n  # once more\n  roll: {}\n",
+              "line 4, column 3: ", {"'tools/roll' is given twice, first on line 2"});
+  expectError("title: a\nmesh: {file: b, file: c}\n", "line 2, column ", {"'file' is given twice"});
+}
+
+TEST(BadDeck, yamlThatTheReaderRefuses) {
+  expectError("title: Strip: on a roll\n", "line 1, column 13: ", {"unexpected ':'", "quotes"});
+  expectError("title: strip [1]\n", "line 1, column 14: ", {"unexpected '['", "quotes"});
+  expectError("title: \"strip\n", "line 1, column 8: ", {"must end on its own line"});
+  expectError("title: \"a\\n\"\n", "line 1, column 10: ", {"backslashes"});
+  expectError("mesh: {file: a\n", "line 1, column 7: ", {"'{' is never closed"});
+  expectError("mesh: {file: [a}\n", "line 1, column 16: ", {"'}' closes nothing"});
+  expectError("mesh: a]\n", "line 1, column 8: ", {"']' closes nothing"});
+  expectError("a: [1, 2,]\n", "line 1, column 10: ", {"unexpected ']'"});
+  expectError("a: {x: 1,\n    y: }\n", "line 2, column 8: ", {"unexpected '}'"});
+  expectError("a: []\n", "line 1, column ", {"a list must not be empty"});
+  expectError("a: [[1, 2], [3]]\n", "line 1, column ", {"must have the same length"});
+  expectError("a: [true, 1]\n", "line 1, column 9: ", {"not true"});
+  expectError("a:\n  - No\n  - 1\n", "line 2, column 3: ", {"not No"});
+  expectError("a: |\n  text\n", "line 1, column 1: ", {"over several lines"});
+  expectError("a: é\n", "line 1, column 4: ", {"plain ASCII"});
+  expectError("a:\n  - b: 1\n", "line 2, column ", {"a list of maps is not accepted"});
+  expectError("a: [1, {b: 2}]\n", "a list of maps is not accepted", {});
+}
+
+TEST(BadDeck, unknownKeys) {
+  expectError("path:", "paths:", "paths: is not a key here",
+              {"did you mean 'path'?", "allowed are title, mesh,"});
+  expectError("radius: 50", "raduis: 50", "tools/roll/raduis: is not a key here",
+              {"did you mean 'radius'?", "allowed are type, center, axis, radius", "(line 16)"});
+  expectError("order: 15", "zzz: 15", "path/zzz: is not a key here;", {"allowed are order, accuracy"});
+  expectError("{value: 0.5,", "{valeu: 0.5,", "supports/pull/x/valeu: is not a key",
+              {"'value'", "(line 12)"});
+  expectError("{type: cylinder", "{type: plane", "tools/roll/center: is not a key here", {"point, normal"});
+  expectError("lengths:", "length:", "mesh/generate/length: is not a key here", {"did you mean 'lengths'?"});
+  expectError("{load_factor:", "{load_facto:", "path/stop/load_facto: ", {"'load_factor'"});
+}
+
+TEST(BadDeck, missingBlocksAndKeys) {
+  expectError("mesh: {file: a}\n", "materials: is missing",
+              {"expected a map of named entries, each with law"});
+  for (const std::string block : {"materials", "supports", "path"}) {
+    std::string text = goodDeck;
+    const auto begin = text.find(block + ":");
+    auto end = begin;
+    do {  // to the next line that is not indented
+      end = text.find('\n', end) + 1;
+    } while (text[end] == ' ');
+    expectError(text.erase(begin, end - begin), block + ": is missing", {"expected a map"});
+  }
+  expectError("  file: strip.exo\n", "", "mesh/file: is missing; expected a file name", {"(line 3)"});
+  expectError(", radius: 50", "", "tools/roll/radius: is missing; expected a number, positive",
+              {"(line 16)"});
+  expectError("{type: cylinder, ", "{", "tools/roll/type: is missing; expected one of cylinder, plane", {});
+  expectError(", poissons_ratio: 0", "", "materials/steel/poissons_ratio: is missing",
+              {"above -1 and below 0.5"});
+  expectError("regularisation: 0.1", "quadrature_degree: 2", "contact/lower/regularisation: is missing", {});
+  expectError("  stop: {load_factor: 0.25}\n", "", "path/stop: is missing", {"load_factor, steps"});
+  expectError("{load_factor: 0.25}", "{}", "path/stop: is empty", {"at least one of load_factor"});
+  expectError("  roll: {type: cylinder, center: [200, 0, -54.4], axis: [0, 1, 0], radius: 50}\n", "",
+              "tools: is empty; expected a map of named entries", {"(line 15)"});
+  expectError("path:", "solver: {type: amesos2}\npath:", "solver/name: is missing", {"klu2"});
+}
+
+TEST(BadDeck, wrongTypes) {
+  expectError("radius: 50", "radius: big", "tools/roll/radius: expected a finite number, got the text 'big'",
+              {});
+  expectError("radius: 50", "radius: \"50\"",
+              "tools/roll/radius: expected a finite number, got the text '50'", {});
+  expectError("radius: 50", "radius: [50]", "tools/roll/radius: expected a finite number, got the list [50]",
+              {});
+  expectError("radius: 50", "radius: {}", "tools/roll/radius: expected a finite number, got nothing", {});
+  expectError("radius: 50", "radius: true", "tools/roll/radius: expected a finite number, got true", {});
+  expectError("order: 15", "order: 15.0", "path/order: expected a whole number", {"got 15"});
+  expectError("order: 15", "order: 3000000000", "path/order: expected a whole number", {"got 3000000000"});
+  expectError("title: Strip on a roll", "title: no", "title: expected a text, got false",
+              {"quotes", "(line 2)"});
+  expectError("title: Strip on a roll", "title: 3", "title: expected a text, got 3", {"quotes"});
+  expectError("title: Strip on a roll", "title: ''", "title: must not be empty", {});
+  expectError("title: Strip on a roll", "title:", "title: expected a text, got nothing", {});
+  expectError("axis: [0, 1, 0]", "axis: [0, 1]",
+              "tools/roll/axis: expected a list of 3 finite numbers, got the list [0, 1]", {});
+  expectError("axis: [0, 1, 0]", "axis: y",
+              "tools/roll/axis: expected a list of 3 finite numbers, got the text 'y'", {});
+  expectError("axis: [0, 1, 0]", "axis: [[0, 1], [0, 1]]",
+              "tools/roll/axis: expected a list of 3 finite numbers", {"a list of lists"});
+  expectError("divisions: [10, 2, 1]", "divisions: [10, 2.5, 1]",
+              "mesh/generate/divisions: expected a list of 3 whole numbers", {"[10, 2.5, 1]"});
+  expectError("set: x_min", "set: 1.5", "supports/clamp/set: expected a name or id, got 1.5", {});
+  expectError("blocks: [strip]", "blocks: [1.5]", "materials/steel/blocks: expected a list of names or ids",
+              {});
+  expectError("blocks: [strip]", "blocks: [strip, strip]", "materials/steel/blocks: 'strip' is given twice",
+              {});
+  expectError("x: {value: 0.5, per_load_factor: 1.5}", "x: free", "supports/pull/x: expected a finite number",
+              {"'free'", "(line 12)"});
+  expectError("total: [0, 0, -100]}", "total: [0, 0, -100], constant: 1}",
+              "loads/tip/constant: expected true or false, got 1", {});
+  expectError("clamp: {set: x_min, x: 0, y: 0, z: 0}", "clamp: 3",
+              "supports/clamp: expected a map of keys, got 3", {});
+  expectError("clamp:", "clamp/1:", "supports/clamp/1: a name is made of letters", {});
+}
+
+TEST(BadDeck, numbersThatAreNone) {
+  for (const std::string word : {"nan", ".nan", "inf", "-inf", ".inf", "1e400", "0x10", "1d3", "~"}) {
+    SCOPED_TRACE(word);
+    expectError("radius: 50", "radius: " + word,
+                "tools/roll/radius: expected a finite number, got the text '" + word + "'", {"(line 16)"});
+    expectError("axis: [0, 1, 0]", "axis: [0, " + word + ", 0]",
+                "tools/roll/axis: expected a list of 3 finite numbers, got the list [0, " + word + ", 0]",
+                {});
+  }
+}
+
+TEST(BadDeck, valuesOutOfRange) {
+  expectError("radius: 50", "radius: -50", "tools/roll/radius: must be positive, got -50", {"(line 16)"});
+  expectError("radius: 50", "radius: 0.0", "tools/roll/radius: must be positive, got 0", {});
+  expectError("axis: [0, 1, 0]", "axis: [0, 0.0, 0]", "tools/roll/axis: must not be the zero vector", {});
+  expectError("order: 15", "order: 0", "path/order: must be from 1 to 60, got 0", {});
+  expectError("order: 15", "order: 61", "path/order: must be from 1 to 60, got 61", {});
+  expectError("order: 15", "accuracy: 1", "path/accuracy: must be above 0 and below 1, got 1", {});
+  expectError("order: 15", "residual: -1e-6", "path/residual: must be above 0 and below 1, got -1e-06", {});
+  expectError("order: 15", "direction: 0", "path/direction: must be 1 or -1, got 0", {});
+  expectError("load_factor: 0.25", "load_factor: 0", "path/stop/load_factor: must be different from zero",
+              {});
+  expectError("load_factor: 0.25", "steps: 0", "path/stop/steps: must be at least 1, got 0", {});
+  expectError("load_factor: 0.25", "path_length: -1", "path/stop/path_length: must be positive, got -1", {});
+  expectError("poissons_ratio: 0,", "poissons_ratio: 0.5,",
+              "materials/steel/poissons_ratio: must be above -1 and", {});
+  expectError("youngs_modulus: 220000", "youngs_modulus: 0",
+              "materials/steel/youngs_modulus: must be positive", {});
+  expectError("lengths: [10, 2.0, 1]", "lengths: [10, 2.0, -1]",
+              "mesh/generate/lengths: each length must be positive", {"[10, 2, -1]"});
+  expectError("divisions: [10, 2, 1]", "divisions: [10, 0, 1]",
+              "mesh/generate/divisions: each number must be at least 1", {});
+  expectError("stiffness: 1.0e3", "stiffness: 0", "contact/lower/stiffness: must be positive, got 0", {});
+  expectError("stiffness: 1.0e3", "stiffness: stiff",
+              "contact/lower/stiffness: expected a positive number or rigid", {"'stiff'"});
+  expectError("regularisation: 0.1", "regularisation: 0.1, reference_gap: 1.0e-4",
+              "contact/lower/reference_gap: must be above regularisation/stiffness = 0.0001, got 0.0001", {});
+  expectError("regularisation: 0.1", "regularisation: 0.1, quadrature_degree: 0",
+              "contact/lower/quadrature_degree: must be from 1", {});
+  expectError("output:", "output:\n  points_per_step: 0", "output/points_per_step: must be at least 1, got 0",
+              {});
+  const std::string box = "shape: box, lengths: [10, 2.0, 1]";
+  expectError(box, "shape: strip, length: 1, width: 1, thickness: -0.8",
+              "mesh/generate/thickness: must be positive, got -0.8", {});
+  expectError(box, "shape: cylinder_panel, mid_radius: 1, thickness: 2, theta: [0, 90], length: 1",
+              "mesh/generate/thickness: must be below twice mid_radius = 1, got 2", {});
+  expectError(box, "shape: cylinder_panel, mid_radius: 1, thickness: 0.1, theta: [90, 0], length: 1",
+              "mesh/generate/theta: must ascend, got the list [90, 0]", {});
+  expectError(box,
+              "shape: sphere_panel, mid_radius: 1, thickness: 0.1, longitude: [0, 90], latitude: [0, 90]",
+              "mesh/generate/latitude: must stay above -90 and below 90 degrees", {});
+}
+
+TEST(BadDeck, choices) {
+  expectError("type: cylinder", "type: cilinder", "tools/roll/type: 'cilinder' is not a choice here",
+              {"did you mean 'cylinder'?", "expected one of cylinder, plane"});
+  expectError("law: saint_venant_kirchhoff", "law: mooney", "materials/steel/law: 'mooney' is not a choice",
+              {});
+  expectError("cell: HEX20", "cell: HEX21", "mesh/generate/cell: 'HEX21' is not a choice here",
+              {"HEX8, HEX20, HEX27"});
+  expectError("component: z", "component: w", "output/monitors/tip_uz/component: 'w' is not a choice here",
+              {"one of x, y, z"});
+  expectError("component: z", "component: 3",
+              "output/monitors/tip_uz/component: expected one of x, y, z, got 3", {});
+  expectError("output:", "output:\n  fields: [displacement, strain]",
+              "output/fields: 'strain' is not a choice here", {});
+  expectError("output:", "output:\n  fields: [stress, stress]", "output/fields: 'stress' is given twice", {});
+  expectError("path:", "solver: {type: pardiso}\npath:", "solver/type: 'pardiso' is not a choice",
+              {"mumps, amesos2"});
+}
+
+TEST(BadDeck, keysThatContradictEachOther) {
+  expectError("total: [0, 0, -100]", "total: [0, 0, -100], pressure: 1",
+              "loads/tip: needs exactly one of total, traction, pressure, got total, pressure",
+              {"(line 14)"});
+  expectError(", total: [0, 0, -100]", "",
+              "loads/tip: needs exactly one of total, traction, pressure, got none", {});
+  expectError("type: surface, set: x_max, total: [0, 0, -100]", "type: nodal, set: x_max",
+              "loads/tip: needs exactly one of total, per_node, got none", {});
+  expectError("clamp: {set: x_min, x: 0, y: 0, z: 0}", "clamp: {set: x_min}",
+              "supports/clamp: holds nothing; expected at least one of x, y, z", {"(line 9)"});
+  expectError("regularisation: 0.1", "regularisation: 0.1, points: nodes, quadrature_degree: 3",
+              "contact/lower/quadrature_degree: has no meaning with points: nodes", {});
+  expectError("path:", "solver: {type: mumps, name: klu2}\npath:",
+              "solver/name: has no meaning with type: mumps", {});
+}
+
+TEST(BadDeck, references) {
+  expectError("tool: roll", "tool: rol", "contact/lower/tool: no entry 'rol' in tools (did you mean 'roll'?)",
+              {"there are roll", "(line 18)"});
+  expectError("tools:\n  roll: {type: cylinder, center: [200, 0, -54.4], axis: [0, 1, 0], radius: 50}\n", "",
+              "contact/lower/tool: no entry 'roll' in tools; there are none", {});
+  expectError("{load_factor: 0.25}", "{displacement: {tip_ux: -50}}",
+              "path/stop/displacement/tip_ux: no entry 'tip_ux' in output/monitors (did you mean 'tip_uz'?)",
+              {});
+  expectError("supports:",
+              "  other: {law: saint_venant_kirchhoff, youngs_modulus: 1, poissons_ratio: 0, blocks: "
+              "[strip]}\nsupports:",
+              "materials/other/blocks: block 'strip' already has the material 'steel'", {"(line 8)"});
+  const std::string monitor = "{type: displacement, set: x_max, component: z}";
+  expectError(monitor, "{type: contact_force, contact: upper}",
+              "output/monitors/tip_uz/contact: no entry 'upper' in contact", {"there are lower"});
+  expectError(monitor, "{type: reaction, support: clam, component: z}",
+              "output/monitors/tip_uz/support: no entry 'clam' in supports (did you mean 'clamp'?)", {});
+  expectError(monitor, "{type: reaction, support: pull, component: z}",
+              "output/monitors/tip_uz/component: support 'pull' does not hold z", {});
+  std::string text = changed(monitor, "{type: contact_force, contact: lower}");
+  text.replace(text.find("{load_factor: 0.25}"), 19, "{displacement: {tip_uz: -50}}");
+  expectError(text, "path/stop/displacement/tip_uz: the monitor 'tip_uz' is not of type displacement", {});
+  // Without contact the tool is idle and the default fields leave contact out.
+  const std::string contact =
+      "contact:\n  lower: {tool: roll, set: z_min, stiffness: 1.0e3, regularisation: 0.1}\n";
+  EXPECT_EQ(errorOf(changed(contact, "")), "no error");
+  std::string withField = changed(contact, "");
+  withField.replace(withField.find("output:"), 7, "output:\n  fields: [contact]");
+  expectError(withField, "output/fields: 'contact' needs the block contact", {"(line 21)"});
+}
+
+TEST(BadDeck, nothingToDrive) {
+  std::string text = changed("per_load_factor: 1.5", "per_load_factor: 0");
+  EXPECT_EQ(errorOf(text), "no error");
+  text.replace(text.find("-100]"), 5, "0]");
+  expectError(text, "nothing depends on the load factor", {"per_load_factor"});
+  text.replace(text.find("0, 0, 0]}"), 9, "0, 0, 1], constant: true}");
+  expectError(text, "nothing depends on the load factor", {"per_load_factor"});
+}
+
+// A deck cut off or damaged anywhere is refused in one line or still a deck; nothing else escapes.
+TEST(BadDeck, damagedAnywhere) {
+  const std::string good = goodDeck;
+  int refused = 0;
+  const auto tryDeck = [&](const std::string& text) {
+    try {
+      readDeckText(text, "d.yaml");
+    } catch (const DeckError& error) {
+      ++refused;
+      const std::string line = error.what();
+      EXPECT_EQ(line.find("d.yaml: "), 0u) << line;
+      EXPECT_EQ(line.find('\n'), std::string::npos) << line << "\n" << text;
+    } catch (const std::exception& error) {
+      ADD_FAILURE() << error.what() << "\n" << text;
+    }
+  };
+  for (std::size_t i = 0; i < good.size(); ++i) {
+    tryDeck(good.substr(0, i));
+    tryDeck(good.substr(0, i) + good.substr(i + 1));
+    tryDeck(good.substr(0, i) + "]{:-'#,"[i % 7] + good.substr(i + 1));
+  }
+  EXPECT_GT(refused, static_cast<int>(good.size()));  // all but the last prefixes, to begin with
+}
+
+// ------------------------------------------------------------------------------------ against the mesh
+
+namespace {
+
+std::string meshErrorOf(const std::string& from, const std::string& to, const fem::Mesh* mesh = nullptr) {
+  const Deck deck = readDeckText(changed(from, to), "solid.yaml");
+  try {
+    checkAgainstMesh(deck,
+                     mesh != nullptr ? *mesh : fem::boxMesh(std::get<fem::BoxOptions>(*deck.mesh.generate)));
+  } catch (const DeckError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+void expectMeshError(const std::string& from, const std::string& to, const std::string& start,
+                     const std::string& words) {
+  const std::string error = meshErrorOf(from, to);
+  EXPECT_EQ(error.find(start), 0u) << error;
+  EXPECT_NE(error.find(words), std::string::npos) << error;
+  EXPECT_EQ(error.find('\n'), std::string::npos) << error;
+}
+
+}  // namespace
+
+TEST(DeckAgainstMesh, namesThatTheMeshLacks) {
+  EXPECT_EQ(meshErrorOf("x_min", "x_min"), "no error");
+  EXPECT_EQ(meshErrorOf("set: z_min", "set: 1"), "no error");  // by id
+  expectMeshError("set: x_min,", "set: x_mn,",
+                  "solid.yaml: supports/clamp/set: the mesh has no node set or side set 'x_mn'",
+                  "did you mean 'x_min'?");
+  expectMeshError("blocks: [strip]", "blocks: [stripe]",
+                  "solid.yaml: materials/steel/blocks: the mesh has no block 'stripe'",
+                  "(did you mean 'strip'?); it has the blocks strip");
+  // An edge is a node set only.
+  expectMeshError("{type: surface, set: x_max,", "{type: surface, set: x_max_z_min,",
+                  "solid.yaml: loads/tip/set: the mesh has no side set 'x_max_z_min'",
+                  "it has the side sets x_min, x_max, y_min, y_max, z_min, z_max");
+  EXPECT_EQ(meshErrorOf("{type: surface, set: x_max,", "{type: nodal, set: x_max_z_min,"), "no error");
+  expectMeshError("set: z_min,", "set: x_max_z_min,",
+                  "solid.yaml: contact/lower/set: the mesh has no side set", "side sets");
+  EXPECT_EQ(meshErrorOf("set: z_min,", "points: nodes, set: x_max_z_min,"), "no error");
+  expectMeshError("{type: displacement, set: x_max,", "{type: displacement, set: tip,",
+                  "solid.yaml: output/monitors/tip_uz/set: the mesh has no node set or side set 'tip'",
+                  "node sets");
+  expectMeshError("{type: surface, set: x_max, total: [0, 0, -100]}",
+                  "{type: volume, blocks: [roof], force: [0, 0, 1]}",
+                  "solid.yaml: loads/tip/blocks: the mesh has no block 'roof'", "blocks strip");
+}
+
+TEST(DeckAgainstMesh, everyBlockHasOneMaterial) {
+  const Deck deck = readDeckText(goodDeck, "solid.yaml");
+  fem::Mesh mesh = fem::boxMesh(std::get<fem::BoxOptions>(*deck.mesh.generate));
+  mesh.blocks.push_back(mesh.blocks[0]);
+  mesh.blocks[1].name = "core";
+  mesh.blocks[1].id = 5;
+  EXPECT_EQ(meshErrorOf("x_min", "x_min", &mesh),
+            "solid.yaml: materials: the mesh's block 'core' has no material");
+  EXPECT_EQ(meshErrorOf("blocks: [strip]", "blocks: [strip, 5]", &mesh), "no error");
+  EXPECT_EQ(meshErrorOf("blocks: [strip]", "blocks: [strip, 5, core]", &mesh),
+            "solid.yaml: materials/steel/blocks: block 'core' already has the material 'steel'");
+  mesh.blocks.pop_back();
+  for (auto& set : mesh.sideSets) {
+    set.sides.clear();
+  }
+  EXPECT_EQ(meshErrorOf("x_min", "x_min", &mesh), "solid.yaml: loads/tip/set: the side set 'x_max' is empty");
+}
+
+// ------------------------------------------------------------------------------------------ reference
+
+TEST(DeckReference, explainsEveryKey) {
+  std::ifstream in(std::string(ATRAPOS_DOCS) + "/deck.md");
+  std::stringstream docs;
+  docs << in.rdbuf();
+  std::ostringstream keys;
+  describeKeys(keys);
+  std::istringstream lines(keys.str());
+  int count = 0;
+  for (std::string line; std::getline(lines, line); ++count) {
+    const std::string path = line.substr(0, line.find(':'));
+    const std::string key = path.substr(path.rfind('/') + 1);
+    EXPECT_NE(docs.str().find("`" + key + "`"), std::string::npos)
+        << "docs/deck.md does not explain " << path;
+  }
+  EXPECT_GT(count, 60);  // there are 80 or so: an empty list would pass the loop
+}
