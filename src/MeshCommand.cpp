@@ -22,8 +22,8 @@ struct Builder {
 
 fem::Mesh generateMesh(const deck::Deck& deck) {
   if (!deck.mesh.generate)
-    throw deck::DeckError(fmt::format("{}: mesh/generate: missing; `atrapos mesh` needs it to make {}", deck.file,
-                                      deck.mesh.file));
+    throw deck::DeckError(fmt::format("{}: mesh/generate: missing; `atrapos mesh` needs it to make {}",
+                                      deck.file, deck.mesh.file));
   try {
     fem::Mesh mesh = std::visit(Builder{}, *deck.mesh.generate);
     mesh.title = deck.title.substr(0, 80);  // what Exodus holds
@@ -35,8 +35,9 @@ fem::Mesh generateMesh(const deck::Deck& deck) {
 
 fem::Mesh readDeckMesh(const deck::Deck& deck) {
   if (!std::filesystem::exists(deck.mesh.path))
-    throw deck::DeckError(fmt::format("{}: mesh/file: {} does not exist{}", deck.file, deck.mesh.path,
-                                      deck.mesh.generate ? fmt::format("; `atrapos mesh {}` makes it", deck.file) : ""));
+    throw deck::DeckError(
+        fmt::format("{}: mesh/file: {} does not exist{}", deck.file, deck.mesh.path,
+                    deck.mesh.generate ? fmt::format("; `atrapos mesh {}` makes it", deck.file) : ""));
   try {
     return exodus::readMesh(deck.mesh.path);
   } catch (const exodus::Error& e) {

@@ -32,7 +32,8 @@ void PathTable::append(int step, double pathLength, double loadFactor, const std
   if (!out_) throw std::runtime_error(fmt::format("{}: cannot be written (disk full?)", file_));
 }
 
-std::string plotPath(const std::string& directory, const std::string& title, const std::vector<std::string>& monitors) {
+std::string plotPath(const std::string& directory, const std::string& title,
+                     const std::vector<std::string>& monitors) {
   const auto quoted = [](std::string text) {
     std::replace(text.begin(), text.end(), '"', '\'');
     std::replace(text.begin(), text.end(), '\\', '/');

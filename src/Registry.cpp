@@ -59,7 +59,8 @@ std::array<double, 4> project(const deck::Tool& entry, const double* x) {
 }
 
 std::unique_ptr<fem::Term> contactTerm(const deck::Tool& entry, const contact::RegularisedPressure& pressure,
-                                       const fem::PointSet& points, const std::vector<double>& referenceGaps) {
+                                       const fem::PointSet& points,
+                                       const std::vector<double>& referenceGaps) {
   return std::visit(
       [&](const auto& surface) -> std::unique_ptr<fem::Term> {
         using Law = contact::ContactLaw<decltype(tool(surface))>;

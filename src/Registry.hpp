@@ -8,7 +8,8 @@
 #include "atrapos/fem/Term.hpp"
 #include "deck/Deck.hpp"
 
-/// The laws and tools that decks can name. A new one is one struct in its package and one line in Registry.cpp.
+/// The laws and tools that decks can name. A new one is one struct in its package and one line in
+/// Registry.cpp.
 namespace atrapos::registry {
 
 /// The term of a material at volume points.

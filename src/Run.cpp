@@ -24,8 +24,9 @@
 namespace atrapos {
 namespace {
 
-const std::vector<std::string> kGlobals = {"load_factor",     "path_parameter",  "series_radius", "series_order",
-                                           "negative_pivots", "active_contacts", "residual_norm"};
+const std::vector<std::string> kGlobals = {"load_factor",  "path_parameter",  "series_radius",
+                                           "series_order", "negative_pivots", "active_contacts",
+                                           "residual_norm"};
 
 std::atomic<bool> interrupted{false};
 void onSignal(int) { interrupted = true; }
@@ -55,9 +56,9 @@ class Recorder final : public path::Observer {
         residual_(Teuchos::rcp(new path::Vector(scene.problem().map()))),
         start_(std::chrono::steady_clock::now()) {
     if (options_.progress) {
-      *options_.progress << fmt::format("{:>5} {:>5} {:>10} {:>13} {:>10} {:>10} {:>4} {:>4} {:>8} {:>8}  {}\n", "step",
-                                        "order", "radius", "load factor", "length", "residual", "cut", "corr", "contacts",
-                                        "time s", "events");
+      *options_.progress << fmt::format(
+          "{:>5} {:>5} {:>10} {:>13} {:>10} {:>10} {:>4} {:>4} {:>8} {:>8}  {}\n", "step", "order", "radius",
+          "load factor", "length", "residual", "cut", "corr", "contacts", "time s", "events");
     }
   }
 
@@ -65,7 +66,8 @@ class Recorder final : public path::Observer {
   void writeStart(const path::State& state) {
     const path::ResidualNorm r = scene_.problem().residual(*state.u, state.lambda, *residual_);
     table_.append(0, 0.0, state.lambda, scene_.monitors(*state.u, state.lambda), r.relative());
-    writeFields(*state.u, state.lambda, 0.0, {state.lambda, 0, 0, 0, 0, double(activeContacts(*state.u)), r.relative()});
+    writeFields(*state.u, state.lambda, 0.0,
+                {state.lambda, 0, 0, 0, 0, double(activeContacts(*state.u)), r.relative()});
   }
 
   bool onStep(const path::StepReport& report, const path::Series& series) override {
@@ -93,7 +95,9 @@ class Recorder final : public path::Observer {
 
   double outputSeconds() const { return outputSeconds_; }
   double worstResidual() const { return worstResidual_; }
-  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+  double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
 
  private:
   static exodus::ResultNames names(const Scene& scene) {
@@ -131,12 +135,14 @@ class Recorder final : public path::Observer {
     if (!options_.progress) return;
     std::string events;
     for (const path::LimitPoint& p : r.limitPoints)
-      events += fmt::format("limit point ({}) at load factor {:.8g}; ", p.maximum ? "maximum" : "minimum", p.lambda);
+      events += fmt::format("limit point ({}) at load factor {:.8g}; ", p.maximum ? "maximum" : "minimum",
+                            p.lambda);
     if (!events.empty()) events.resize(events.size() - 2);
-    *options_.progress << fmt::format("{:>5} {:>5} {:>10.3e} {:>13.6g} {:>10.3e} {:>10.2e} {:>4} {:>4} {:>8} {:>8.2f}  {}",
-                                      r.step, r.order, r.radius, r.lambdaEnd, r.length, r.residual, r.cutBacks,
-                                      r.corrections, active, seconds(), events)
-                       << std::endl;
+    *options_.progress
+        << fmt::format("{:>5} {:>5} {:>10.3e} {:>13.6g} {:>10.3e} {:>10.2e} {:>4} {:>4} {:>8} {:>8.2f}  {}",
+                       r.step, r.order, r.radius, r.lambdaEnd, r.length, r.residual, r.cutBacks,
+                       r.corrections, active, seconds(), events)
+        << std::endl;
   }
 
   Scene& scene_;
@@ -148,8 +154,8 @@ class Recorder final : public path::Observer {
   double worstResidual_ = 0, outputSeconds_ = 0;
 };
 
-nlohmann::ordered_json summary(const Scene& scene, const path::Outcome& outcome, const linear::TangentSolver& solver,
-                               const Recorder& recorder) {
+nlohmann::ordered_json summary(const Scene& scene, const path::Outcome& outcome,
+                               const linear::TangentSolver& solver, const Recorder& recorder) {
   const auto& w = outcome.seconds;
   nlohmann::ordered_json json;
   json["program"] = "atrapos " + std::string(kVersion);
@@ -182,9 +188,10 @@ nlohmann::ordered_json summary(const Scene& scene, const path::Outcome& outcome,
   json["execution_space"] = Kokkos::DefaultExecutionSpace::name();
   json["threads"] = Kokkos::DefaultExecutionSpace::concurrency();
   json["series_bytes"] = scene.problem().historyBytes(scene.deck().path.order);
-  json["seconds"] = {{"tangent", w.tangent},   {"factorization", w.factor}, {"solves", w.solve}, {"order_rhs", w.orderRhs},
-                     {"residual", w.residual},
-                     {"output", recorder.outputSeconds()}, {"total", recorder.seconds()}};
+  json["seconds"] = {{"tangent", w.tangent},       {"factorization", w.factor},
+                     {"solves", w.solve},          {"order_rhs", w.orderRhs},
+                     {"residual", w.residual},     {"output", recorder.outputSeconds()},
+                     {"total", recorder.seconds()}};
   return json;
 }
 
@@ -206,7 +213,9 @@ RunResult runScene(Scene& scene, const RunOptions& options) {
   pathOptions.maxSteps = deck.path.stop.steps;
   path::PathFollower follower(problem, *solver, pathOptions, scene.stops());
 
-  std::filesystem::create_directories(options.directory);
+  prepareFolder(options.directory, {"path.csv", "results.exo", "summary.json", "path.png"});
+  // A run that is killed must not leave an earlier run's summary and picture beside its own table.
+  for (const char* old : {"summary.json", "path.png"}) std::filesystem::remove(options.directory + "/" + old);
   interrupted = false;
   SignalGuard signals;
   Recorder recorder(scene, options);
@@ -217,12 +226,13 @@ RunResult runScene(Scene& scene, const RunOptions& options) {
   const std::string plot = plotPath(options.directory, deck.title, scene.monitorNames());
 
   RunResult result;
-  result.reachedStop = outcome.reason == path::EndReason::stopReached || outcome.reason == path::EndReason::stepLimit;
+  result.reachedStop =
+      outcome.reason == path::EndReason::stopReached || outcome.reason == path::EndReason::stepLimit;
   result.text = interrupted ? "interrupted; every finished step is on disk" : outcome.text;
   if (options.progress) {
-    *options.progress << fmt::format("{} steps, {} factorizations, {} solves, {:.2f} s; worst residual {:.2e}\n",
-                                     outcome.steps, outcome.factorizations, outcome.solves, recorder.seconds(),
-                                     recorder.worstResidual());
+    *options.progress << fmt::format(
+        "{} steps, {} factorizations, {} solves, {:.2f} s; worst residual {:.2e}\n", outcome.steps,
+        outcome.factorizations, outcome.solves, recorder.seconds(), recorder.worstResidual());
     if (!plot.empty()) *options.progress << plot << '\n';
   }
   return result;

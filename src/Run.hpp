@@ -8,7 +8,7 @@
 namespace atrapos {
 
 struct RunOptions {
-  std::string directory;          ///< where results go; made if missing
+  std::string directory;             ///< where results go; made if missing
   std::ostream* progress = nullptr;  ///< one line a step; none where null
 };
 

@@ -13,23 +13,6 @@
 #include "atrapos/fem/ReferenceCell.hpp"
 
 namespace atrapos {
-namespace {
-
-int componentIndex(deck::Component c) { return static_cast<int>(c); }
-
-/// Calls f on each term's points of a contact: f(point set, values, first value of point).
-template <class F>
-void forEachPoint(const fem::FeProblem& problem, const ContactPoints& contact, const path::Vector& u, const F& f) {
-  for (std::size_t t = 0; t < contact.terms.size(); ++t) {
-    const fem::PointValues observed = problem.term(contact.terms[t]).observe(fem::field(u));
-    const int M = static_cast<int>(observed.names.size());
-    for (int p = 0; p < contact.points[t].numPoints(); ++p)
-      f(t, p, &observed.values[static_cast<std::size_t>(p) * M]);
-  }
-}
-
-}  // namespace
-
 Scene::Scene(const deck::Deck& deck, fem::Mesh mesh) : deck_(deck), mesh_(std::move(mesh)) {
   deck::checkAgainstMesh(deck_, mesh_);
   fem::FeModel model;
@@ -40,6 +23,7 @@ Scene::Scene(const deck::Deck& deck, fem::Mesh mesh) : deck_(deck), mesh_(std::m
   addLoads(model);
   addContacts(model);
   requireSupport(model.supports);
+  requireEffect(model);
   problem_ = std::make_unique<fem::FeProblem>(std::move(model));
 }
 
@@ -97,14 +81,18 @@ void Scene::addLoads(fem::FeModel& model) const {
     void operator()(const deck::SurfaceLoad& load) const {
       const auto& set = scene.mesh_.sideSets.at(fem::findSideSet(scene.mesh_, load.set));
       switch (load.kind) {
-        case deck::SurfaceLoad::Kind::Total: return fem::addSurfaceForce(scene.mesh_, set, load.vector, force);
-        case deck::SurfaceLoad::Kind::Traction: return fem::addTraction(scene.mesh_, set, load.vector, force);
-        case deck::SurfaceLoad::Kind::Pressure: return fem::addPressure(scene.mesh_, set, load.pressure, force);
+        case deck::SurfaceLoad::Kind::Total:
+          return fem::addSurfaceForce(scene.mesh_, set, load.vector, force);
+        case deck::SurfaceLoad::Kind::Traction:
+          return fem::addTraction(scene.mesh_, set, load.vector, force);
+        case deck::SurfaceLoad::Kind::Pressure:
+          return fem::addPressure(scene.mesh_, set, load.pressure, force);
       }
     }
     void operator()(const deck::VolumeLoad& load) const {
       for (const std::string& name : load.blocks)
-        fem::addBodyForce(scene.mesh_, scene.mesh_.blocks.at(fem::findBlock(scene.mesh_, name)), load.force, force);
+        fem::addBodyForce(scene.mesh_, scene.mesh_.blocks.at(fem::findBlock(scene.mesh_, name)), load.force,
+                          force);
     }
   };
   for (const deck::Load& load : deck_.loads)
@@ -134,22 +122,24 @@ void Scene::addContacts(fem::FeModel& model) {
         const double* x = &points.positions[3 * static_cast<std::size_t>(p)];
         const double gap = registry::project(tool, x)[0];
         if (!std::isfinite(gap))
-          fail("contact/" + contact.name, fmt::format("the point ({:.6g}, {:.6g}, {:.6g}) has no projection on tool '{}'",
-                                                      x[0], x[1], x[2], tool.name));
+          fail("contact/" + contact.name,
+               fmt::format("the point ({:.6g}, {:.6g}, {:.6g}) has no projection on tool '{}'", x[0], x[1],
+                           x[2], tool.name));
         // Rounding of coordinates as large as the scene; anything deeper is meant.
         const double rounding = 1e-12 * (1 + std::abs(x[0]) + std::abs(x[1]) + std::abs(x[2]));
         if (gap < -rounding)
-          fail("contact/" + contact.name,
-               fmt::format("tool '{}' penetrates the body at the start: gap {:.6g} at ({:.6g}, {:.6g}, {:.6g}); move the "
-                           "tool or the mesh apart",
-                           tool.name, gap, x[0], x[1], x[2]));
+          fail("contact/" + contact.name, fmt::format("tool '{}' penetrates the body at the start: gap "
+                                                      "{:.6g} at ({:.6g}, {:.6g}, {:.6g}); move the "
+                                                      "tool or the mesh apart",
+                                                      tool.name, gap, x[0], x[1], x[2]));
         // Law (15) needs Delta > eta/alpha; a point that touches at the start gets the least sensible value.
         const double least = 2 * pressure.eta * pressure.compliance;
         if (!contact.referenceGap && !(std::max(gap, least) > 0))
           fail("contact/" + contact.name + "/reference_gap",
-               fmt::format("the body touches tool '{}' at ({:.6g}, {:.6g}, {:.6g}): a rigid contact needs a positive "
-                           "reference_gap there, give a number",
-                           tool.name, x[0], x[1], x[2]));
+               fmt::format(
+                   "the body touches tool '{}' at ({:.6g}, {:.6g}, {:.6g}): a rigid contact needs a positive "
+                   "reference_gap there, give a number",
+                   tool.name, x[0], x[1], x[2]));
         gaps.push_back(gap);
         references.push_back(contact.referenceGap ? *contact.referenceGap : std::max(gap, least));
         entry.smallestGap = std::min(entry.smallestGap, gap);
@@ -175,170 +165,22 @@ void Scene::requireSupport(const fem::Supports& supports) const {
       }
   }
   for (const fem::FreeBody& body : fem::freeBodies(mesh_, supports, held))
-    fail("supports", fmt::format("the body with block '{}' can still move freely in {} rigid motion{}: prescribe more "
-                                 "displacements",
-                                 body.block, body.motions, body.motions == 1 ? "" : "s"));
+    fail("supports",
+         fmt::format("the body with block '{}' can still move freely in {} rigid motion{}: prescribe more "
+                     "displacements",
+                     body.block, body.motions, body.motions == 1 ? "" : "s"));
+}
+
+void Scene::requireEffect(const fem::FeModel& model) const {
+  if (model.supports.driven()) return;
+  for (std::size_t dof = 0; dof < model.load.size(); ++dof)
+    if (model.load[dof] != 0 && !model.supports.fixed(static_cast<int>(dof))) return;
+  fail("loads", "without effect: all that depends on the load factor acts on supported displacements");
 }
 
 int Scene::numContactPoints() const {
   return std::accumulate(contacts_.begin(), contacts_.end(), 0,
                          [](int n, const ContactPoints& c) { return n + c.count; });
-}
-
-path::Stops Scene::stops() const {
-  path::Stops stops;
-  const deck::Stop& stop = deck_.path.stop;
-  if (stop.loadFactor) stops.loadFactors.push_back(*stop.loadFactor);
-  if (stop.pathLength) stops.pathLength = *stop.pathLength;
-  for (const auto& [name, value] : stop.displacement)
-    for (const deck::Monitor& monitor : deck_.output.monitors) {
-      if (monitor.name != name) continue;
-      const auto& displacement = std::get<deck::DisplacementMonitor>(monitor.quantity);
-      const auto nodes = nodesOf(displacement.set);
-      auto weights = Teuchos::rcp(new path::Vector(problem_->map()));
-      for (int n : nodes)
-        weights->sumIntoLocalValue(3 * n + componentIndex(displacement.component),
-                                   displacement.reduce == deck::DisplacementMonitor::Reduce::Mean ? 1.0 / nodes.size() : 1.0);
-      stops.functionals.push_back({name, weights, value});
-    }
-  return stops;
-}
-
-std::vector<std::string> Scene::monitorNames() const {
-  std::vector<std::string> names;
-  for (const deck::Monitor& monitor : deck_.output.monitors) names.push_back(monitor.name);
-  return names;
-}
-
-ContactState Scene::contactState(const ContactPoints& contact, const path::Vector& u) const {
-  const auto& entry = *std::find_if(deck_.contacts.begin(), deck_.contacts.end(),
-                                    [&](const deck::Contact& c) { return c.name == contact.name; });
-  ContactState state;
-  state.smallestGap = std::numeric_limits<double>::infinity();
-  forEachPoint(*problem_, contact, u, [&](std::size_t t, int p, const double* gapAndPressure) {
-    const double gap = gapAndPressure[0], pressure = gapAndPressure[1];
-    const double turn = entry.stiffness ? 2 * entry.regularisation / *entry.stiffness : 1e-3 * contact.gaps[t][p];
-    state.active += gap <= turn;
-    state.normalForce += contact.points[t].weights[p] * pressure;
-    state.smallestGap = std::min(state.smallestGap, gap);
-  });
-  for (int t : contact.terms) {
-    const auto force = problem_->forces(problem_->term(t), u);
-    for (std::size_t d = 0; d < force.size(); ++d) state.resultant[d % 3] -= force[d];
-  }
-  return state;
-}
-
-std::vector<double> Scene::monitors(const path::Vector& u, double lambda) const {
-  std::vector<double> result;
-  struct Evaluator {
-    const Scene& scene;
-    const path::Vector& u;
-    double lambda;
-    double operator()(const deck::DisplacementMonitor& m) const {
-      const auto values = u.getLocalViewHost(Tpetra::Access::ReadOnly);
-      const auto nodes = scene.nodesOf(m.set);
-      double sum = 0;
-      for (int n : nodes) sum += values(3 * n + componentIndex(m.component), 0);
-      return m.reduce == deck::DisplacementMonitor::Reduce::Mean ? sum / nodes.size() : sum;
-    }
-    double operator()(const deck::ContactForceMonitor& m) const {
-      for (const ContactPoints& contact : scene.contacts_)
-        if (contact.name == m.contact) {
-          const ContactState state = scene.contactState(contact, u);
-          return m.component == deck::Component::Normal ? state.normalForce : state.resultant[componentIndex(m.component)];
-        }
-      return 0;
-    }
-    double operator()(const deck::ReactionMonitor& m) const {
-      const auto reactions = scene.problem_->reactions(u, lambda);
-      const auto& support = *std::find_if(scene.deck_.supports.begin(), scene.deck_.supports.end(),
-                                          [&](const deck::Support& s) { return s.name == m.support; });
-      double sum = 0;
-      if (!support.components[componentIndex(m.component)]) return 0;
-      for (int n : scene.nodesOf(support.set)) sum += reactions[3 * n + componentIndex(m.component)];
-      return sum;
-    }
-  };
-  for (const deck::Monitor& monitor : deck_.output.monitors)
-    result.push_back(std::visit(Evaluator{*this, u, lambda}, monitor.quantity));
-  return result;
-}
-
-bool Scene::writes(deck::OutputField field) const {
-  const auto& fields = deck_.output.fields;
-  return std::find(fields.begin(), fields.end(), field) != fields.end();
-}
-
-std::vector<std::string> Scene::nodalNames() const {
-  std::vector<std::string> names;
-  if (writes(deck::OutputField::Displacement)) names.insert(names.end(), {"displ_x", "displ_y", "displ_z"});
-  if (writes(deck::OutputField::Reaction)) names.insert(names.end(), {"reaction_x", "reaction_y", "reaction_z"});
-  if (writes(deck::OutputField::Contact) && !contacts_.empty())
-    names.insert(names.end(), {"contact_gap", "contact_pressure"});
-  return names;
-}
-
-std::vector<std::string> Scene::elementNames() const {
-  if (!writes(deck::OutputField::Stress)) return {};
-  return {"stress_xx", "stress_yy", "stress_zz", "stress_xy", "stress_yz", "stress_zx"};
-}
-
-std::vector<std::vector<double>> Scene::nodalValues(const path::Vector& u, double lambda) const {
-  const int numNodes = mesh_.numNodes();
-  std::vector<std::vector<double>> result;
-  const auto split = [&](const std::vector<double>& field) {
-    for (int i = 0; i < 3; ++i) {
-      std::vector<double> component(numNodes);
-      for (int n = 0; n < numNodes; ++n) component[n] = field[3 * static_cast<std::size_t>(n) + i];
-      result.push_back(std::move(component));
-    }
-  };
-  if (writes(deck::OutputField::Displacement)) split(fem::FeProblem::values(u));
-  if (writes(deck::OutputField::Reaction)) split(problem_->reactions(u, lambda));
-  if (writes(deck::OutputField::Contact) && !contacts_.empty()) {
-    // Point values to nodes: means weighted by weight * N^2 (positive, also at the corners of serendipity faces).
-    // Nodes that carry no contact show zero.
-    std::vector<double> gap(numNodes, 0.0), pressure(numNodes, 0.0), share(numNodes, 0.0);
-    for (const ContactPoints& contact : contacts_)
-      forEachPoint(*problem_, contact, u, [&](std::size_t t, int p, const double* gapAndPressure) {
-        const fem::PointSet& points = contact.points[t];
-        const int N = points.nodesPerEntity, e = p / points.pointsPerEntity;
-        for (int n = 0; n < N; ++n) {
-          const double shape = points.shape[static_cast<std::size_t>(p) * N + n];
-          const double w = points.weights[p] * shape * shape;
-          const int node = points.nodes[static_cast<std::size_t>(e) * N + n];
-          gap[node] += w * gapAndPressure[0];
-          pressure[node] += w * gapAndPressure[1];
-          share[node] += w;
-        }
-      });
-    for (int n = 0; n < numNodes; ++n)
-      if (share[n] > 0) {
-        gap[n] /= share[n];
-        pressure[n] /= share[n];
-      }
-    result.push_back(std::move(gap));
-    result.push_back(std::move(pressure));
-  }
-  return result;
-}
-
-std::vector<std::vector<double>> Scene::elementValues(const path::Vector& u) const {
-  if (!writes(deck::OutputField::Stress)) return {};
-  std::vector<std::vector<double>> result(6);
-  for (std::size_t b = 0; b < mesh_.blocks.size(); ++b) {
-    const fem::Term& term = problem_->term(blockTerms_[b]);
-    const fem::PointValues observed = term.observe(fem::field(u));
-    const int points = static_cast<int>(observed.values.size()) / 6 / term.numEntities();
-    for (int e = 0; e < term.numEntities(); ++e)
-      for (int i = 0; i < 6; ++i) {
-        double mean = 0;
-        for (int q = 0; q < points; ++q) mean += observed.values[(static_cast<std::size_t>(e) * points + q) * 6 + i];
-        result[i].push_back(mean / points);
-      }
-  }
-  return result;
 }
 
 }  // namespace atrapos

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <memory>
 #include <string>
 #include <vector>
@@ -24,11 +25,9 @@ struct ContactPoints {
 
 /// State of one contact at a point of the path.
 struct ContactState {
-  double normalForce = 0;              ///< sum of weight * R over the points
-  double resultant[3] = {0, 0, 0};     ///< force on the body
-  int active = 0;                      ///< closed points: h <= 2 eta/alpha, the vertex of the hyperbola (15); for
-                                       ///< the rigid law h <= 1e-3 of the initial gap
-  double smallestGap = 0;
+  double normalForce = 0;  ///< sum of weight * R over the points
+  /// Closed points: h <= 2 eta/alpha, the vertex of the hyperbola (15); rigid: h <= 1e-3 of the initial gap.
+  int active = 0;
 };
 
 /// A deck and its mesh made into a finite-element problem, with what the deck asks to be watched.
@@ -51,6 +50,8 @@ class Scene {
   std::vector<double> monitors(const path::Vector& u, double lambda) const;
 
   ContactState contactState(const ContactPoints& contact, const path::Vector& u) const;
+  /// Total force of a contact on the body.
+  std::array<double, 3> contactResultant(const ContactPoints& contact, const path::Vector& u) const;
 
   std::vector<std::string> nodalNames() const;
   std::vector<std::string> elementNames() const;
@@ -66,8 +67,11 @@ class Scene {
   void addLoads(fem::FeModel& model) const;
   void addContacts(fem::FeModel& model);
   void requireSupport(const fem::Supports& supports) const;
+  void requireEffect(const fem::FeModel& model) const;
   [[noreturn]] void fail(const std::string& key, const std::string& problem) const;
   bool writes(deck::OutputField field) const;
+  std::vector<std::vector<double>> nodalContact(const path::Vector& u) const;
+  std::vector<std::vector<double>> nodalStress(const path::Vector& u) const;
 
   deck::Deck deck_;
   fem::Mesh mesh_;

@@ -51,6 +51,9 @@ std::string defaultDirectory(const std::string& deck) {
 int run(const std::string& deckFile, const std::string& output, int threads, bool quiet) {
   const auto deck = atrapos::deck::readDeck(deckFile);
   Runtime runtime(threads);
+  if (threads > 1 && !(Kokkos::DefaultExecutionSpace::concurrency() > 1))
+    throw atrapos::deck::DeckError(fmt::format("atrapos: --threads {}: this build runs on {} (one thread)",
+                                               threads, Kokkos::DefaultExecutionSpace::name()));
   atrapos::Scene scene(deck, atrapos::readDeckMesh(deck));
   atrapos::RunOptions options;
   options.directory = output.empty() ? defaultDirectory(deckFile) : output;
@@ -58,7 +61,8 @@ int run(const std::string& deckFile, const std::string& output, int threads, boo
   if (!quiet) std::cout << fmt::format("{}\n{}\n", deck.title, atrapos::describeMesh(scene.mesh()));
   const auto result = atrapos::runScene(scene, options);
   if (!quiet || !result.reachedStop)
-    (result.reachedStop ? std::cout : std::cerr) << fmt::format("{}\nresults in {}\n", result.text, options.directory);
+    (result.reachedStop ? std::cout : std::cerr)
+        << fmt::format("{}\nresults in {}\n", result.text, options.directory);
   return result.reachedStop ? 0 : kCannotContinue;
 }
 
@@ -93,7 +97,7 @@ int main(int argc, char** argv) {
   runCommand->add_option("DECK", deck, "YAML deck (docs/deck.md)")->required();
   runCommand->add_option("-o,--output", output, "folder for the results (default: <deck>_results here)");
   runCommand->add_option("-t,--threads", threads, "threads of the element loops (default: OMP_NUM_THREADS)")
-      ->check(CLI::PositiveNumber);
+      ->check(CLI::Range(1, 4096));
   runCommand->add_flag("-q,--quiet", quiet, "no progress lines");
 
   auto* meshCommand = app.add_subcommand("mesh", "make the mesh file that a deck describes");
@@ -101,7 +105,8 @@ int main(int argc, char** argv) {
   meshCommand->add_option("-o,--output", output, "Exodus file (default: the deck's mesh/file)");
   meshCommand->add_flag("-q,--quiet", quiet, "print nothing");
 
-  auto* checkCommand = app.add_subcommand("check", "validate a deck and its mesh, print what would be solved");
+  auto* checkCommand =
+      app.add_subcommand("check", "validate a deck and its mesh, print what would be solved");
   checkCommand->add_option("DECK", deck, "YAML deck")->required();
 
   try {

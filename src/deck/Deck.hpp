@@ -156,7 +156,13 @@ struct Solver {
 
 // --------------------------------------------------------------------------------------------- output
 
-enum class OutputField { Displacement, Stress, Contact, Reaction };
+enum class OutputField {
+  Displacement,
+  Stress,       ///< Cauchy stress, element means
+  NodalStress,  ///< the same taken from the cubature points to the nodes and averaged there
+  Contact,
+  Reaction
+};
 enum class Component { X, Y, Z, Normal };
 
 struct DisplacementMonitor {

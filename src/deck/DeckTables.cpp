@@ -50,7 +50,8 @@ Field<S> entries(std::string key, Need need, std::vector<Entry> S::*member, cons
 Field<Output> outputFieldList() {
   Choices<OutputField> choices;
   for (const auto field :
-       {OutputField::Displacement, OutputField::Stress, OutputField::Contact, OutputField::Reaction}) {
+       {OutputField::Displacement, OutputField::Stress, OutputField::NodalStress, OutputField::Contact,
+        OutputField::Reaction}) {
     choices.emplace_back(wordOf(field), field);
   }
   return {"fields",

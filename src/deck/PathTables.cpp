@@ -9,6 +9,7 @@ namespace {
 const Choices<OutputField>& outputFields() {
   static const Choices<OutputField> choices{{"displacement", OutputField::Displacement},
                                             {"stress", OutputField::Stress},
+                                            {"nodal_stress", OutputField::NodalStress},
                                             {"contact", OutputField::Contact},
                                             {"reaction", OutputField::Reaction}};
   return choices;

@@ -12,8 +12,8 @@ Batches makeBatches(int lanes, int numEntities, int nodesPerEntity, const std::v
   batches.count = (numEntities + lanes - 1) / lanes;
   const int numNodes = nodes.empty() ? 0 : *std::max_element(nodes.begin(), nodes.end()) + 1;
 
-  // One bit a colour, 64 colours at a time: neighbours in a mesh's own order need few, elements numbered at random
-  // more; the batches left over take the next 64.
+  // One bit a colour, 64 colours at a time: neighbours in a mesh's own order need few, elements numbered at
+  // random more; the batches left over take the next 64.
   std::vector<int> colourOf(batches.count), left(batches.count), later;
   std::iota(left.begin(), left.end(), 0);
   int numColours = 0;

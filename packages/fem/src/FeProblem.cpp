@@ -82,7 +82,7 @@ struct FeProblem::Impl {
   View<int*> columns;
   View<char*> fixed;
   Field value, rate, load, constantLoad;
-  Field sum;  // work
+  Field sum;            // work
   double diagonal = 0;  // s of the prescribed rows
   double scaleFloor = 0;
   int numFree = 0;
@@ -90,9 +90,11 @@ struct FeProblem::Impl {
   explicit Impl(FeModel m) : model(std::move(m)) {
     const auto comm = Tpetra::getDefaultComm();
     if (comm->getSize() != 1)
-      throw std::invalid_argument("finite-element problems run on one rank so far: start without mpirun, or with -np 1");
+      throw std::invalid_argument(
+          "finite-element problems run on one rank so far: start without mpirun, or with -np 1");
     const int numDofs = 3 * model.numNodes;
-    if (model.supports.numNodes() != model.numNodes) throw std::logic_error("FeModel: supports of another mesh");
+    if (model.supports.numNodes() != model.numNodes)
+      throw std::logic_error("FeModel: supports of another mesh");
     model.load.resize(numDofs, 0.0);
     model.constantLoad.resize(numDofs, 0.0);
     map = rcp(new Map(numDofs, 0, comm));
@@ -144,7 +146,8 @@ struct FeProblem::Impl {
           const auto& row = rows[nodes[e * N + a]];
           for (int b = 0; b < N; ++b)
             positions[(static_cast<std::size_t>(e) * N + a) * N + b] =
-                3 * static_cast<int>(std::lower_bound(row.begin(), row.end(), nodes[e * N + b]) - row.begin());
+                3 *
+                static_cast<int>(std::lower_bound(row.begin(), row.end(), nodes[e * N + b]) - row.begin());
         }
       term->setPositions(positions);
     }
@@ -157,7 +160,8 @@ struct FeProblem::Impl {
     const int numDofs = 3 * model.numNodes;
     for (int d = 0; d < numDofs; ++d)
       if (!used[d / 3] && (model.load[d] != 0 || model.constantLoad[d] != 0))
-        throw std::invalid_argument("a force acts at node " + std::to_string(d / 3 + 1) + ", which no element has");
+        throw std::invalid_argument("a force acts at node " + std::to_string(d / 3 + 1) +
+                                    ", which no element has");
     fixed = View<char*>("fixed", numDofs);
     auto flags = Kokkos::create_mirror_view(fixed);
     std::vector<double> values(numDofs, 0.0), rates(numDofs, 0.0);
@@ -188,8 +192,9 @@ struct FeProblem::Impl {
   /// sum = sum of the terms - F_0 - lambda F_1 on all rows; returns the scale.
   double imbalance(const ConstField& u, double lambda) {
     const Field total = sum, F1 = load, F0 = constantLoad;
-    Kokkos::parallel_for("loads", Kokkos::RangePolicy<Execution>(0, total.size()),
-                         KOKKOS_LAMBDA(int i) { total(i) = -F0(i) - lambda * F1(i); });
+    Kokkos::parallel_for(
+        "loads", Kokkos::RangePolicy<Execution>(0, total.size()),
+        KOKKOS_LAMBDA(int i) { total(i) = -F0(i) - lambda * F1(i); });
     const double external = norm(total);
     double squares = 0;
     for (const auto& term : model.terms) squares += term->addResidual(u, total);
@@ -209,7 +214,8 @@ struct FeProblem::Impl {
         "diagonal", Kokkos::RangePolicy<Execution>(0, numDofs),
         KOKKOS_LAMBDA(int d, double& m) {
           for (std::size_t e = start(d); e < start(d + 1); ++e)
-            if (column(e) == d && !isFixed(d)) m = Kokkos::Experimental::fmax(m, Kokkos::Experimental::fabs(values(e)));
+            if (column(e) == d && !isFixed(d))
+              m = Kokkos::Experimental::fmax(m, Kokkos::Experimental::fabs(values(e)));
         },
         Kokkos::Max<double>(largest));
     const double s = diagonal = largest > 0 && std::isfinite(largest) ? largest : 1.0;
@@ -231,7 +237,10 @@ struct FeProblem::Impl {
   }
 };
 
-FeProblem::FeProblem(FeModel model) : impl_(std::make_unique<Impl>(std::move(model))) {}
+FeProblem::FeProblem(FeModel model) : impl_(std::make_unique<Impl>(std::move(model))) {
+  Vector F(impl_->map);
+  tangent(*initialState(0.0), 0.0, F);  // gives the prescribed rows their size
+}
 FeProblem::~FeProblem() = default;
 
 RCP<const Map> FeProblem::map() const { return impl_->map; }
@@ -248,10 +257,11 @@ path::ResidualNorm FeProblem::residual(const Vector& u, double lambda, Vector& r
   const Field out = writable(r), total = impl_->sum, value = impl_->value, rate = impl_->rate;
   const auto fixed = impl_->fixed;
   const double s = impl_->diagonal;
-  Kokkos::parallel_for("residual", Kokkos::RangePolicy<Execution>(0, out.size()), KOKKOS_LAMBDA(int d) {
-    if (fixed(d)) total(d) = 0;  // reactions are not part of the imbalance
-    out(d) = fixed(d) ? s * (state(d) - value(d) - lambda * rate(d)) : total(d);
-  });
+  Kokkos::parallel_for(
+      "residual", Kokkos::RangePolicy<Execution>(0, out.size()), KOKKOS_LAMBDA(int d) {
+        if (fixed(d)) total(d) = s * (state(d) - value(d) - lambda * rate(d));  // not the reaction
+        out(d) = total(d);
+      });
   result.norm = norm(total);
   return result;
 }
@@ -278,8 +288,9 @@ void FeProblem::orderRhs(int k, Vector& Fk) {
   const auto fixed = impl_->fixed;
   Kokkos::deep_copy(total, 0.0);
   for (const auto& term : impl_->model.terms) term->addOrder(k, total);
-  Kokkos::parallel_for("orderRhs", Kokkos::RangePolicy<Execution>(0, out.size()),
-                       KOKKOS_LAMBDA(int d) { out(d) = fixed(d) ? 0.0 : -total(d); });
+  Kokkos::parallel_for(
+      "orderRhs", Kokkos::RangePolicy<Execution>(0, out.size()),
+      KOKKOS_LAMBDA(int d) { out(d) = fixed(d) ? 0.0 : -total(d); });
 }
 
 void FeProblem::completeOrder(int k, const Vector& Uk, double) {
@@ -289,8 +300,9 @@ void FeProblem::completeOrder(int k, const Vector& Uk, double) {
 RCP<Vector> FeProblem::initialState(double lambda) const {
   auto u = rcp(new Vector(impl_->map));
   const Field out = writable(*u), value = impl_->value, rate = impl_->rate;
-  Kokkos::parallel_for("initialState", Kokkos::RangePolicy<Execution>(0, out.size()),
-                       KOKKOS_LAMBDA(int d) { out(d) = value(d) + lambda * rate(d); });
+  Kokkos::parallel_for(
+      "initialState", Kokkos::RangePolicy<Execution>(0, out.size()),
+      KOKKOS_LAMBDA(int d) { out(d) = value(d) + lambda * rate(d); });
   return u;
 }
 

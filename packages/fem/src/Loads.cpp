@@ -25,7 +25,8 @@ void integrate(const PointSet& p, const Density& density, std::vector<double>& f
 
 }  // namespace
 
-void addNodalLoad(const std::vector<int>& nodes, const std::array<double, 3>& perNode, std::vector<double>& force) {
+void addNodalLoad(const std::vector<int>& nodes, const std::array<double, 3>& perNode,
+                  std::vector<double>& force) {
   for (int n : nodes)
     for (int i = 0; i < 3; ++i) force[3 * n + i] += perNode[i];
 }
@@ -33,7 +34,8 @@ void addNodalLoad(const std::vector<int>& nodes, const std::array<double, 3>& pe
 void addTraction(const Mesh& mesh, const SideSet& set, const std::array<double, 3>& traction,
                  std::vector<double>& force) {
   for (const PointSet& p : facePoints(mesh, set, kFaceDegree))
-    integrate(p, [&](std::size_t) { return traction; }, force);
+    integrate(
+        p, [&](std::size_t) { return traction; }, force);
 }
 
 void addSurfaceForce(const Mesh& mesh, const SideSet& set, const std::array<double, 3>& total,
@@ -56,8 +58,9 @@ void addPressure(const Mesh& mesh, const SideSet& set, double pressure, std::vec
 void addBodyForce(const Mesh& mesh, const Block& block, const std::array<double, 3>& perVolume,
                   std::vector<double>& force) {
   // Degree 4 integrates the quadratic shape functions exactly on elements with straight edges.
-  integrate(volumeValuePoints(mesh, block, tabulate(block.topology, 4)), [&](std::size_t) { return perVolume; },
-            force);
+  integrate(
+      volumeValuePoints(mesh, block, tabulate(block.topology, 4)), [&](std::size_t) { return perVolume; },
+      force);
 }
 
 double areaOf(const Mesh& mesh, const SideSet& set) {

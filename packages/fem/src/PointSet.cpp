@@ -53,10 +53,11 @@ PointSet volume(const Mesh& mesh, const Block& block, const Tabulation& t, bool 
       tangents(mesh, nodes, t, q, g);
       const double det = dot(g[0], cross(g[1], g[2]));
       if (!(det > 0))
-        throw std::runtime_error(fmt::format(
-            "block '{}', element {} (of the block): the Jacobian is {:.3g} at a cubature point, must be positive; "
-            "check node order and shape",
-            block.name, e + 1, det));
+        throw std::runtime_error(
+            fmt::format("block '{}', element {} (of the block): the Jacobian is {:.3g} at a cubature point, "
+                        "must be positive; "
+                        "check node order and shape",
+                        block.name, e + 1, det));
       p.weights.push_back(t.weights[q] * det);
       appendPosition(mesh, nodes, t, q, p);
       // Rows of the inverse Jacobian are the contravariant vectors.
@@ -90,7 +91,8 @@ PointSet volumeValuePoints(const Mesh& mesh, const Block& block, const Tabulatio
 ElementAddress addressOf(const Mesh& mesh, int element) {
   int first = 0;
   for (int b = 0; b < static_cast<int>(mesh.blocks.size()); ++b) {
-    const int count = static_cast<int>(mesh.blocks[b].nodes.size()) / nodesPerElement(mesh.blocks[b].topology);
+    const int count =
+        static_cast<int>(mesh.blocks[b].nodes.size()) / nodesPerElement(mesh.blocks[b].topology);
     if (element < first + count) return {b, element - first};
     first += count;
   }
@@ -121,8 +123,8 @@ std::vector<PointSet> facePoints(const Mesh& mesh, const SideSet& set, int degre
       const Vec3 normal = cross(g[0], g[1]);
       const double area = std::sqrt(dot(normal, normal));
       if (!(area > 0))
-        throw std::runtime_error(
-            fmt::format("side set '{}': side {} of element {} has no area", set.name, side.side + 1, side.element + 1));
+        throw std::runtime_error(fmt::format("side set '{}': side {} of element {} has no area", set.name,
+                                             side.side + 1, side.element + 1));
       p.weights.push_back(t.weights[q] * area);
       appendPosition(mesh, nodes.data(), t, q, p);
       for (int i = 0; i < 3; ++i) p.normals.push_back(normal[i] / area);

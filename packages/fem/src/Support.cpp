@@ -13,13 +13,14 @@
 
 namespace atrapos::fem {
 
-Supports::Supports(int numNodes) : fixed_(3 * numNodes, 0), value_(3 * numNodes, 0.0), rate_(3 * numNodes, 0.0) {}
+Supports::Supports(int numNodes)
+    : fixed_(3 * numNodes, 0), value_(3 * numNodes, 0.0), rate_(3 * numNodes, 0.0) {}
 
 void Supports::prescribe(int node, int component, double value, double perLoadFactor) {
   const int dof = 3 * node + component;
   if (fixed_[dof] && (value_[dof] != value || rate_[dof] != perLoadFactor))
-    throw std::invalid_argument(
-        fmt::format("displacement {} of node {} is prescribed twice with different values", "xyz"[component], node + 1));
+    throw std::invalid_argument(fmt::format(
+        "displacement {} of node {} is prescribed twice with different values", "xyz"[component], node + 1));
   fixed_[dof] = 1;
   value_[dof] = value;
   rate_[dof] = perLoadFactor;
@@ -41,10 +42,11 @@ int rank(std::array<double, 36> gram) {
   std::array<double, 6> eigenvalues{};
   std::array<double, 64> work{};
   int info = 0;
-  Teuchos::LAPACK<int, double>().SYEV('N', 'U', 6, gram.data(), 6, eigenvalues.data(), work.data(), 64, &info);
+  Teuchos::LAPACK<int, double>().SYEV('N', 'U', 6, gram.data(), 6, eigenvalues.data(), work.data(), 64,
+                                      &info);
   // Motions are scaled to order 1, so eigenvalues of held motions are of the order of the number of held dofs
-  // times a shape factor (a thin clamped face: thickness over size, squared); 1e-12 is far below any of these and
-  // far above rounding.
+  // times a shape factor (a thin clamped face: thickness over size, squared); 1e-12 is far below any of these
+  // and far above rounding.
   return static_cast<int>(std::count_if(eigenvalues.begin(), eigenvalues.end(),
                                         [&](double e) { return e > 1e-12 * std::max(1.0, eigenvalues[5]); }));
 }

@@ -29,7 +29,8 @@ Numbers plainForces(const Law& law, const PointSet& p, const Numbers& data, cons
       law(in, data.data() + point * Law::numData, out);
       for (int n = 0; n < p.nodesPerEntity; ++n)
         for (int m = 0; m < I; ++m)
-          f[3 * p.nodes[e * p.nodesPerEntity + n] + m / C] += p.weights[point] * out[m] * shape[n * C + m % C];
+          f[3 * p.nodes[e * p.nodesPerEntity + n] + m / C] +=
+              p.weights[point] * out[m] * shape[n * C + m % C];
     }
   return f;
 }
@@ -106,8 +107,8 @@ TEST(FeProblem, TangentOfSeveralBlocksWithContactLikeTerms) {
   for (const char* set : {"x_max", "y_min"})
     for (const PointSet& p : facePoints(mesh, sideSet(mesh, set), 3))
       model.terms.push_back(std::make_unique<LawTerm<CentralForce, CurrentPosition>>(CentralForce{}, p));
-  model.terms.push_back(
-      std::make_unique<LawTerm<CentralForce, CurrentPosition>>(CentralForce{0.7}, nodePoints(mesh, {3, 8, 50})));
+  model.terms.push_back(std::make_unique<LawTerm<CentralForce, CurrentPosition>>(
+      CentralForce{0.7}, nodePoints(mesh, {3, 8, 50})));
   checkTangent(std::move(model));
 }
 
@@ -134,7 +135,6 @@ TEST(FeProblem, TermsAddUpAndLoadsAreSubtracted) {
   const auto got = residual(problem, u, lambda);
   Numbers reactions = problem.reactions(*vectorOf(problem, u), lambda);
   Numbers difference, reactionError;
-  double free2 = 0;
   for (std::size_t d = 0; d < u.size(); ++d) {
     const bool loose = d / 3 + 2 >= static_cast<std::size_t>(mesh.numNodes());
     if (supports.fixed(d)) {
@@ -143,14 +143,14 @@ TEST(FeProblem, TermsAddUpAndLoadsAreSubtracted) {
       EXPECT_EQ(reactions[d], 0.0);
       if (loose) continue;
       difference.push_back(got.r[d] - expected[d]);
-      free2 += expected[d] * expected[d];
     }
   }
   // Sums of a few hundred terms.
   const double rounding = 1e-13 * norm(expected);
   EXPECT_LT(norm(difference), rounding);
   EXPECT_LT(norm(reactionError), rounding);
-  EXPECT_NEAR(got.norm.norm, std::sqrt(free2), rounding);
+  // All rows count, those of the supports that this random u violates as well.
+  EXPECT_NEAR(got.norm.norm, norm(got.r), 1e-13 * norm(got.r));
   EXPECT_LT(norm(sum(problem.forces(problem.term(7), *vectorOf(problem, u)), -1, central)), rounding);
 }
 
@@ -229,15 +229,18 @@ TEST(FeProblem, InitialStateKeepsTheSupports) {
 TEST(FeProblem, ReactionsBalanceTheLoads) {
   // Not HEX20: reduced integration lets forces at single nodes excite its hourglass modes without bound.
   for (Topology cell : {Topology::Hex27, Topology::Tet10, Topology::Wedge6}) {
+    SCOPED_TRACE(topologyName(cell));
     const Mesh mesh = distorted(box(cell), 0.02);
     FeModel model = busyModel(mesh);
     for (double& f : model.load) f *= 0.2;
+    for (double& f : model.constantLoad) f *= 0.2;
     const Numbers constant = model.constantLoad, load = model.load;
     FeProblem problem(std::move(model));
-    const double lambda = 0.5;
+    const double lambda = 0.3;
     Equilibrium state{FeProblem::values(*problem.initialState(0.0)), {}};
     for (int i = 0; i <= 5; ++i) state = equilibrium(problem, 0.2 * i * lambda, state.u);
-    const Numbers forces = sum(sum(problem.reactions(*vectorOf(problem, state.u), lambda), 1, constant), lambda, load);
+    const Numbers forces =
+        sum(sum(problem.reactions(*vectorOf(problem, state.u), lambda), 1, constant), lambda, load);
     const Numbers x = sum(mesh.coordinates, 1, state.u);
     double force[3] = {}, moment[3] = {};
     for (int n = 0; n < mesh.numNodes(); ++n)
@@ -246,7 +249,7 @@ TEST(FeProblem, ReactionsBalanceTheLoads) {
         force[i] += forces[3 * n + i];
         moment[i] += x[3 * n + j] * forces[3 * n + k] - x[3 * n + k] * forces[3 * n + j];
       }
-    EXPECT_GT(largest(forces), 0.01);
+    EXPECT_GT(largest(forces), 0.002);
     for (int i = 0; i < 3; ++i) {
       // Newton leaves residuals of rounding, 1e-15, at each of up to 500 dofs.
       EXPECT_NEAR(force[i], 0.0, 1e-12);

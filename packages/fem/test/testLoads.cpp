@@ -42,7 +42,8 @@ std::vector<double> noForce(const Mesh& mesh) { return std::vector<double>(3 * m
 
 SideSet surfaceOf(const Mesh& mesh) {
   SideSet all;
-  for (const SideSet& set : mesh.sideSets) all.sides.insert(all.sides.end(), set.sides.begin(), set.sides.end());
+  for (const SideSet& set : mesh.sideSets)
+    all.sides.insert(all.sides.end(), set.sides.begin(), set.sides.end());
   return all;
 }
 
@@ -78,9 +79,9 @@ TEST(Loads, TractionHasTheForceAndMomentOfItsFace) {
       const Vec3 centre = onX ? Vec3{2, 1.5, 2.5} : Vec3{1, 1.5, 0};
       EXPECT_NEAR(areaOf(mesh, sideSet(mesh, name)), area, rounding);
       expectNear(total(force), {area * t[0], area * t[1], area * t[2]});
-      expectNear(moment(mesh, force), {area * (centre[1] * t[2] - centre[2] * t[1]),
-                                       area * (centre[2] * t[0] - centre[0] * t[2]),
-                                       area * (centre[0] * t[1] - centre[1] * t[0])});
+      expectNear(moment(mesh, force),
+                 {area * (centre[1] * t[2] - centre[2] * t[1]), area * (centre[2] * t[0] - centre[0] * t[2]),
+                  area * (centre[0] * t[1] - centre[1] * t[0])});
     }
 }
 
@@ -95,8 +96,8 @@ TEST(Loads, SurfaceForceIsTheTotal) {
   }
 }
 
-// Divergence theorem: a pressure p on a closed surface has no force and no moment, and the work of x is -3 p V.
-// Exact on distorted cells, because the faces' cubature integrates N_a (x_xi cross x_eta) . x exactly.
+// Divergence theorem: a pressure p on a closed surface has no force and no moment, and the work of x is -3 p
+// V. Exact on distorted cells, because the faces' cubature integrates N_a (x_xi cross x_eta) . x exactly.
 TEST(Loads, PressureOnAClosedSurface) {
   for (Topology cell : allCells()) {
     SCOPED_TRACE(topologyName(cell));

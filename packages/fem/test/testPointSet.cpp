@@ -51,8 +51,8 @@ TEST(PointSet, LinearFieldsAndTheirGradientsAreExactOnDistortedCells) {
   }
 }
 
-// Moving inner nodes only, so that the body stays the unit cube; cubature of degree 6 integrates the Jacobian of
-// every cell exactly (5 per direction for HEX27, 3 in all for TET10).
+// Moving inner nodes only, so that the body stays the unit cube; cubature of degree 6 integrates the Jacobian
+// of every cell exactly (5 per direction for HEX27, 3 in all for TET10).
 TEST(PointSet, WeightsSumToTheVolume) {
   for (Topology cell : allCells()) {
     SCOPED_TRACE(topologyName(cell));

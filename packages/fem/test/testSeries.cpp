@@ -85,8 +85,8 @@ TEST(Series, SeveralBlocksAndTerms) {
     model.terms.push_back(std::make_unique<LawTerm<CentralForce, CurrentPosition>>(CentralForce{0.5}, p));
     model.terms.push_back(std::make_unique<LawTerm<Swirl, CurrentPosition>>(Swirl{0.2}, p));
   }
-  model.terms.push_back(
-      std::make_unique<LawTerm<CentralForce, CurrentPosition>>(CentralForce{0.7}, nodePoints(mesh, {3, 8, 50})));
+  model.terms.push_back(std::make_unique<LawTerm<CentralForce, CurrentPosition>>(
+      CentralForce{0.7}, nodePoints(mesh, {3, 8, 50})));
   checkOrders(std::move(model));
 }
 
@@ -94,7 +94,8 @@ TEST(Series, SeveralBlocksAndTerms) {
 TEST(Series, HistoriesStartAfresh) {
   const Mesh mesh = box(Topology::Hex8);
   FeProblem used(busyModel(mesh)), fresh(busyModel(mesh));
-  const Numbers u1 = randomNumbers(3 * mesh.numNodes(), 0.02, 1), u2 = randomNumbers(3 * mesh.numNodes(), 0.02, 2);
+  const Numbers u1 = randomNumbers(3 * mesh.numNodes(), 0.02, 1),
+                u2 = randomNumbers(3 * mesh.numNodes(), 0.02, 2);
   const auto orderThree = [&](FeProblem& problem, const Numbers& u, int maxOrder) {
     problem.beginSeries(*vectorOf(problem, u), 0, maxOrder);
     auto F = zeroVector(problem);

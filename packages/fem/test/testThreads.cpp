@@ -1,5 +1,6 @@
-// Residual, tangent and order-k right-hand sides must have the same bits for any number of threads. The number of
-// threads is fixed when a process starts, so the test runs this executable again with one and with two.
+// Residual, tangent and order-k right-hand sides must have the same bits for any number of threads. The
+// number of threads is fixed when a process starts, so the test runs this executable again with one and with
+// two.
 #include <gtest/gtest.h>
 #include <spawn.h>
 #include <sys/wait.h>
@@ -49,8 +50,8 @@ Numbers everything() {
 
 /// Runs this executable's Threads.Write with so many threads; returns what it wrote: concurrency, numbers.
 std::string runWith(int threads) {
-  const std::string file = testing::TempDir() + "atrapos_threads_" + std::to_string(getpid()) + "_" +
-                           std::to_string(threads);
+  const std::string file =
+      testing::TempDir() + "atrapos_threads_" + std::to_string(getpid()) + "_" + std::to_string(threads);
   // A child that inherits what MPI set up for its parent would take itself for a part of the parent's job.
   std::vector<std::string> environment;
   for (char** entry = environ; *entry != nullptr; ++entry) {
@@ -90,7 +91,8 @@ TEST(Threads, Write) {
   const Numbers all = everything();
   const int threads = Execution().concurrency();
   out.write(reinterpret_cast<const char*>(&threads), sizeof(threads));
-  out.write(reinterpret_cast<const char*>(all.data()), static_cast<std::streamsize>(all.size() * sizeof(double)));
+  out.write(reinterpret_cast<const char*>(all.data()),
+            static_cast<std::streamsize>(all.size() * sizeof(double)));
   ASSERT_TRUE(out.good());
 }
 

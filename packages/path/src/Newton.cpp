@@ -4,6 +4,8 @@
 
 #include <Tpetra_Vector.hpp>
 
+#include "atrapos/linear/Dot.hpp"
+
 namespace atrapos::path {
 
 Border holdLoad() {
@@ -11,7 +13,7 @@ Border holdLoad() {
 }
 
 Border holdFunctional(const RCP<const Vector>& weights) {
-  return {[weights](const RCP<Vector>& dU) { return weights->dot(*dU); }, 0};
+  return {[weights](const RCP<Vector>& dU) { return linear::dot(*weights, *dU); }, 0};
 }
 
 Border holdPathParameter(const Problem& problem, double weight, const PathTangent& tangent) {

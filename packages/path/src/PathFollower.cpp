@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 #include <Tpetra_Vector.hpp>
@@ -25,6 +26,15 @@ std::string line(const Parts&... parts) {
   std::ostringstream text;
   (text << ... << parts);
   return text.str();
+}
+
+/// The length with the first 7 bits of its mantissa. Step lengths come from the highest orders, whose last
+/// digits are rounding; taken as they are, two runs that round differently (another machine, compiler, number
+/// of ranks) would drift apart along the path and could not be compared point by point.
+double rounded(double length) {
+  int exponent = 0;
+  const double mantissa = std::frexp(length, &exponent);
+  return std::ldexp(std::floor(mantissa * 128) / 128, exponent);
 }
 
 /// One path: the state as it moves, and what the next step needs from the last one.
@@ -168,12 +178,12 @@ double Run::startPart(double a) const {
 }
 
 double Run::firstLength(double radius) const {
-  if (options_.order == 1)
+  if (options_.order == 1)  // no estimate, nothing to round
     return lastLength_ > 0 ? std::min(2 * lastLength_, options_.maxStep) : options_.firstStep;
   double a = std::min(radius, options_.maxStep);
   // Beyond relaxOver_ the residual taken away comes back with the other sign: stay below half the bound.
   if (relaxOver_ > 0 && residual_ > 0) a = std::min(a, relaxOver_ * (1 + 0.5 * bound() / residual_));
-  return a;
+  return rounded(a);
 }
 
 void Run::evaluate(const Series& series, Trial& trial) {
@@ -202,6 +212,7 @@ Run::Trial Run::acceptedTrial(const Series& series, StepReport& report) {
   // Shortening the step a little is cheaper than a correction, which costs a factorization; tried once.
   constexpr double worthKeeping = 0.7;
   bool shortened = false;
+  double previous = std::numeric_limits<double>::infinity();  // residual of the longer trial before
   for (;;) {
     evaluate(series, trial);
     if (trial.residual <= correctAbove()) return trial;
@@ -213,13 +224,20 @@ Run::Trial Run::acceptedTrial(const Series& series, StepReport& report) {
       shortened = true;
     }
     const bool spent = report.cutBacks == options_.maxCutBacks;
-    if (spent || factor * trial.a < options_.minStep)
-      throw PathError(EndReason::stepTooSmall,
-                      line("relative residual ", trial.residual, " at step length ", trial.a,
-                           " is over the bound ", bound(), " (lambda = ", outcome_.final.lambda, ", ",
-                           spent ? "no trial left" : "shorter than minStep", ')'));
+    if (spent || factor * trial.a < options_.minStep) {
+      const bool stagnates = trial.residual > 0.3 * previous;  // truncation would fall like a^(K+1)
+      throw PathError(
+          EndReason::stepTooSmall,
+          line(
+              "relative residual ", trial.residual, " at step length ", trial.a, " is over the bound ",
+              bound(), " (lambda = ", outcome_.final.lambda, ", ",
+              spent ? "no trial left" : "shorter than minStep",
+              stagnates ? "; it does not fall with the step: rounding limits it, ask for a larger bound" : "",
+              ')'));
+    }
     ++report.cutBacks;
-    trial.a *= factor;
+    previous = trial.residual;
+    trial.a = rounded(factor * trial.a);
     trial.stop.reset();
   }
 }

@@ -1,9 +1,9 @@
 #include "atrapos/path/Problem.hpp"
 
-#include <Tpetra_Vector.hpp>
+#include "atrapos/linear/Dot.hpp"
 
 namespace atrapos::path {
 
-double Problem::inner(const Increment& x, const Increment& y) const { return x.u->dot(*y.u); }
+double Problem::inner(const Increment& x, const Increment& y) const { return linear::dot(*x.u, *y.u); }
 
 }  // namespace atrapos::path

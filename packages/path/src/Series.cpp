@@ -6,6 +6,8 @@
 
 #include <Tpetra_Vector.hpp>
 
+#include "atrapos/linear/Dot.hpp"
+
 namespace atrapos::path {
 
 Series::Series(const State& start, double weight) : weight_(weight) {
@@ -49,7 +51,7 @@ double Series::lambda(double a) const { return lambdaPolynomial()(a); }
 
 Polynomial Series::functional(const Vector& weights) const {
   std::vector<double> c;
-  for (const auto& x : x_) c.push_back(weights.dot(*x.u));
+  for (const auto& x : x_) c.push_back(linear::dot(weights, *x.u));
   return Polynomial(std::move(c));
 }
 

@@ -10,13 +10,15 @@ namespace atrapos::solid::test {
 
 using fem::test::Numbers;
 
-/// Saint Venant-Kirchhoff everywhere, with the cells' default cubature, no supports and no loads yet.
-inline fem::FeModel solidModel(const fem::Mesh& mesh, const SaintVenantKirchhoff& law) {
+/// Saint Venant-Kirchhoff everywhere, no supports and no loads yet; the cells' default cubature, or `cell`
+/// (meshes of one block).
+inline fem::FeModel solidModel(const fem::Mesh& mesh, const SaintVenantKirchhoff& law,
+                               const fem::Tabulation* cell = nullptr) {
   fem::FeModel model;
   model.numNodes = mesh.numNodes();
   for (const fem::Block& block : mesh.blocks)
     model.terms.push_back(std::make_unique<fem::LawTerm<SaintVenantKirchhoff, fem::DisplacementGradient>>(
-        law, fem::volumePoints(mesh, block, fem::tabulate(block.topology))));
+        law, fem::volumePoints(mesh, block, cell ? *cell : fem::tabulate(block.topology))));
   model.supports = fem::Supports(mesh.numNodes());
   model.constantLoad.assign(3 * mesh.numNodes(), 0.0);
   model.load.assign(3 * mesh.numNodes(), 0.0);

@@ -1,5 +1,5 @@
-// Order of convergence on a manufactured solution at finite strain: u chosen, dead body force b = -Div P(grad u),
-// boundary nodes at u.
+// Order of convergence on a manufactured solution at finite strain: u chosen, dead body force b = -Div P(grad
+// u), boundary nodes at u.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -20,7 +20,8 @@ const auto material = SaintVenantKirchhoff::fromYoung(1.0, 0.3);
 struct Wave {
   double a[3], w[3], phase;
 };
-constexpr Wave waves[] = {{{0.06, -0.03, 0.02}, {1.9, 1.1, -0.8}, 0.3}, {{-0.02, 0.05, 0.04}, {-0.9, 1.4, 1.7}, 1.1}};
+constexpr Wave waves[] = {{{0.06, -0.03, 0.02}, {1.9, 1.1, -0.8}, 0.3},
+                          {{-0.02, 0.05, 0.04}, {-0.9, 1.4, 1.7}, 1.1}};
 
 struct Exact {
   double u[3] = {}, H[9] = {}, b[3] = {};
@@ -46,8 +47,8 @@ Exact exactAt(const double* x) {
   return e;
 }
 
-/// The cube cut into 2 x 2 x 2 crooked cells by moving the middle planes' nodes, each cell mapped trilinearly: meshes
-/// of even divisions are nested, and their cells stay crooked where the coarse ones meet.
+/// The cube cut into 2 x 2 x 2 crooked cells by moving the middle planes' nodes, each cell mapped
+/// trilinearly: meshes of even divisions are nested, and their cells stay crooked where the coarse ones meet.
 fem::Mesh crooked(fem::Mesh mesh) {
   const auto moves = randomNumbers(81, 0.08, 17);  // of the 3 x 3 x 3 corners
   for (int n = 0; n < mesh.numNodes(); ++n) {
@@ -103,7 +104,8 @@ Errors solve(fem::Topology cell, int divisions) {
             values.weights[p] * values.shape[p * N + n] * e.b[i];
   }
   fem::FeProblem problem(std::move(model));
-  const Numbers u = equilibrium(problem, 1.0, start, 1e-9).u;  // quadratic: the last change squared is below rounding
+  const Numbers u =
+      equilibrium(problem, 1.0, start, 1e-9).u;  // quadratic: the last change squared is below rounding
 
   Errors errors;
   for (int p = 0; p < values.numPoints(); ++p) {
@@ -134,15 +136,18 @@ TEST_P(Convergence, Rates) {
   const std::vector<int> divisions = p == 1 ? std::vector<int>{4, 8, 16} : std::vector<int>{2, 4, 8};
   std::vector<Errors> errors;
   for (int d : divisions) errors.push_back(solve(GetParam(), d));
-  for (std::size_t i = 1; i < errors.size(); ++i) {
-    const double L2 = std::log2(errors[i - 1].L2 / errors[i].L2), H1 = std::log2(errors[i - 1].H1 / errors[i].H1);
-    printf("%s %d->%d L2 %.2e rate %.2f  H1 %.2e rate %.2f\n", fem::topologyName(GetParam()), divisions[i - 1],
-           divisions[i], errors[i].L2, L2, errors[i].H1, H1);
-  }
-  const auto& a = errors[errors.size() - 2];
-  const auto& b = errors.back();
-  EXPECT_GT(std::log2(a.L2 / b.L2), p + 1 - 0.3);
-  EXPECT_GT(std::log2(a.H1 / b.H1), p - 0.2);
+  const Errors &coarse = errors[errors.size() - 2], &fine = errors.back();
+  const double L2 = std::log2(coarse.L2 / fine.L2), H1 = std::log2(coarse.H1 / fine.H1);
+  RecordProperty("L2_error", std::to_string(fine.L2));
+  RecordProperty("L2_rate", std::to_string(L2));
+  RecordProperty("H1_rate", std::to_string(H1));
+  // Rates of p + 1 and p up to what the next power of h leaves at these sizes: 0.03 and 0.02 were seen.
+  EXPECT_GT(L2, p + 1 - 0.1) << coarse.L2 << ' ' << fine.L2;
+  EXPECT_GT(H1, p - 0.1) << coarse.H1 << ' ' << fine.H1;
+  // Not more either than the approximation allows: a far higher rate would be an error that is not the
+  // cell's.
+  EXPECT_LT(L2, p + 1 + 0.4);
+  EXPECT_LT(H1, p + 0.4);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Convergence, testing::ValuesIn(allCells()),

@@ -1,6 +1,5 @@
 #include <gtest/gtest.h>
 
-#include <array>
 #include <cmath>
 #include <stdexcept>
 
@@ -8,13 +7,12 @@
 #include "support/Meshes.hpp"
 
 using namespace atrapos;
-using solid::SaintVenantKirchhoff;
 using fem::test::randomNumbers;
+using solid::SaintVenantKirchhoff;
 
 namespace {
 
 using Numbers = std::vector<double>;
-using Matrix = std::array<double, 9>;
 
 const auto steel = SaintVenantKirchhoff::fromYoung(2.1, 0.3);  // stresses of size one
 
@@ -109,8 +107,8 @@ TEST(SaintVenantKirchhoff, LameConstants) {
   EXPECT_THROW(SaintVenantKirchhoff::fromYoung(std::nan(""), 0.3), std::invalid_argument);
 }
 
-// Way one and two: the Fad tangent against central differences, whose error falls like h^2. P is a cubic in H, so
-// the error is exactly h^2 times the third derivative and the rate exact to rounding.
+// Way one and two: the Fad tangent against central differences, whose error falls like h^2. P is a cubic in
+// H, so the error is exactly h^2 times the third derivative and the rate exact to rounding.
 TEST(SaintVenantKirchhoff, TangentIsTheDerivative) {
   const Numbers H = randomNumbers(9, 0.4, 4);
   Numbers P(9), dP(81);
@@ -244,7 +242,8 @@ TEST(SaintVenantKirchhoff, ObservedStressInUniaxialStretch) {
   }
 }
 
-// The observed stress turns with the body and its components are in the order of their names: xx yy zz xy yz zx.
+// The observed stress turns with the body and its components are in the order of their names: xx yy zz xy yz
+// zx.
 TEST(SaintVenantKirchhoff, ObservedStressOfARotatedState) {
   const Numbers H = randomNumbers(9, 0.3, 8), Q = rotation(0.7, 1.9);
   double before[6], after[6];

@@ -10,8 +10,9 @@
 /// Laws of the finite-element tests: made for having infinite series, not for any material.
 namespace atrapos::fem::test {
 
-/// Energy scale * [ (a/b)(exp(b tr g) - b tr g) + mu g:g ] of the Green-Lagrange strain g = (H + H^T + H^T H)/2,
-/// hence S = scale * [ a (exp(b tr g) - 1) I + 2 mu g ] and T = (I + H) S. The scale is the point's datum.
+/// Energy scale * [ (a/b)(exp(b tr g) - b tr g) + mu g:g ] of the Green-Lagrange strain g = (H + H^T + H^T
+/// H)/2, hence S = scale * [ a (exp(b tr g) - 1) I + 2 mu g ] and T = (I + H) S. The scale is the point's
+/// datum.
 struct ExponentialSolid {
   static constexpr int numInputs = 9, numOutputs = 9, numData = 1;
   static constexpr bool symmetric = true;
@@ -24,14 +25,15 @@ struct ExponentialSolid {
     T g[9], S[9];
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j)
-        g[3 * i + j] = 0.5 * (H[3 * i + j] + H[3 * j + i] +
-                              (H[i] * H[j] + H[3 + i] * H[3 + j] + H[6 + i] * H[6 + j]));
+        g[3 * i + j] =
+            0.5 * (H[3 * i + j] + H[3 * j + i] + (H[i] * H[j] + H[3 + i] * H[3 + j] + H[6 + i] * H[6 + j]));
     const T volumetric = a * exp(b * (g[0] + g[4] + g[8])) - a;
     for (int m = 0; m < 9; ++m) S[m] = (2 * mu) * g[m];
     for (int i = 0; i < 3; ++i) S[4 * i] = S[4 * i] + volumetric;
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j)
-        P[3 * i + j] = scale[0] * (S[3 * i + j] + H[3 * i] * S[j] + H[3 * i + 1] * S[3 + j] + H[3 * i + 2] * S[6 + j]);
+        P[3 * i + j] =
+            scale[0] * (S[3 * i + j] + H[3 * i] * S[j] + H[3 * i + 1] * S[3 + j] + H[3 * i + 2] * S[6 + j]);
   }
 
   static constexpr int numObserved = 2;

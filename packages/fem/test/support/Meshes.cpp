@@ -9,8 +9,9 @@
 namespace atrapos::fem::test {
 
 const std::vector<Topology>& allCells() {
-  static const std::vector<Topology> cells{Topology::Hex8,  Topology::Hex20,  Topology::Hex27,  Topology::Tet4,
-                                           Topology::Tet10, Topology::Wedge6, Topology::Wedge15};
+  static const std::vector<Topology> cells{Topology::Hex8,   Topology::Hex20, Topology::Hex27,
+                                           Topology::Tet4,   Topology::Tet10, Topology::Wedge6,
+                                           Topology::Wedge15};
   return cells;
 }
 

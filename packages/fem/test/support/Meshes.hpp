@@ -12,8 +12,8 @@ const std::vector<Topology>& allCells();
 bool isQuadratic(Topology topology);
 
 /// A box of this cell type; 3 x 3 x 2 divisions give numbers of elements that are no multiple of the lanes.
-Mesh box(Topology topology, std::array<int, 3> divisions = {3, 3, 2}, std::array<double, 3> lengths = {1, 1, 1},
-         std::array<double, 3> origin = {0, 0, 0});
+Mesh box(Topology topology, std::array<int, 3> divisions = {3, 3, 2},
+         std::array<double, 3> lengths = {1, 1, 1}, std::array<double, 3> origin = {0, 0, 0});
 
 /// Every node moved by up to `amount` in each direction, the same at every run.
 Mesh distorted(Mesh mesh, double amount, unsigned seed = 1);

@@ -32,8 +32,8 @@ struct Tangent {
 };
 Tangent tangent(path::Problem& problem, const Numbers& u, double lambda);
 
-/// Newton's method at fixed lambda until the largest change of u is below `tolerance` in 20 iterations; throws
-/// std::runtime_error where it is not.
+/// Newton's method at fixed lambda until the largest change of u is below `tolerance` in 20 iterations;
+/// throws std::runtime_error where it is not.
 struct Equilibrium {
   Numbers u;
   std::optional<linear::Inertia> inertia;  ///< of the last tangent
@@ -42,7 +42,7 @@ Equilibrium equilibrium(path::Problem& problem, double lambda, Numbers start, do
 
 double norm(const Numbers& x);
 double dot(const Numbers& x, const Numbers& y);
-double largest(const Numbers& x);                    ///< of the absolute values
+double largest(const Numbers& x);                           ///< of the absolute values
 Numbers sum(const Numbers& x, double c, const Numbers& y);  ///< x + c y
 
 }  // namespace atrapos::fem::test

@@ -38,7 +38,8 @@ struct ContactLaw {
   }
 
   template <class T>
-  KOKKOS_INLINE_FUNCTION void solve(const T* x, const taylor::Passive<T>* data, T* projection, T* gap, T* R) const {
+  KOKKOS_INLINE_FUNCTION void solve(const T* x, const taylor::Passive<T>* data, T* projection, T* gap,
+                                    T* R) const {
     for (int i = 0; i < Tool::numUnknowns; ++i) projection[i] = T(0.0);  // Newton's start is the tool's own
     R[0] = T(0.0);
     taylor::solveImplicit<3, Tool::numUnknowns>(tool, x, projection);

@@ -5,14 +5,15 @@
 
 #include "atrapos/taylor/Implicit.hpp"
 
-/// Rigid tools. A tool is one struct whose templated operator is proj(h, n, x) = 0, paper (10)-(13): the gap h
-/// (a length, positive when free) and the unit normal n (from the tool to the body) of a material point that is
-/// now at x. Unknowns y = (h, n_x, n_y, n_z); x and h in the user's unit of length.
+/// Rigid tools. A tool is one struct whose templated operator is proj(h, n, x) = 0, paper (10)-(13): the gap
+/// h (a length, positive when free) and the unit normal n (from the tool to the body) of a material point
+/// that is now at x. Unknowns y = (h, n_x, n_y, n_z); x and h in the user's unit of length.
 ///
 ///     static constexpr int numUnknowns;
 ///     static constexpr bool symmetric;   // n = grad h: the contact tangent is symmetric
-///     template <class T> void operator()(const T* x, const T* y, T* g) const;     // g = proj, numUnknowns entries
-///     void start(const double* x, double* y) const;                               // guess for Newton's method
+///     template <class T> void operator()(const T* x, const T* y, T* g) const;     // g = proj, numUnknowns
+///     entries void start(const double* x, double* y) const;                               // guess for
+///     Newton's method
 namespace atrapos::contact {
 
 /// Plane through `point` with unit `normal` pointing to the free side; paper (10).
@@ -24,7 +25,8 @@ struct Plane {
 
   template <class T>
   KOKKOS_INLINE_FUNCTION void operator()(const T* x, const T* y, T* g) const {
-    g[0] = y[0] - (normal[0] * (x[0] - point[0]) + normal[1] * (x[1] - point[1]) + normal[2] * (x[2] - point[2]));
+    g[0] = y[0] -
+           (normal[0] * (x[0] - point[0]) + normal[1] * (x[1] - point[1]) + normal[2] * (x[2] - point[2]));
     for (int i = 0; i < 3; ++i) g[1 + i] = y[1 + i] - normal[i];
   }
 

@@ -21,14 +21,16 @@ struct FeModel {
 /// R(u, lambda) = sum of the terms - F_0 - lambda F_1 with Dirichlet conditions, as a path::Problem.
 ///
 /// The unknowns are all nodal displacements, 3 a node. The row of a prescribed dof reads s (u - value -
-/// lambda rate) = 0 with s the size of the tangent's diagonal, and its column is carried to the load direction
-/// (the state and every series satisfy the condition to rounding), so the tangent stays symmetric and its inertia
-/// is that of the free dofs. Nodes without an element are held at zero; a force there throws std::invalid_argument.
+/// lambda rate) = 0 with s the size of the tangent's diagonal, and its column is carried to the load
+/// direction (the state and every series satisfy the condition to rounding), so the tangent stays symmetric
+/// and its inertia is that of the free dofs. A state off its supports is out of balance by that row. Nodes
+/// without an element are held at zero; a force there throws std::invalid_argument.
 ///
 /// Scale of the relative residual: the norm of what the residual is the cancellation of, sqrt(sum over all
-/// elements and contact faces of |own nodal forces|^2), or that of F_0 + lambda F_1 where it is larger; at least 1e-10
-/// of the forces at load factor 1. (Assembled forces and reactions would not do: they can all vanish at a
-/// stressed state, and in a thin body the rounding of the displacements alone then exceeds any fraction of them.)
+/// elements and contact faces of |own nodal forces|^2), or that of F_0 + lambda F_1 where it is larger; at
+/// least 1e-10 of the forces at load factor 1. (Assembled forces and reactions would not do: they can all
+/// vanish at a stressed state, and in a thin body the rounding of the displacements alone then exceeds any
+/// fraction of them.)
 ///
 /// One rank only: a communicator of more throws std::invalid_argument.
 class FeProblem final : public path::Problem {

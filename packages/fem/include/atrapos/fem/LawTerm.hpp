@@ -31,8 +31,8 @@ struct CurrentPosition {
 
 /// A law at the points of a PointSet: gather, B, law, B^T, scatter.
 ///
-/// Law (see taylor/Law.hpp) maps the operator's inputs to their work conjugates: the virtual work of the term is
-/// sum over points of weight * out . d(in). It may show named values through
+/// Law (see taylor/Law.hpp) maps the operator's inputs to their work conjugates: the virtual work of the term
+/// is sum over points of weight * out . d(in). It may show named values through
 ///     static constexpr int numObserved;  static std::vector<std::string> observedNames();
 ///     void observe(const double* in, const double* data, double* observed) const;
 /// A law says `static constexpr bool symmetric` when d out/d in is symmetric.
@@ -47,12 +47,12 @@ class LawTerm final : public Term {
   struct Arrays {
     Law law;
     int numEntities, N, Q, slots = 0, maxOrder = 0;
-    View<int*> nodes;      // [batch][lane][node]
-    View<int*> positions;  // [batch][lane][node a][node b]
-    View<double*> shape;   // [batch][q][node][component][lane]
-    View<double*> weight;  // [batch][q][lane]
-    View<double*> offset;  // [batch][q][input][lane], CurrentPosition only: X
-    View<double*> data;    // [batch][q][datum][lane]
+    View<int*> nodes;       // [batch][lane][node]
+    View<int*> positions;   // [batch][lane][node a][node b]
+    View<double*> shape;    // [batch][q][node][component][lane]
+    View<double*> weight;   // [batch][q][lane]
+    View<double*> offset;   // [batch][q][input][lane], CurrentPosition only: X
+    View<double*> data;     // [batch][q][datum][lane]
     View<double*> history;  // [batch][q][slot][order][lane]
     View<int*> order;
 
@@ -132,10 +132,13 @@ class LawTerm final : public Term {
 
  public:
   LawTerm(const Law& law, const PointSet& points, const std::vector<double>& data = {})
-      : entityNodes_(points.nodes), batches_(makeBatches(L, points.numEntities, points.nodesPerEntity, points.nodes)) {
-    if (points.shapeComponents != C) throw std::logic_error("LawTerm: the points' shape components do not fit the operator");
+      : entityNodes_(points.nodes),
+        batches_(makeBatches(L, points.numEntities, points.nodesPerEntity, points.nodes)) {
+    if (points.shapeComponents != C)
+      throw std::logic_error("LawTerm: the points' shape components do not fit the operator");
     if (points.nodesPerEntity > kMaxNodes || points.pointsPerEntity > kMaxPoints)
-      throw std::invalid_argument("an element or face has more than 27 nodes or 64 points: lower the cubature degree");
+      throw std::invalid_argument(
+          "an element or face has more than 27 nodes or 64 points: lower the cubature degree");
     if (data.size() != static_cast<std::size_t>(points.numPoints()) * D)
       throw std::logic_error("LawTerm: wrong number of data");
     a_.law = law;
@@ -157,35 +160,37 @@ class LawTerm final : public Term {
     a_.positions = View<int*>("positions", static_cast<std::size_t>(batches_.count) * L * block);
     auto host = Kokkos::create_mirror_view(a_.positions);
     for (int e = 0; e < a_.numEntities; ++e)
-      for (int i = 0; i < block; ++i) host(static_cast<std::size_t>(e) * block + i) = positions[static_cast<std::size_t>(e) * block + i];
+      for (int i = 0; i < block; ++i)
+        host(static_cast<std::size_t>(e) * block + i) = positions[static_cast<std::size_t>(e) * block + i];
     Kokkos::deep_copy(a_.positions, host);
   }
 
   double addResidual(const ConstField& u, const Field& f) const override {
     const Arrays a = a_;
     const View<double*> squares("squares", batches_.count);
-    forEachBatch("residual", KOKKOS_LAMBDA(int b) {
-      Pack local[3 * kMaxNodes], force[3 * kMaxNodes], in[I], out[I];
-      for (int n = 0; n < 3 * a.N; ++n) force[n] = Pack(0.0);
-      a.gather(b, u, local);
-      for (int q = 0; q < a.Q; ++q) {
-        a.interpolate(b, q, local, in);
-        a.addOffset(b, q, in);
-        for (int lane = 0; lane < L; ++lane) {
-          double one[I], data[D + 1], result[I];
-          a.lanesOf(in, I, lane, one);
-          a.lanesOf(a.dataAt(b, q), D, lane, data);
-          taylor::value(a.law, one, data, result);
-          for (int m = 0; m < I; ++m) out[m].v[lane] = result[m];
-        }
-        a.accumulate(b, q, out, force);
-      }
-      a.scatter(b, force, f);
-      double sum = 0;
-      for (int n = 0; n < 3 * a.N; ++n)
-        for (int lane = 0; lane < L; ++lane) sum += force[n].v[lane] * force[n].v[lane];
-      squares(b) = sum;  // padding lanes have weight, hence force, zero
-    });
+    forEachBatch(
+        "residual", KOKKOS_LAMBDA(int b) {
+          Pack local[3 * kMaxNodes], force[3 * kMaxNodes], in[I], out[I];
+          for (int n = 0; n < 3 * a.N; ++n) force[n] = Pack(0.0);
+          a.gather(b, u, local);
+          for (int q = 0; q < a.Q; ++q) {
+            a.interpolate(b, q, local, in);
+            a.addOffset(b, q, in);
+            for (int lane = 0; lane < L; ++lane) {
+              double one[I], data[D + 1], result[I];
+              a.lanesOf(in, I, lane, one);
+              a.lanesOf(a.dataAt(b, q), D, lane, data);
+              taylor::value(a.law, one, data, result);
+              for (int m = 0; m < I; ++m) out[m].v[lane] = result[m];
+            }
+            a.accumulate(b, q, out, force);
+          }
+          a.scatter(b, force, f);
+          double sum = 0;
+          for (int n = 0; n < 3 * a.N; ++n)
+            for (int lane = 0; lane < L; ++lane) sum += force[n].v[lane] * force[n].v[lane];
+          squares(b) = sum;  // padding lanes have weight, hence force, zero
+        });
     auto host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), squares);
     double sum = 0;  // in one order for any number of threads
     for (int b = 0; b < batches_.count; ++b) sum += host(b);
@@ -194,105 +199,111 @@ class LawTerm final : public Term {
 
   void addTangent(const ConstField& u, const TangentSink& sink) const override {
     const Arrays a = a_;
-    forEachBatch("tangent", KOKKOS_LAMBDA(int b) {
-      Pack local[3 * kMaxNodes], in[I];
-      Pack moduli[kMaxPoints * I * I];  // weighted tangent of the law at every point
-      a.gather(b, u, local);
-      for (int q = 0; q < a.Q; ++q) {
-        a.interpolate(b, q, local, in);
-        a.addOffset(b, q, in);
-        const double* w = &a.weight((static_cast<std::size_t>(b) * a.Q + q) * L);
-        for (int lane = 0; lane < L; ++lane) {
-          double one[I], data[D + 1], out[I], jacobian[I * I];
-          a.lanesOf(in, I, lane, one);
-          a.lanesOf(a.dataAt(b, q), D, lane, data);
-          taylor::tangent(a.law, one, data, out, jacobian);
-          for (int m = 0; m < I * I; ++m) moduli[q * I * I + m].v[lane] = w[lane] * jacobian[m];
-        }
-      }
-      const int count = a.lanesIn(b);
-      Pack column[kMaxPoints * I * 3];  // moduli times the shape of node nb: [q][input][j]
-      for (int nb = 0; nb < a.N; ++nb) {
-        for (int q = 0; q < a.Q; ++q) {
-          const double* s = a.shapeAt(b, q) + nb * C * L;
-          for (int m = 0; m < I; ++m)
-            for (int j = 0; j < 3; ++j) {
-              Pack sum(0.0);
-              for (int c = 0; c < C; ++c)
-                for (int lane = 0; lane < L; ++lane)
-                  sum.v[lane] += moduli[(q * I + m) * I + j * C + c].v[lane] * s[c * L + lane];
-              column[(q * I + m) * 3 + j] = sum;
-            }
-        }
-        for (int na = 0; na < a.N; ++na) {
-          Pack block[9];
-          for (int i = 0; i < 9; ++i) block[i] = Pack(0.0);
+    forEachBatch(
+        "tangent", KOKKOS_LAMBDA(int b) {
+          Pack local[3 * kMaxNodes], in[I];
+          Pack moduli[kMaxPoints * I * I];  // weighted tangent of the law at every point
+          a.gather(b, u, local);
           for (int q = 0; q < a.Q; ++q) {
-            const double* s = a.shapeAt(b, q) + na * C * L;
-            for (int i = 0; i < 3; ++i)
-              for (int c = 0; c < C; ++c)
-                for (int j = 0; j < 3; ++j)
-                  for (int lane = 0; lane < L; ++lane)
-                    block[3 * i + j].v[lane] += s[c * L + lane] * column[(q * I + i * C + c) * 3 + j].v[lane];
+            a.interpolate(b, q, local, in);
+            a.addOffset(b, q, in);
+            const double* w = &a.weight((static_cast<std::size_t>(b) * a.Q + q) * L);
+            for (int lane = 0; lane < L; ++lane) {
+              double one[I], data[D + 1], out[I], jacobian[I * I];
+              a.lanesOf(in, I, lane, one);
+              a.lanesOf(a.dataAt(b, q), D, lane, data);
+              taylor::tangent(a.law, one, data, out, jacobian);
+              for (int m = 0; m < I * I; ++m) moduli[q * I * I + m].v[lane] = w[lane] * jacobian[m];
+            }
           }
-          for (int lane = 0; lane < count; ++lane) {
-            const int node = a.nodesOf(b, lane)[na];
-            const int position = a.positions((static_cast<std::size_t>(b * L + lane) * a.N + na) * a.N + nb);
-            for (int i = 0; i < 3; ++i)
-              for (int j = 0; j < 3; ++j)
-                sink.values(sink.rowStart(3 * node + i) + position + j) += block[3 * i + j].v[lane];
+          const int count = a.lanesIn(b);
+          Pack column[kMaxPoints * I * 3];  // moduli times the shape of node nb: [q][input][j]
+          for (int nb = 0; nb < a.N; ++nb) {
+            for (int q = 0; q < a.Q; ++q) {
+              const double* s = a.shapeAt(b, q) + nb * C * L;
+              for (int m = 0; m < I; ++m)
+                for (int j = 0; j < 3; ++j) {
+                  Pack sum(0.0);
+                  for (int c = 0; c < C; ++c)
+                    for (int lane = 0; lane < L; ++lane)
+                      sum.v[lane] += moduli[(q * I + m) * I + j * C + c].v[lane] * s[c * L + lane];
+                  column[(q * I + m) * 3 + j] = sum;
+                }
+            }
+            for (int na = 0; na < a.N; ++na) {
+              Pack block[9];
+              for (int i = 0; i < 9; ++i) block[i] = Pack(0.0);
+              for (int q = 0; q < a.Q; ++q) {
+                const double* s = a.shapeAt(b, q) + na * C * L;
+                for (int i = 0; i < 3; ++i)
+                  for (int c = 0; c < C; ++c)
+                    for (int j = 0; j < 3; ++j)
+                      for (int lane = 0; lane < L; ++lane)
+                        block[3 * i + j].v[lane] +=
+                            s[c * L + lane] * column[(q * I + i * C + c) * 3 + j].v[lane];
+              }
+              for (int lane = 0; lane < count; ++lane) {
+                const int node = a.nodesOf(b, lane)[na];
+                const int position =
+                    a.positions((static_cast<std::size_t>(b * L + lane) * a.N + na) * a.N + nb);
+                for (int i = 0; i < 3; ++i)
+                  for (int j = 0; j < 3; ++j)
+                    sink.values(sink.rowStart(3 * node + i) + position + j) += block[3 * i + j].v[lane];
+              }
+            }
           }
-        }
-      }
-    });
+        });
   }
 
   void beginSeries(const ConstField& u, int maxOrder) override {
     if (a_.history.size() == 0 || a_.maxOrder != maxOrder) {
       a_.maxOrder = maxOrder;
       a_.history = View<double*>();  // free before the new one is made
-      a_.history = View<double*>(Kokkos::view_alloc("history", Kokkos::WithoutInitializing),
-                                 historyDoubles(maxOrder));
+      a_.history =
+          View<double*>(Kokkos::view_alloc("history", Kokkos::WithoutInitializing), historyDoubles(maxOrder));
     }
     const Arrays a = a_;
-    forEachBatch("beginSeries", KOKKOS_LAMBDA(int b) {
-      Pack local[3 * kMaxNodes], in[I], out[I];
-      a.gather(b, u, local);
-      for (int q = 0; q < a.Q; ++q) {
-        a.interpolate(b, q, local, in);
-        a.addOffset(b, q, in);
-        taylor::Context<L> context{a.historyAt(b, q), a.maxOrder, 0, taylor::Pass::Start, 0};
-        taylor::sweep(a.law, context, in, a.dataAt(b, q), out);
-      }
-    });
+    forEachBatch(
+        "beginSeries", KOKKOS_LAMBDA(int b) {
+          Pack local[3 * kMaxNodes], in[I], out[I];
+          a.gather(b, u, local);
+          for (int q = 0; q < a.Q; ++q) {
+            a.interpolate(b, q, local, in);
+            a.addOffset(b, q, in);
+            taylor::Context<L> context{a.historyAt(b, q), a.maxOrder, 0, taylor::Pass::Start, 0};
+            taylor::sweep(a.law, context, in, a.dataAt(b, q), out);
+          }
+        });
   }
 
   void addOrder(int k, const Field& f) override {
     const Arrays a = a_;
-    forEachBatch("addOrder", KOKKOS_LAMBDA(int b) {
-      Pack force[3 * kMaxNodes], in[I], out[I];
-      for (int n = 0; n < 3 * a.N; ++n) force[n] = Pack(0.0);
-      for (int m = 0; m < I; ++m) in[m] = Pack(0.0);
-      for (int q = 0; q < a.Q; ++q) {
-        taylor::Context<L> context{a.historyAt(b, q), a.maxOrder, k, taylor::Pass::Sweep, 0};
-        taylor::sweep(a.law, context, in, a.dataAt(b, q), out);
-        a.accumulate(b, q, out, force);
-      }
-      a.scatter(b, force, f);
-    });
+    forEachBatch(
+        "addOrder", KOKKOS_LAMBDA(int b) {
+          Pack force[3 * kMaxNodes], in[I], out[I];
+          for (int n = 0; n < 3 * a.N; ++n) force[n] = Pack(0.0);
+          for (int m = 0; m < I; ++m) in[m] = Pack(0.0);
+          for (int q = 0; q < a.Q; ++q) {
+            taylor::Context<L> context{a.historyAt(b, q), a.maxOrder, k, taylor::Pass::Sweep, 0};
+            taylor::sweep(a.law, context, in, a.dataAt(b, q), out);
+            a.accumulate(b, q, out, force);
+          }
+          a.scatter(b, force, f);
+        });
   }
 
   void completeOrder(int k, const ConstField& Uk) override {
     const Arrays a = a_;
-    forEachBatch("completeOrder", KOKKOS_LAMBDA(int b) {
-      Pack local[3 * kMaxNodes], in[I], out[I];
-      a.gather(b, Uk, local);
-      for (int q = 0; q < a.Q; ++q) {
-        a.interpolate(b, q, local, in);
-        taylor::Context<L> context{a.historyAt(b, q), a.maxOrder, k, taylor::Pass::Complete, 0};
-        taylor::sweep(a.law, context, in, a.dataAt(b, q), out);
-      }
-    });
+    forEachBatch(
+        "completeOrder", KOKKOS_LAMBDA(int b) {
+          Pack local[3 * kMaxNodes], in[I], out[I];
+          a.gather(b, Uk, local);
+          for (int q = 0; q < a.Q; ++q) {
+            a.interpolate(b, q, local, in);
+            taylor::Context<L> context{a.historyAt(b, q), a.maxOrder, k, taylor::Pass::Complete, 0};
+            taylor::sweep(a.law, context, in, a.dataAt(b, q), out);
+          }
+        });
   }
 
   PointValues observe(const ConstField& u) const override {
@@ -301,20 +312,21 @@ class LawTerm final : public Term {
     constexpr int M = Law::numObserved;
     View<double*> values("observed", static_cast<std::size_t>(a_.numEntities) * a_.Q * M);
     const Arrays a = a_;
-    forEachBatch("observe", KOKKOS_LAMBDA(int b) {
-      Pack local[3 * kMaxNodes], in[I];
-      a.gather(b, u, local);
-      for (int q = 0; q < a.Q; ++q) {
-        a.interpolate(b, q, local, in);
-        a.addOffset(b, q, in);
-        for (int lane = 0; lane < a.lanesIn(b); ++lane) {
-          double one[I], data[D + 1];
-          a.lanesOf(in, I, lane, one);
-          a.lanesOf(a.dataAt(b, q), D, lane, data);
-          a.law.observe(one, data, &values((static_cast<std::size_t>(b * L + lane) * a.Q + q) * M));
-        }
-      }
-    });
+    forEachBatch(
+        "observe", KOKKOS_LAMBDA(int b) {
+          Pack local[3 * kMaxNodes], in[I];
+          a.gather(b, u, local);
+          for (int q = 0; q < a.Q; ++q) {
+            a.interpolate(b, q, local, in);
+            a.addOffset(b, q, in);
+            for (int lane = 0; lane < a.lanesIn(b); ++lane) {
+              double one[I], data[D + 1];
+              a.lanesOf(in, I, lane, one);
+              a.lanesOf(a.dataAt(b, q), D, lane, data);
+              a.law.observe(one, data, &values((static_cast<std::size_t>(b * L + lane) * a.Q + q) * M));
+            }
+          }
+        });
     auto host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), values);
     result.values.assign(host.data(), host.data() + host.size());
     return result;
@@ -361,7 +373,8 @@ class LawTerm final : public Term {
         for (int q = 0; q < Q; ++q) {
           const std::size_t source = e * Q + q, target = b * Q + q;
           weight(target * L + lane) = real ? p.weights[source] : 0.0;
-          for (int m = 0; m < N * C; ++m) shape((target * N * C + m) * L + lane) = p.shape[source * N * C + m];
+          for (int m = 0; m < N * C; ++m)
+            shape((target * N * C + m) * L + lane) = p.shape[source * N * C + m];
           if (C == 1)
             for (int i = 0; i < 3; ++i) offset((target * I + i) * L + lane) = p.positions[source * 3 + i];
           for (int d = 0; d < D; ++d) datum((target * D + d) * L + lane) = data[source * D + d];

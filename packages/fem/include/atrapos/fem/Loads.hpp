@@ -11,7 +11,8 @@ namespace atrapos::fem {
 /// area or volume and keep their direction.
 
 /// The same force at every node of a list.
-void addNodalLoad(const std::vector<int>& nodes, const std::array<double, 3>& perNode, std::vector<double>& force);
+void addNodalLoad(const std::vector<int>& nodes, const std::array<double, 3>& perNode,
+                  std::vector<double>& force);
 
 /// A traction per reference area over a side set.
 void addTraction(const Mesh& mesh, const SideSet& set, const std::array<double, 3>& traction,

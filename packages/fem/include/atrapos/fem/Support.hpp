@@ -36,8 +36,8 @@ struct HeldDirection {
 
 /// A connected part of the mesh that can still move as a rigid body.
 struct FreeBody {
-  std::string block;   ///< name of the first block that belongs to it
-  int motions = 0;     ///< number of independent rigid motions left, 1..6
+  std::string block;  ///< name of the first block that belongs to it
+  int motions = 0;    ///< number of independent rigid motions left, 1..6
 };
 
 /// Connected parts of the mesh whose rigid motions are not all held by the supports and held directions.

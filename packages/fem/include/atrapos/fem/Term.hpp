@@ -42,8 +42,8 @@ class Term {
   /// [entity][a][b], in units of entries.
   virtual void setPositions(const std::vector<int>& positions) = 0;
 
-  /// f += F(u). Returns the sum of squares of the entities' own nodal forces, before they are summed at nodes:
-  /// what equilibrium is the cancellation of.
+  /// f += F(u). Returns the sum of squares of the entities' own nodal forces, before they are summed at
+  /// nodes: what equilibrium is the cancellation of.
   virtual double addResidual(const ConstField& u, const Field& f) const = 0;
 
   /// K += dF/du.
