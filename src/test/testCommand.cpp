@@ -1,0 +1,168 @@
+// The command's manners: what it prints where, exit codes, and the files of good runs.
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <nlohmann/json.hpp>
+
+#include "atrapos/exodus/MeshFile.hpp"
+#include "atrapos/exodus/ResultReader.hpp"
+#include "support/Command.hpp"
+#include "support/Folder.hpp"
+#include "support/SmallDeck.hpp"
+
+namespace atrapos::test {
+namespace {
+
+class CommandTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    writeFile(folder_ / "deck.yaml", kSmallDeck);
+    const CommandResult made = runAtrapos({"mesh", "-q", "deck.yaml"}, folder_.path());
+    ASSERT_EQ(made.exitCode, 0) << made.err;
+  }
+
+  nlohmann::json summary(const std::string& results) const {
+    return nlohmann::json::parse(readFile(folder_ / results / "summary.json"));
+  }
+
+  TemporaryFolder folder_;
+};
+
+void expectNoChatter(const std::string& text) {
+  for (const char* word : {"Kokkos", "OMP_PROC_BIND", "WARNING", "warning", "MPI"})
+    EXPECT_EQ(text.find(word), std::string::npos) << word << " in:\n" << text;
+}
+
+TEST_F(CommandTest, HelpNamesTheSubcommands) {
+  const CommandResult r = runAtrapos({"--help"}, folder_.path());
+  EXPECT_EQ(r.exitCode, 0);
+  EXPECT_EQ(r.err, "");
+  for (const char* word : {"run", "mesh", "check", "--version"})
+    EXPECT_NE(r.out.find(word), std::string::npos) << r.out;
+  const CommandResult run = runAtrapos({"run", "--help"}, folder_.path());
+  EXPECT_EQ(run.exitCode, 0);
+  for (const char* word : {"DECK", "--output", "--threads", "--quiet"})
+    EXPECT_NE(run.out.find(word), std::string::npos) << run.out;
+}
+
+TEST_F(CommandTest, VersionIsOneLine) {
+  const CommandResult r = runAtrapos({"--version"}, folder_.path());
+  EXPECT_EQ(r.exitCode, 0);
+  EXPECT_EQ(r.err, "");
+  int major = -1, minor = -1, patch = -1, read = 0;
+  ASSERT_EQ(std::sscanf(r.out.c_str(), "atrapos %d.%d.%d\n%n", &major, &minor, &patch, &read), 3) << r.out;
+  EXPECT_EQ(static_cast<std::size_t>(read), r.out.size()) << r.out;
+}
+
+TEST_F(CommandTest, MeshWritesTheFile) {
+  const fem::Mesh mesh = exodus::readMesh((folder_ / "box.exo").string());
+  EXPECT_EQ(mesh.numNodes(), 20);
+  EXPECT_EQ(mesh.numElements(), 4);
+  const CommandResult r = runAtrapos({"mesh", "deck.yaml", "-o", "other.exo"}, folder_.path());
+  EXPECT_EQ(r.exitCode, 0);
+  EXPECT_EQ(r.err, "");
+  EXPECT_EQ(r.out, "other.exo: 20 nodes, 4 HEX8 in block 'body'\n");
+  EXPECT_EQ(exodus::readMesh((folder_ / "other.exo").string()).coordinates, mesh.coordinates);
+}
+
+TEST_F(CommandTest, QuietMeshPrintsNothing) {
+  const CommandResult r = runAtrapos({"mesh", "-q", "deck.yaml"}, folder_.path());
+  EXPECT_EQ(r.exitCode, 0);
+  EXPECT_EQ(r.out + r.err, "");
+}
+
+TEST_F(CommandTest, CheckPrintsTheWholeDeckAndWritesNothing) {
+  const auto before = snapshot(folder_.path());
+  const CommandResult r = runAtrapos({"check", "deck.yaml"}, folder_.path());
+  EXPECT_EQ(r.exitCode, 0);
+  EXPECT_EQ(r.err, "");
+  expectNoChatter(r.out);
+  // Defaults that the deck leaves unsaid, and what the mesh makes of it: 20 nodes, 4 of them held.
+  for (const char* word : {"accuracy: 1", "order: 15", "60 (48 free)", "smallest gap 0.25"})
+    EXPECT_NE(r.out.find(word), std::string::npos) << word << " is not in:\n" << r.out;
+  EXPECT_TRUE(snapshot(folder_.path()) == before);
+
+  // What it prints is a deck, the same one.
+  writeFile(folder_ / "printed.yaml", r.out);
+  const CommandResult again = runAtrapos({"check", "printed.yaml"}, folder_.path());
+  EXPECT_EQ(again.exitCode, 0) << again.err;
+  EXPECT_EQ(again.out, r.out);
+}
+
+TEST_F(CommandTest, RunReportsEveryStepOnStdout) {
+  const CommandResult r = runAtrapos({"run", "deck.yaml"}, folder_.path());
+  EXPECT_EQ(r.exitCode, 0);
+  EXPECT_EQ(r.err, "");
+  expectNoChatter(r.out);
+  const int steps = summary("deck_results").at("steps");
+  int reported = 0;
+  std::istringstream lines(r.out);
+  for (std::string line; std::getline(lines, line);) {
+    int step = 0, order = 0;
+    if (std::sscanf(line.c_str(), "%d %d ", &step, &order) == 2 && order == 15) {
+      EXPECT_EQ(step, reported + 1) << line;
+      ++reported;
+    }
+  }
+  EXPECT_EQ(reported, steps);
+  EXPECT_NE(r.out.find("load factor 0.5 reached\nresults in deck_results\n"), std::string::npos) << r.out;
+}
+
+TEST_F(CommandTest, QuietRunPrintsNothing) {
+  const CommandResult r = runAtrapos({"run", "-q", "deck.yaml", "-o", "there/below"}, folder_.path());
+  EXPECT_EQ(r.exitCode, 0);
+  EXPECT_EQ(r.out + r.err, "");
+  for (const char* name : {"path.csv", "results.exo", "summary.json"})
+    EXPECT_TRUE(std::filesystem::is_regular_file(folder_ / "there" / "below" / name)) << name;
+}
+
+TEST_F(CommandTest, ThreadsAreUsedOrRefused) {
+  ASSERT_EQ(runAtrapos({"run", "-q", "deck.yaml", "-t", "1"}, folder_.path()).exitCode, 0);
+  EXPECT_EQ(summary("deck_results").at("threads"), 1);
+  const bool serial = summary("deck_results").at("execution_space") == "Serial";
+  const CommandResult r = runAtrapos({"run", "-q", "deck.yaml", "-t", "2"}, folder_.path());
+  if (serial) {
+    EXPECT_EQ(r.exitCode, 2);
+    EXPECT_NE(r.err.find("--threads 2"), std::string::npos) << r.err;
+    EXPECT_EQ(r.errorLines().size(), 1u) << r.err;
+  } else {
+    EXPECT_EQ(r.exitCode, 0) << r.err;
+    EXPECT_EQ(summary("deck_results").at("threads"), 2);
+  }
+}
+
+TEST_F(CommandTest, PathThatCannotBeContinued) {
+  // Rounding alone leaves more than this of a residual.
+  writeFile(folder_ / "deck.yaml", edited(kSmallDeck, "residual: 1.0e-8", "residual: 1.0e-17"));
+  const CommandResult r = runAtrapos({"run", "-q", "deck.yaml"}, folder_.path());
+  EXPECT_EQ(r.exitCode, 3);
+  EXPECT_EQ(r.out, "");
+  ASSERT_EQ(r.errorLines().size(), 2u) << r.err;
+  EXPECT_NE(r.errorLines()[0].find("over the bound 1e-17"), std::string::npos) << r.err;
+  EXPECT_EQ(r.errorLines()[1], "results in deck_results");
+  const auto json = summary("deck_results");
+  EXPECT_EQ(json.at("reached_stop"), false);
+  EXPECT_EQ(json.at("ended"), "stepTooSmall");
+  EXPECT_EQ(json.at("why"), r.errorLines()[0]);
+  exodus::ResultReader results((folder_ / "deck_results" / "results.exo").string());
+  EXPECT_EQ(results.numSteps(), static_cast<int>(json.at("steps")) + 1);
+}
+
+TEST_F(CommandTest, StepsOfTheDeckEndThePath) {
+  writeFile(folder_ / "deck.yaml", edited(kSmallDeck, "{load_factor: 0.5}", "{load_factor: 0.5, steps: 3}"));
+  const CommandResult r = runAtrapos({"run", "-q", "deck.yaml"}, folder_.path());
+  EXPECT_EQ(r.exitCode, 0) << r.err;
+  EXPECT_EQ(summary("deck_results").at("steps"), 3);
+}
+
+TEST_F(CommandTest, ASecondRunReplacesTheFirst) {
+  ASSERT_EQ(runAtrapos({"run", "-q", "deck.yaml"}, folder_.path()).exitCode, 0);
+  const std::string first = readFile(folder_ / "deck_results" / "path.csv");
+  writeFile(folder_ / "deck_results" / "notes.txt", "mine");
+  ASSERT_EQ(runAtrapos({"run", "-q", "deck.yaml"}, folder_.path()).exitCode, 0);
+  EXPECT_EQ(readFile(folder_ / "deck_results" / "path.csv"), first);
+  EXPECT_EQ(readFile(folder_ / "deck_results" / "notes.txt"), "mine");
+}
+
+}  // namespace
+}  // namespace atrapos::test

@@ -1,0 +1,36 @@
+#include "support/StripRun.hpp"
+
+#include <stdexcept>
+
+namespace atrapos::test {
+namespace {
+
+void mustEndWell(const CommandResult& r) {
+  if (r.exitCode != 0) throw std::runtime_error("exit code " + std::to_string(r.exitCode) + ": " + r.err);
+}
+
+}  // namespace
+
+StripFolder::StripFolder(const std::string& name, const Edits& edits) {
+  std::string text = readFile(std::filesystem::path(ATRAPOS_EXAMPLES) / "strip_roll" / name);
+  for (const auto& [from, to] : edits) text = edited(text, from, to);
+  writeFile(deck(), text);
+  mustEndWell(runAtrapos({"mesh", "-q", "deck.yaml"}, path()));
+}
+
+std::vector<std::string> StripFolder::run(const std::vector<std::string>& more) {
+  std::vector<std::string> arguments{"run", "-q", "deck.yaml", "-o", "results"};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return arguments;
+}
+
+StripRun::StripRun(const std::string& name, const Edits& edits, const std::vector<std::string>& arguments)
+    : folder(name, edits) {
+  // Under sanitizers or without optimisation a run takes twenty times as long as in the release build.
+  constexpr double limit = 1200;
+  mustEndWell(runAtrapos(StripFolder::run(arguments), folder.path(), limit));
+  path = std::make_unique<Table>(folder.results("path.csv"));
+  summary = nlohmann::json::parse(readFile(folder.results("summary.json")));
+}
+
+}  // namespace atrapos::test
