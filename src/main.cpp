@@ -88,7 +88,9 @@ int check(const std::string& deckFile) {
 int main(int argc, char** argv) {
   CLI::App app{"Traces solution paths of nonlinear finite-element problems with high-order Taylor series"};
   app.set_version_flag("--version", std::string("atrapos ") + atrapos::kVersion);
-  app.require_subcommand(1);
+  app.require_subcommand(0,
+                         1);  // a missing command and stray words are found below: CLI11 would not name them
+  app.allow_extras();
   std::string deck, output;
   int threads = 0;
   bool quiet = false;
@@ -118,6 +120,16 @@ int main(int argc, char** argv) {
     return kBadInput;
   }
 
+  const bool hasCommand = !app.get_subcommands().empty();
+  const auto extras = app.remaining(true);
+  if (!hasCommand || !extras.empty()) {
+    std::cerr << (extras.empty() ? "atrapos: a command is needed: run, mesh or check"
+                  : hasCommand
+                      ? fmt::format("atrapos: '{}' is not expected", extras.front())
+                      : fmt::format("atrapos: '{}' is not a command: run, mesh or check", extras.front()))
+              << " (see atrapos --help)\n";
+    return kBadInput;
+  }
   try {
     if (*runCommand) return run(deck, output, threads, quiet);
     if (*meshCommand) return makeMesh(deck, output, quiet);

@@ -45,6 +45,22 @@ TEST_F(CommandTest, HelpNamesTheSubcommands) {
     EXPECT_NE(run.out.find(word), std::string::npos) << run.out;
 }
 
+TEST_F(CommandTest, StrayWordsAreNamed) {
+  const std::vector<std::pair<std::vector<std::string>, std::string>> cases{
+      {{}, "a command is needed"},
+      {{"solve"}, "'solve' is not a command"},
+      {{"run"}, "DECK is required"},
+      {{"run", "deck.yaml", "more"}, "'more' is not expected"},
+      {{"mesh", "deck.yaml", "--quite"}, "'--quite' is not expected"}};
+  for (const auto& [words, problem] : cases) {
+    const CommandResult r = runAtrapos(words, folder_.path());
+    EXPECT_EQ(r.exitCode, 2);
+    EXPECT_EQ(r.out, "");
+    ASSERT_EQ(r.errorLines().size(), 1u) << r.err;
+    EXPECT_NE(r.err.find(problem), std::string::npos) << r.err;
+  }
+}
+
 TEST_F(CommandTest, VersionIsOneLine) {
   const CommandResult r = runAtrapos({"--version"}, folder_.path());
   EXPECT_EQ(r.exitCode, 0);

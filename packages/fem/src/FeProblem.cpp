@@ -186,7 +186,7 @@ struct FeProblem::Impl {
       for (const auto& term : model.terms) squares += term->addResidual(rate, sum);
       size = std::max(size, std::sqrt(squares));
     }
-    scaleFloor = std::max(1e-10 * size, 1e-300);
+    scaleFloor = std::max(1e-6 * size, 1e-300);
   }
 
   /// sum = sum of the terms - F_0 - lambda F_1 on all rows; returns the scale.

@@ -290,6 +290,33 @@ TEST(FeProblem, ScaleIsTheLargestOfTheForces) {
   EXPECT_DOUBLE_EQ(residual(problem, u, 0.0).norm.scale, norm(internal));
 }
 
+// A bar stretched evenly: the forces of its cells cancel at the nodes between them, and count all the same.
+TEST(FeProblem, ScaleCountsWhatCancelsAtTheNodes) {
+  const Mesh mesh = box(Topology::Hex8, {3, 1, 1});
+  const PointSet points = volumePoints(mesh, mesh.blocks[0], tabulate(Topology::Hex8));
+  const Numbers ones(points.numPoints(), 1.0);
+  Numbers u(3 * mesh.numNodes(), 0.0);
+  for (int n = 0; n < mesh.numNodes(); ++n) u[3 * n] = 0.1 * mesh.coordinates[3 * n];
+  double squares = 0;
+  for (int e = 0; e < points.numEntities; ++e) {
+    Block cell = mesh.blocks[0];
+    cell.nodes.assign(mesh.blocks[0].nodes.begin() + 8 * e, mesh.blocks[0].nodes.begin() + 8 * (e + 1));
+    const PointSet own = volumePoints(mesh, cell, tabulate(Topology::Hex8));
+    const double force = norm(plainForces(ExponentialSolid{}, own, Numbers(own.numPoints(), 1.0), u));
+    squares += force * force;
+  }
+  FeModel model;
+  model.numNodes = mesh.numNodes();
+  model.terms.push_back(
+      std::make_unique<LawTerm<ExponentialSolid, DisplacementGradient>>(ExponentialSolid{}, points, ones));
+  model.supports = Supports(mesh.numNodes());
+  FeProblem problem(std::move(model));
+  const double scale = residual(problem, u, 0.0).norm.scale;
+  EXPECT_NEAR(scale, std::sqrt(squares), 1e-13 * scale);  // rounding of sums of some hundred terms
+  EXPECT_LT(norm(problem.forces(problem.term(0), *vectorOf(problem, u))),
+            0.7 * scale);  // 0.60: the end faces are left
+}
+
 // Nothing acts at lambda = 0: the scale must stay above zero, also where supports alone drive the body.
 TEST(FeProblem, ScaleOfAnUnloadedState) {
   const Mesh mesh = box(Topology::Hex8, {2, 1, 1});

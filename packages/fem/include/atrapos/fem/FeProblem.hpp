@@ -28,7 +28,7 @@ struct FeModel {
 ///
 /// Scale of the relative residual: the norm of what the residual is the cancellation of, sqrt(sum over all
 /// elements and contact faces of |own nodal forces|^2), or that of F_0 + lambda F_1 where it is larger; at
-/// least 1e-10 of the forces at load factor 1. (Assembled forces and reactions would not do: they can all
+/// least 1e-6 of the forces at load factor 1. (Assembled forces and reactions would not do: they can all
 /// vanish at a stressed state, and in a thin body the rounding of the displacements alone then exceeds any
 /// fraction of them.)
 ///
