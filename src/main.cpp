@@ -88,8 +88,8 @@ int check(const std::string& deckFile) {
 int main(int argc, char** argv) {
   CLI::App app{"Traces solution paths of nonlinear finite-element problems with high-order Taylor series"};
   app.set_version_flag("--version", std::string("atrapos ") + atrapos::kVersion);
-  app.require_subcommand(0,
-                         1);  // a missing command and stray words are found below: CLI11 would not name them
+  // A missing command and stray words are found below: CLI11 would not name them.
+  app.require_subcommand(0, 1);
   app.allow_extras();
   std::string deck, output;
   int threads = 0;
