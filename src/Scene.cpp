@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Tpetra_Vector.hpp>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -13,6 +12,7 @@
 #include "atrapos/fem/ReferenceCell.hpp"
 
 namespace atrapos {
+
 Scene::Scene(const deck::Deck& deck, fem::Mesh mesh) : deck_(deck), mesh_(std::move(mesh)) {
   deck::checkAgainstMesh(deck_, mesh_);
   fem::FeModel model;
@@ -25,6 +25,7 @@ Scene::Scene(const deck::Deck& deck, fem::Mesh mesh) : deck_(deck), mesh_(std::m
   requireSupport(model.supports);
   requireEffect(model);
   problem_ = std::make_unique<fem::FeProblem>(std::move(model));
+  addMonitors();
 }
 
 void Scene::fail(const std::string& key, const std::string& problem) const {
@@ -38,14 +39,15 @@ std::vector<int> Scene::nodesOf(const std::string& set) const {
 }
 
 void Scene::addMaterials(fem::FeModel& model) {
-  blockTerms_.assign(mesh_.blocks.size(), -1);
+  solids_.resize(mesh_.blocks.size());
   for (const deck::Material& material : deck_.materials)
     for (const std::string& name : material.blocks) {
       const int b = fem::findBlock(mesh_, name);
       const fem::Block& block = mesh_.blocks[b];
       try {
-        const auto points = fem::volumePoints(mesh_, block, fem::tabulate(block.topology));
-        blockTerms_[b] = static_cast<int>(model.terms.size());
+        const auto cell = fem::tabulate(block.topology);
+        const auto points = fem::volumePoints(mesh_, block, cell);
+        solids_[b] = {static_cast<int>(model.terms.size()), fem::extrapolation(block.topology, cell)};
         model.terms.push_back(registry::materialTerm(material, points));
       } catch (const std::runtime_error& e) {
         fail("mesh/file", e.what());
@@ -99,10 +101,14 @@ void Scene::addLoads(fem::FeModel& model) const {
     std::visit(Adder{*this, load.constant ? model.constantLoad : model.load}, load.load);
 }
 
+const deck::Tool& Scene::toolOf(const deck::Contact& contact) const {
+  return *std::find_if(deck_.tools.begin(), deck_.tools.end(),
+                       [&](const deck::Tool& tool) { return tool.name == contact.tool; });
+}
+
 void Scene::addContacts(fem::FeModel& model) {
   for (const deck::Contact& contact : deck_.contacts) {
-    const auto& tool = *std::find_if(deck_.tools.begin(), deck_.tools.end(),
-                                     [&](const deck::Tool& t) { return t.name == contact.tool; });
+    const deck::Tool& tool = toolOf(contact);
     contact::RegularisedPressure pressure;
     pressure.compliance = contact.stiffness ? 1.0 / *contact.stiffness : 0.0;
     pressure.eta = contact.regularisation;
@@ -156,8 +162,7 @@ void Scene::addContacts(fem::FeModel& model) {
 void Scene::requireSupport(const fem::Supports& supports) const {
   std::vector<fem::HeldDirection> held;
   for (std::size_t c = 0; c < contacts_.size(); ++c) {
-    const auto& tool = *std::find_if(deck_.tools.begin(), deck_.tools.end(),
-                                     [&](const deck::Tool& t) { return t.name == deck_.contacts[c].tool; });
+    const deck::Tool& tool = toolOf(deck_.contacts[c]);
     for (const fem::PointSet& points : contacts_[c].points)
       for (int n : points.nodes) {
         const auto y = registry::project(tool, &mesh_.coordinates[3 * static_cast<std::size_t>(n)]);

@@ -13,6 +13,12 @@
 
 namespace atrapos {
 
+/// The solid term of one block of the mesh.
+struct SolidBlock {
+  int term = -1;                ///< its position in the problem
+  std::vector<double> toNodes;  ///< [node][cubature point] of a cell: values at points -> values at nodes
+};
+
 /// The points of one contact of the deck.
 struct ContactPoints {
   std::string name;
@@ -66,6 +72,8 @@ class Scene {
   void addSupports(fem::FeModel& model) const;
   void addLoads(fem::FeModel& model) const;
   void addContacts(fem::FeModel& model);
+  void addMonitors();
+  const deck::Tool& toolOf(const deck::Contact& contact) const;
   void requireSupport(const fem::Supports& supports) const;
   void requireEffect(const fem::FeModel& model) const;
   [[noreturn]] void fail(const std::string& key, const std::string& problem) const;
@@ -76,8 +84,10 @@ class Scene {
   deck::Deck deck_;
   fem::Mesh mesh_;
   std::unique_ptr<fem::FeProblem> problem_;
-  std::vector<int> blockTerms_;  ///< [block] position of its solid term
+  std::vector<SolidBlock> solids_;  ///< [block]
   std::vector<ContactPoints> contacts_;
+  /// [monitor] weights of a displacement monitor over the unknowns; null for the others
+  std::vector<linear::RCP<path::Vector>> displacementWeights_;
 };
 
 }  // namespace atrapos

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "Scene.hpp"
-#include "atrapos/fem/ReferenceCell.hpp"
+#include "atrapos/linear/Dot.hpp"
 
 // What a scene shows of a state: stops, monitors, fields.
 namespace atrapos {
@@ -29,23 +29,28 @@ void forEachPoint(const fem::FeProblem& problem, const ContactPoints& contact, c
 
 }  // namespace
 
+void Scene::addMonitors() {
+  for (const deck::Monitor& monitor : deck_.output.monitors) {
+    linear::RCP<path::Vector> weights;
+    if (const auto* m = std::get_if<deck::DisplacementMonitor>(&monitor.quantity)) {
+      weights = linear::rcp(new path::Vector(problem_->map()));
+      const auto nodes = nodesOf(m->set);
+      const double each = m->reduce == deck::DisplacementMonitor::Reduce::Mean ? 1.0 / nodes.size() : 1.0;
+      for (int n : nodes) weights->sumIntoLocalValue(3 * n + componentIndex(m->component), each);
+    }
+    displacementWeights_.push_back(weights);
+  }
+}
+
 path::Stops Scene::stops() const {
   path::Stops stops;
   const deck::Stop& stop = deck_.path.stop;
   if (stop.loadFactor) stops.loadFactors.push_back(*stop.loadFactor);
   if (stop.pathLength) stops.pathLength = *stop.pathLength;
   for (const auto& [name, value] : stop.displacement)
-    for (const deck::Monitor& monitor : deck_.output.monitors) {
-      if (monitor.name != name) continue;
-      const auto& displacement = std::get<deck::DisplacementMonitor>(monitor.quantity);
-      const auto nodes = nodesOf(displacement.set);
-      auto weights = Teuchos::rcp(new path::Vector(problem_->map()));
-      for (int n : nodes)
-        weights->sumIntoLocalValue(
-            3 * n + componentIndex(displacement.component),
-            displacement.reduce == deck::DisplacementMonitor::Reduce::Mean ? 1.0 / nodes.size() : 1.0);
-      stops.functionals.push_back({name, weights, value});
-    }
+    for (std::size_t i = 0; i < displacementWeights_.size(); ++i)
+      if (deck_.output.monitors[i].name == name)
+        stops.functionals.push_back({name, displacementWeights_[i], value});
   return stops;
 }
 
@@ -84,13 +89,8 @@ std::vector<double> Scene::monitors(const path::Vector& u, double lambda) const 
     const Scene& scene;
     const path::Vector& u;
     double lambda;
-    double operator()(const deck::DisplacementMonitor& m) const {
-      const auto values = u.getLocalViewHost(Tpetra::Access::ReadOnly);
-      const auto nodes = scene.nodesOf(m.set);
-      double sum = 0;
-      for (int n : nodes) sum += values(3 * n + componentIndex(m.component), 0);
-      return m.reduce == deck::DisplacementMonitor::Reduce::Mean ? sum / nodes.size() : sum;
-    }
+    const path::Vector* weights;
+    double operator()(const deck::DisplacementMonitor&) const { return linear::dot(*weights, u); }
     double operator()(const deck::ContactForceMonitor& m) const {
       for (const ContactPoints& contact : scene.contacts_)
         if (contact.name == m.contact)
@@ -109,8 +109,9 @@ std::vector<double> Scene::monitors(const path::Vector& u, double lambda) const 
       return sum;
     }
   };
-  for (const deck::Monitor& monitor : deck_.output.monitors)
-    result.push_back(std::visit(Evaluator{*this, u, lambda}, monitor.quantity));
+  for (std::size_t i = 0; i < deck_.output.monitors.size(); ++i)
+    result.push_back(std::visit(Evaluator{*this, u, lambda, displacementWeights_[i].get()},
+                                deck_.output.monitors[i].quantity));
   return result;
 }
 
@@ -189,11 +190,10 @@ std::vector<std::vector<double>> Scene::nodalStress(const path::Vector& u) const
   std::vector<int> elementsAt(numNodes, 0);
   for (std::size_t b = 0; b < mesh_.blocks.size(); ++b) {
     const fem::Block& block = mesh_.blocks[b];
-    const fem::Term& term = problem_->term(blockTerms_[b]);
-    const auto cell = fem::tabulate(block.topology);
-    const auto toNodes = fem::extrapolation(block.topology, cell);
+    const fem::Term& term = problem_->term(solids_[b].term);
+    const auto& toNodes = solids_[b].toNodes;
     const auto values = term.observe(fem::field(u)).values;
-    const int N = cell.numNodes, Q = cell.numPoints;
+    const int N = term.nodesPerEntity(), Q = static_cast<int>(toNodes.size()) / N;
     for (int e = 0; e < term.numEntities(); ++e)
       for (int n = 0; n < N; ++n) {
         const int node = block.nodes[static_cast<std::size_t>(e) * N + n];
@@ -213,7 +213,7 @@ std::vector<std::vector<double>> Scene::elementValues(const path::Vector& u) con
   if (!writes(deck::OutputField::Stress)) return {};
   std::vector<std::vector<double>> result(6);
   for (std::size_t b = 0; b < mesh_.blocks.size(); ++b) {
-    const fem::Term& term = problem_->term(blockTerms_[b]);
+    const fem::Term& term = problem_->term(solids_[b].term);
     const fem::PointValues observed = term.observe(fem::field(u));
     const int points = static_cast<int>(observed.values.size()) / 6 / term.numEntities();
     for (int e = 0; e < term.numEntities(); ++e)

@@ -48,17 +48,12 @@ Field<S> entries(std::string key, Need need, std::vector<Entry> S::*member, cons
 }
 
 Field<Output> outputFieldList() {
-  Choices<OutputField> choices;
-  for (const auto field :
-       {OutputField::Displacement, OutputField::Stress, OutputField::NodalStress, OutputField::Contact,
-        OutputField::Reaction}) {
-    choices.emplace_back(wordOf(field), field);
-  }
+  const auto& choices = outputFields();
   return {"fields",
           false,
           "a list of " + joined(wordsOf(choices)),
           "what the result file holds besides the path",
-          [=](const Value& v, Output& s) {
+          [&choices](const Value& v, Output& s) {
             for (const auto& word : v.texts()) {
               const auto field = choose(v, word, choices);
               if (std::find(s.fields.begin(), s.fields.end(), field) != s.fields.end()) {
@@ -67,10 +62,10 @@ Field<Output> outputFieldList() {
               s.fields.push_back(field);
             }
           },
-          [=](const Output& s) {
+          [&choices](const Output& s) {
             std::vector<std::string> words;
             for (const auto field : s.fields) {
-              words.push_back(wordOf(field));
+              words.push_back(wordOf(field, choices));
             }
             return Node{yamlList(words), {}};
           }};

@@ -26,8 +26,8 @@ const Table<Output>& outputTable();
 const Table<MeshInput>& meshTable();
 const Table<Deck>& deckTable();
 
-/// Words of the output fields, for messages.
-std::string wordOf(OutputField field);
+/// The output fields with their words, in the order that messages give them.
+const Choices<OutputField>& outputFields();
 std::string wordOf(Component component);
 
 }  // namespace atrapos::deck

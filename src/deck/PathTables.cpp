@@ -6,15 +6,6 @@
 namespace atrapos::deck {
 namespace {
 
-const Choices<OutputField>& outputFields() {
-  static const Choices<OutputField> choices{{"displacement", OutputField::Displacement},
-                                            {"stress", OutputField::Stress},
-                                            {"nodal_stress", OutputField::NodalStress},
-                                            {"contact", OutputField::Contact},
-                                            {"reaction", OutputField::Reaction}};
-  return choices;
-}
-
 const Choices<Component>& allComponents() {
   static const Choices<Component> choices{
       {"x", Component::X}, {"y", Component::Y}, {"z", Component::Z}, {"normal", Component::Normal}};
@@ -47,7 +38,14 @@ Field<Stop> stopDisplacement() {
 
 }  // namespace
 
-std::string wordOf(OutputField field) { return wordOf(field, outputFields()); }
+const Choices<OutputField>& outputFields() {
+  static const Choices<OutputField> choices{{"displacement", OutputField::Displacement},
+                                            {"stress", OutputField::Stress},
+                                            {"nodal_stress", OutputField::NodalStress},
+                                            {"contact", OutputField::Contact},
+                                            {"reaction", OutputField::Reaction}};
+  return choices;
+}
 std::string wordOf(Component component) { return wordOf(component, allComponents()); }
 
 const Table<Stop>& stopTable() {

@@ -11,9 +11,12 @@
 ///
 ///     static constexpr int numUnknowns;
 ///     static constexpr bool symmetric;   // n = grad h: the contact tangent is symmetric
-///     template <class T> void operator()(const T* x, const T* y, T* g) const;     // g = proj, numUnknowns
-///     entries void start(const double* x, double* y) const;                               // guess for
-///     Newton's method
+///
+///     // g = proj, numUnknowns entries
+///     template <class T> void operator()(const T* x, const T* y, T* g) const;
+///
+///     // guess for Newton's method
+///     void start(const double* x, double* y) const;
 namespace atrapos::contact {
 
 /// Plane through `point` with unit `normal` pointing to the free side; paper (10).

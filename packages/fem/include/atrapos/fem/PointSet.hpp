@@ -16,8 +16,8 @@ struct PointSet {
   int shapeComponents = 0;    ///< 3: gradients dN/dX (reference configuration); 1: values N
   std::vector<int> nodes;     ///< [entity][node]
   std::vector<double> shape;  ///< [entity][point][node][component]
-  std::vector<double>
-      weights;  ///< [entity][point] cubature weight times Jacobian (volume, area; 1 at a node)
+  /// [entity][point] cubature weight times Jacobian (volume, area; 1 at a node)
+  std::vector<double> weights;
   std::vector<double> positions;  ///< [entity][point][3] in the reference configuration
   std::vector<double> normals;    ///< faces only: outward unit normals [entity][point][3]
 
