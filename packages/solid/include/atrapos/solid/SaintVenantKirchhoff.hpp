@@ -50,6 +50,14 @@ struct SaintVenantKirchhoff {
     S[5] = mu * zx;
   }
 
+  /// S of a Green-Lagrange strain E, both in the order xx, yy, zz, xy, yz, zx (tensor shear strains).
+  template <class T>
+  KOKKOS_INLINE_FUNCTION void secondPiola(const T* E, T* S) const {
+    const T trace = lambda * (E[0] + E[1] + E[2]);
+    for (int i = 0; i < 3; ++i) S[i] = trace + (2 * mu) * E[i];
+    for (int i = 3; i < 6; ++i) S[i] = (2 * mu) * E[i];
+  }
+
   template <class T>
   KOKKOS_INLINE_FUNCTION void operator()(const T* H, const taylor::Passive<T>*, T* P) const {
     T S[6];
