@@ -59,14 +59,14 @@ ShellGrid shellGrid(int nu, int nv, double thickness, const Surface& surface, co
   return grid;
 }
 
-std::vector<double> edgeWeights(int numElements, double total) {
-  std::vector<double> w(2 * numElements + 1, 0.0);
-  for (int e = 0; e < numElements; ++e) {
-    w[2 * e] += total / numElements / 6;
-    w[2 * e + 1] += total / numElements * 2 / 3;
-    w[2 * e + 2] += total / numElements / 6;
+std::vector<ShellEdge> ShellGrid::side(int number) const {
+  std::vector<ShellEdge> edges;
+  const int count = number % 2 == 0 ? nu : nv;
+  for (int k = 0; k < count; ++k) {
+    const int i = number == 1 ? nu - 1 : number == 3 ? 0 : k, j = number == 2 ? nv - 1 : number == 0 ? 0 : k;
+    edges.push_back({j * nu + i, number});
   }
-  return w;
+  return edges;
 }
 
 ShellGrid shaken(ShellGrid grid, double amount, unsigned seed) {

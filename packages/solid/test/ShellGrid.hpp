@@ -4,7 +4,7 @@
 #include <functional>
 #include <vector>
 
-#include "atrapos/solid/ShellPoints.hpp"
+#include "atrapos/solid/ShellLoads.hpp"
 
 namespace atrapos::solid::test {
 
@@ -37,6 +37,8 @@ struct ShellGrid {
   std::vector<int> lineJ(int j) const;
 
   ShellElements elements() const;
+  /// Element edges along the outline: side 0: t = 0, 1: s = 1, 2: t = 1, 3: s = 0.
+  std::vector<ShellEdge> side(int number) const;
 };
 
 ShellGrid shellGrid(
@@ -44,10 +46,6 @@ ShellGrid shellGrid(
     const Distortion& distortion = [](double s, double t) {
       return std::array<double, 2>{s, t};
     });
-
-/// The nodes of an element on its lattice line, with the weights of a force uniform along a straight edge of
-/// equal elements: 1/6, 2/3, 1/6 of an element's length; their sum is `total`.
-std::vector<double> edgeWeights(int numElements, double total);
 
 /// Moves the nodes inside a flat grid by up to `amount` in its plane, edges between corners kept straight
 /// (the nodes between corners at the middle); the grid's outer edge stays.

@@ -5,6 +5,7 @@
 #include "ShellGrid.hpp"
 #include "atrapos/fem/FeProblem.hpp"
 #include "atrapos/solid/SaintVenantKirchhoff.hpp"
+#include "atrapos/solid/ShellLoads.hpp"
 #include "support/Vectors.hpp"
 
 namespace atrapos::solid::test {
@@ -12,11 +13,11 @@ namespace atrapos::solid::test {
 using fem::test::Numbers;
 using Shell = ShellTerm<SaintVenantKirchhoff>;
 
-/// Saint Venant-Kirchhoff shell without supports and loads.
+/// Saint Venant-Kirchhoff shell without supports and loads; `moreNodes` beside those of the grid.
 inline fem::FeModel shellModel(const ShellGrid& grid, const SaintVenantKirchhoff& material,
-                               const ShellCubature& cubature = {}) {
+                               const ShellCubature& cubature = {}, int moreNodes = 0) {
   fem::FeModel model;
-  model.numNodes = 2 * grid.numNodes();
+  model.numNodes = 2 * grid.numNodes() + moreNodes;
   model.terms.push_back(std::make_unique<Shell>(ShellLaw<SaintVenantKirchhoff>{material},
                                                 shellPoints(grid.elements(), cubature)));
   model.supports = fem::Supports(model.numNodes);
@@ -65,9 +66,5 @@ inline Surface cylinder(double R, double angle0, double angle1, double y0, doubl
     return SurfacePoint{{R * std::sin(a), y, R * std::cos(a)}, {std::sin(a), 0, std::cos(a)}};
   };
 }
-
-/// A dense force per reference area q (constant vector) as nodal forces on v, by the element's own full
-/// cubature of the mid-surface.
-void addAreaLoad(const ShellGrid& grid, const Vec3& perArea, std::vector<double>& force);
 
 }  // namespace atrapos::solid::test

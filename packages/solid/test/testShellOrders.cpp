@@ -3,9 +3,7 @@
 
 #include <cmath>
 
-#include "ShellModel.hpp"
-#include "atrapos/linear/MakeTangentSolver.hpp"
-#include "atrapos/path/SeriesStep.hpp"
+#include "ShellChecks.hpp"
 #include "support/Meshes.hpp"
 
 using namespace atrapos;
@@ -61,14 +59,6 @@ fem::FeModel curvedModel(const Material& material) {
   return model;
 }
 
-/// A state off the linear range: strains of 0.1.
-Numbers state(const fem::Supports& supports) {
-  Numbers u = randomNumbers(3 * supports.numNodes(), 0.02, 17);
-  for (std::size_t d = 0; d < u.size(); ++d)
-    if (supports.fixed(static_cast<int>(d))) u[d] = 0;
-  return u;
-}
-
 template <class Material>
 class ShellOrders : public testing::Test {};
 using Materials = testing::Types<SaintVenantKirchhoff, ExponentialMaterial, UnsymmetricMaterial>;
@@ -82,71 +72,29 @@ SaintVenantKirchhoff make() {
   return SaintVenantKirchhoff::fromYoung(1, 0.3);
 }
 
-path::Series series(fem::FeProblem& problem, const Numbers& u, double lambda, int order) {
-  linear::TangentSolverOptions options;
-  options.symmetric = problem.symmetric();
-  const auto solver = linear::makeTangentSolver(options);
-  path::Calls calls(problem, *solver);
-  path::SeriesRequest request;
-  request.order = order;
-  return path::buildSeries(calls, {vectorOf(problem, u), lambda}, request);
-}
-
 }  // namespace
 
 TYPED_TEST_SUITE(ShellOrders, Materials);
 
-// Central differences of the residual against the condensed tangent: their error falls like h^2.
 TYPED_TEST(ShellOrders, TangentIsTheDerivativeOfTheResidual) {
   fem::FeModel model = curvedModel(make<TypeParam>());
-  const Numbers u = state(model.supports);
+  const Numbers u = randomState(model.supports, 0.02, 17), direction = randomState(model.supports, 0.02, 18);
   fem::FeProblem problem(std::move(model));
-  Numbers direction = randomNumbers(u.size(), 0.02, 18);
-  for (std::size_t d = 0; d < u.size(); ++d)
-    if (u[d] == 0) direction[d] = 0;
-  const Numbers exact = tangent(problem, u, 0).times(direction);
-  const auto error = [&](double h) {
-    const Numbers difference =
-        sum(residual(problem, sum(u, h, direction), 0).r, -1, residual(problem, sum(u, -h, direction), 0).r);
-    Numbers e = exact;
-    for (std::size_t d = 0; d < e.size(); ++d) e[d] -= difference[d] / (2 * h);
-    return norm(e) / norm(exact);
-  };
-  const double coarse = error(0.1), fine = error(0.05);
-  EXPECT_GT(coarse, 1e-7);                        // far above rounding, 1e-16/h
-  EXPECT_NEAR(std::log2(coarse / fine), 2, 0.1);  // the next term is h^2 smaller
+  expectTangent(problem, u, direction, 0);
 }
 
-// Where U_1..U_K solve the order equations, what is left of the residual along the series, with the enhanced
-// parameters solved anew at every state, starts at order K+1.
+// The enhanced parameters are solved anew at every state along the series.
 TYPED_TEST(ShellOrders, ResidualStartsAtOrderKPlusOne) {
   fem::FeModel model = curvedModel(make<TypeParam>());
-  const Numbers u0 = state(model.supports);
+  const Numbers u0 = randomState(model.supports, 0.02, 17);
   fem::FeProblem problem(std::move(model));
-  const Numbers R0 = residual(problem, u0, 0.4).r;
-  const int longest = 12;
-  const path::Series reference = series(problem, u0, 0.4, longest);
-  const double unit = std::pow(reference.norm(1) / reference.norm(longest), 1.0 / (longest - 1));
-  ASSERT_TRUE(std::isfinite(unit));
-  for (int K : {1, 3, 6, 10}) {
-    SCOPED_TRACE("order " + std::to_string(K));
-    const path::Series part = series(problem, u0, 0.4, K);
-    auto u = zeroVector(problem);
-    const auto left = [&](double a) {
-      const double lambda = part.evaluate(a, *u);
-      const auto r = residual(problem, fem::FeProblem::values(*u), lambda);
-      return norm(sum(r.r, -1, R0)) / r.norm.scale;
-    };
-    // A remainder of 1e-8 of its size at the unit: above rounding at a/2 too, and a small against the radius.
-    const double a = std::pow(1e-8, 1.0 / (K + 1)) * unit;
-    EXPECT_NEAR(std::log2(left(a) / left(a / 2)), K + 1, 0.25);
-  }
+  expectOrders(problem, u0, 0.4);
 }
 
 // The enhanced parameters depend on the state alone: the same bits after any other state.
 TYPED_TEST(ShellOrders, ResidualHasNoMemory) {
   fem::FeModel model = curvedModel(make<TypeParam>());
-  const Numbers u = state(model.supports);
+  const Numbers u = randomState(model.supports, 0.02, 17);
   fem::FeProblem problem(std::move(model));
   const Numbers before = residual(problem, u, 0).r;
   residual(problem, sum(u, 0.7, u), 0);
