@@ -1,6 +1,8 @@
 #include "ShellPath.hpp"
 
 #include <Tpetra_Vector.hpp>
+#include <cmath>
+#include <cstdlib>
 #include <fstream>
 #include <sstream>
 #include <stdexcept>
@@ -63,14 +65,18 @@ std::vector<PathPoint> sampled(const ShellPath& path, int perStep, const std::ve
 }
 
 std::vector<std::vector<double>> table(const std::string& file) {
-  std::ifstream in(std::string(SHELL_TEST_DATA) + "/" + file);
+  std::ifstream in(file[0] == '/' ? file : std::string(SHELL_TEST_DATA) + "/" + file);
   if (!in) throw std::runtime_error("no test data " + file);
   std::vector<std::vector<double>> rows;
   for (std::string line; std::getline(in, line);) {
     if (line.empty() || line.find_first_of("0123456789-") != 0) continue;
     std::vector<double> row;
     std::istringstream cells(line);
-    for (std::string cell; std::getline(cells, cell, ',');) row.push_back(std::stod(cell));
+    for (std::string cell; std::getline(cells, cell, ',');) {
+      char* end = nullptr;
+      const double value = std::strtod(cell.c_str(), &end);
+      row.push_back(end == cell.c_str() ? std::nan("") : value);
+    }
     rows.push_back(row);
   }
   if (rows.empty()) throw std::runtime_error("empty test data " + file);

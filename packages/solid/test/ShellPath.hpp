@@ -31,7 +31,8 @@ PathPoint atLoad(const ShellPath& path, double lambda, const std::vector<int>& d
 /// `perStep` points of every step, equally spaced.
 std::vector<PathPoint> sampled(const ShellPath& path, int perStep, const std::vector<int>& dofs);
 
-/// Rows of a CSV file in the tests' data folder; lines that are no numbers are left out.
+/// Rows of a CSV file in the shell tests' data folder, or of one with a full path; lines that do not start
+/// with a number are left out, cells that are none are NaN.
 std::vector<std::vector<double>> table(const std::string& file);
 
 /// Stop at a displacement of one dof.

@@ -39,4 +39,16 @@ using ShellTerm = fem::EnhancedTerm<ShellLaw<Material>, numShellParameters>;
 /// the element is turned over or degenerate.
 fem::EnhancedPoints shellPoints(const ShellElements& elements, const ShellCubature& cubature = {});
 
+// ---- points on the surface zeta (-1 bottom, 0 mid, 1 top) for laws of the place x = X + v + zeta (D + w):
+// contact, forces that depend on the place. `which` lists elements; shapes are values {N_a, zeta N_a},
+// without the second half where zeta = 0.
+
+/// One point of weight 1 at every node of these elements, each (node, director) once, in ascending order.
+fem::PointSet shellNodePoints(const ShellElements& elements, const std::vector<int>& which, double zeta);
+
+/// Cubature points exact to `degree` on the reference square; weights are areas of the surface, normals its
+/// unit normals to the side of +D.
+fem::PointSet shellSurfacePoints(const ShellElements& elements, const std::vector<int>& which, double zeta,
+                                 int degree);
+
 }  // namespace atrapos::solid
