@@ -7,8 +7,8 @@ namespace atrapos::solid::test {
 /// A state off the linear range: random displacements of this size at free dofs, 0 at the supports.
 Numbers randomState(const fem::Supports& supports, double amplitude, unsigned seed);
 
-/// Central differences of the residual against the tangent (F of the load factor where `driven` dofs exist is
-/// in the tangent's columns): their error falls like h^2.
+/// Central differences of the residual against the tangent along `direction` (zero at prescribed dofs): their
+/// error falls like h^2.
 void expectTangent(fem::FeProblem& problem, const Numbers& u, const Numbers& direction, double lambda);
 
 /// Where U_1..U_K solve the order equations, what is left of the residual along the series starts at order

@@ -43,8 +43,8 @@ ShellPath endShear(int n, double nu, int& tip) {
   return followPath(problem, stops);
 }
 
-/// Pure bending of Saint Venant-Kirchhoff's strip with straight sections, nu = 0 (docs/theory/shell.md): curvature
-/// k, stretches s of the mid-surface and d of the thickness at a moment M; q = k d.
+/// Pure bending of Saint Venant-Kirchhoff's strip with straight sections, nu = 0 (docs/theory/shell.md):
+/// curvature k, stretches s of the mid-surface and d of the thickness at a moment M; q = k d.
 struct BentStrip {
   double k = 0, s = 1, d = 1;
 
@@ -172,9 +172,9 @@ TEST(ShellNonlinear, CantileverEndShear) {
   EXPECT_LT(worstDeviation(path, "sze31_end_shear.csv", {3 * tip, 3 * tip + 2}, {-1, 1}), 0.015);
 }
 
-// A full circle. The strip of thickness h is not the linear beam of the elastica: it differs by (h k)^2/2, 1.4e-3 of
-// the length at h = 0.1. So: its own closed form to the mesh's error, the elastica to 1.5 % at Sze's thickness and to
-// 0.1 % where h is a fifth of it.
+// A full circle. The strip of thickness h is not the linear beam of the elastica: it differs by (h k)^2/2,
+// 1.4e-3 of the length at h = 0.1. So: its own closed form to the mesh's error, the elastica to 1.5 % at
+// Sze's thickness and to 0.1 % where h is a fifth of it.
 TEST(ShellNonlinear, CantileverEndMoment) {
   const double L = 12, EI = 100;
   const auto deviations = [&](double h, double& fromStrip, double& fromElastica) {

@@ -32,8 +32,8 @@ struct Strip {
 
 }  // namespace
 
-// End shear q per length: q_1 = q, m_11 = -q (1 - x). So small that E t times the square of the rotation, which a linear
-// solution leaves in n_11, stays below 1e-3 q.
+// End shear q per length: q_1 = q, m_11 = -q (1 - x). So small that E t times the square of the rotation,
+// which a linear solution leaves in n_11, stays below 1e-3 q.
 TEST(ShellResults, CantileverEndShear) {
   Strip strip;
   const double q = 1e-13;

@@ -34,7 +34,6 @@ class EnhancedTerm final : public Term {
   using Pack = taylor::Lanes<L>;
 
   struct Arrays : LawArrays<Law, C> {
-    using Base = LawArrays<Law, C>;
     View<double*> modes;    // [q][parameter]
     View<double*> dPde;     // [batch][q][9][lane], times the weight
     View<double*> dsdH;     // the same, times the weight

@@ -12,9 +12,11 @@ namespace atrapos::solid {
 ///
 ///     E = (H + H^T + H^T H)/2 + e g x g,   S = S(E),   P = (I + H) S,   s = S : g x g
 ///
-/// in:  H_ij = du_i/dX_j by rows (9, dimensionless), e: enhanced thickness strain (length^2, as g is
-/// 1/length). out: first Piola-Kirchhoff stress P_ij by rows (9, force per reference area), s (conjugate of
-/// e). data: g (3), the scaled contravariant base vector of ShellPoints.
+/// in: H_ij = du_i/dX_j by rows (9, dimensionless), e (length^2, as g is 1/length).
+///
+/// out: first Piola-Kirchhoff stress P_ij by rows (9, force per reference area), s (conjugate of e).
+///
+/// data: g (3), the scaled contravariant base vector of shellPoints.
 ///
 /// Material: `template <class T> void secondPiola(const T* E, T* S) const`, both in the order xx, yy, zz, xy,
 /// yz, zx with tensor (not engineering) shear strains.
