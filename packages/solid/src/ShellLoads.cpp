@@ -52,7 +52,8 @@ void addAt(const ShellElements& elements, int e, const double* N, double zeta, c
     for (int i = 0; i < 3; ++i) {
       force[3 * elements.nodes[16 * static_cast<std::size_t>(e) + a] + i] += N[a] * f[i];
       if (zeta != 0)
-        force[3 * elements.nodes[16 * static_cast<std::size_t>(e) + 8 + a] + i] += zeta * N[a] * f[i];
+        force[3 * elements.nodes[16 * static_cast<std::size_t>(e) + 8 + a] + i] +=
+            zeta * elements.scale(e, a) * N[a] * f[i];
     }
 }
 
@@ -106,7 +107,8 @@ fem::PointSet edgePoints(const ShellElements& elements, const std::vector<ShellE
         for (int i = 0; i < 3; ++i) D[i] += shape.N[a] * elements.directors[24 * e + 3 * local[a] + i];
       p.weights.push_back(lineW[q] * std::sqrt(detail::dot(T.data(), T.data())));
       for (int a = 0; a < 3; ++a) p.shape.insert(p.shape.end(), {shape.N[a], shape.dN[a], 0, 0});
-      for (int a = 0; a < 3; ++a) p.shape.insert(p.shape.end(), {0, 0, shape.N[a], 0});
+      for (int a = 0; a < 3; ++a)
+        p.shape.insert(p.shape.end(), {0, 0, elements.scale(edge.element, local[a]) * shape.N[a], 0});
       p.shape.insert(p.shape.end(), {0, 0, 0, 1});
       data.insert(data.end(), D.begin(), D.end());
       data.insert(data.end(), T.begin(), T.end());
@@ -183,9 +185,10 @@ std::unique_ptr<fem::Term> followerPressure(const ShellElements& elements, const
     p.nodes.push_back(loadFactorNode);
     for (int q = 0; q < t.numPoints; ++q) {
       p.weights.push_back(t.weights[q]);
-      for (double scale : {1.0, zeta})
+      for (int half = 0; half < 2; ++half)
         for (int a = 0; a < 8; ++a) {
           const double* dN = &t.gradients[(q * 8 + a) * 2];
+          const double scale = half == 0 ? 1.0 : zeta * elements.scale(e, a);
           p.shape.insert(p.shape.end(), {scale * t.values[q * 8 + a], scale * dN[0], scale * dN[1], 0});
         }
       p.shape.insert(p.shape.end(), {0, 0, 0, 1});

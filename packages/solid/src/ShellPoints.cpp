@@ -17,7 +17,8 @@ using detail::Vec3;
 fem::EnhancedPoints shellPoints(const ShellElements& elements, const ShellCubature& cubature) {
   const std::size_t count = elements.nodes.size() / 16;
   if (elements.nodes.size() != 16 * count || elements.midsurface.size() != 24 * count ||
-      elements.directors.size() != 24 * count)
+      elements.directors.size() != 24 * count ||
+      (!elements.directorScale.empty() && elements.directorScale.size() != 8 * count))
     throw std::logic_error("shellPoints: 16 nodes, 8 positions and 8 directors an element are needed");
   const detail::PlanePoints plane(cubature.inPlane);
   const detail::GaussRule through = detail::gaussRule(cubature.throughThickness);
@@ -50,20 +51,20 @@ fem::EnhancedPoints shellPoints(const ShellElements& elements, const ShellCubatu
                           "= {}: turned "
                           "over, degenerate, or thicker than its curvature allows",
                           e + 1, plane.xi[2 * q], plane.xi[2 * q + 1], zeta));
-      for (std::size_t z = 0; z < through.x.size(); ++z) {
-        const double zeta = through.x[z];
+      for (std::size_t layer = 0; layer < through.x.size(); ++layer) {
+        const double zeta = through.x[layer];
         const Base base = baseAt(t, at, zeta, R, D);
         const double j = base.jacobian();
         const Vec3 c1 = cross(base.g2, base.g3), c2 = cross(base.g3, base.g1), c3 = cross(base.g1, base.g2);
-        p.weights.push_back(plane.weights[q] * through.w[z] * j);
-        for (int half = 0; half < 2; ++half)  // N_a, then zeta N_a
+        p.weights.push_back(plane.weights[q] * through.w[layer] * j);
+        for (int half = 0; half < 2; ++half)  // N_a, then zeta N_a (times the director's scale)
           for (int a = 0; a < 8; ++a) {
-            const double N = t.values[q * 8 + a];
+            const double own = half == 0 ? 1.0 : elements.scale(static_cast<int>(e), a);
+            const double N = half == 0 ? 0.0 : t.values[q * 8 + a];  // d/dzeta
             const double* dN = &t.gradients[(q * 8 + a) * 2];
-            const double scale = half == 0 ? 1.0 : zeta;
+            const double z = half == 0 ? 1.0 : zeta;
             for (int i = 0; i < 3; ++i)
-              p.shape.push_back((scale * (dN[0] * c1[i] + dN[1] * c2[i]) + (half == 0 ? 0.0 : N) * c3[i]) /
-                                j);
+              p.shape.push_back(own * (z * (dN[0] * c1[i] + dN[1] * c2[i]) + N * c3[i]) / j);
           }
         for (int i = 0; i < 3; ++i) {
           double x = 0;

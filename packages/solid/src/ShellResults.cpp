@@ -83,7 +83,7 @@ ShellResultants shellResultants(const ShellElements& elements, const fem::PointV
       for (int i = 0; i < 3; ++i) {
         const std::size_t at = 16 * static_cast<std::size_t>(e) + a;
         r[3 * a + i] = R[3 * a + i] + u[3 * elements.nodes[at] + i];
-        d[3 * a + i] = D[3 * a + i] + u[3 * elements.nodes[at + 8] + i];
+        d[3 * a + i] = D[3 * a + i] + elements.scale(e, a) * u[3 * elements.nodes[at + 8] + i];
       }
     for (int q = 0; q < Q; ++q) {
       const auto [c1, c2] = inPlane(detail::baseAt(plane.table, q, 0, R, D), options.axis);
@@ -120,7 +120,8 @@ std::vector<double> thicknessChange(const ShellElements& elements, const std::ve
     for (int a = 0; a < 8; ++a) {
       const double* D = &elements.directors[24 * static_cast<std::size_t>(e) + 3 * a];
       const double* w = &u[3 * elements.nodes[16 * static_cast<std::size_t>(e) + 8 + a]];
-      const Vec3 before{D[0], D[1], D[2]}, after{D[0] + w[0], D[1] + w[1], D[2] + w[2]};
+      const double own = elements.scale(e, a);
+      const Vec3 before{D[0], D[1], D[2]}, after{D[0] + own * w[0], D[1] + own * w[1], D[2] + own * w[2]};
       result.push_back(2 * (std::sqrt(detail::dot(after, after)) - std::sqrt(detail::dot(before, before))));
     }
   return result;

@@ -200,29 +200,6 @@ TEST(ShellLoads, FollowersTangentsAndOrders) {
   expectOrders(problem, u, 0.4);
 }
 
-// Points for contact: places, areas and normals of a cylinder's surfaces; nodes once each.
-TEST(ShellLoads, SurfacePoints) {
-  const ShellGrid grid = shellGrid(8, 2, thickness, cylinder(1, 0, 1, 0, 0.7));
-  std::vector<int> all;
-  for (int e = 0; e < grid.elements().count(); ++e) all.push_back(e);
-  for (double zeta : {bottomSurface, midSurface, topSurface}) {
-    const double radius = 1 + zeta * thickness / 2;
-    const fem::PointSet nodes = shellNodePoints(grid.elements(), all, zeta);
-    EXPECT_EQ(nodes.numEntities, grid.numNodes());
-    for (int n = 0; n < grid.numNodes(); ++n)
-      EXPECT_NEAR(std::hypot(nodes.positions[3 * n], nodes.positions[3 * n + 2]), radius, 1e-15);
-    const fem::PointSet points = shellSurfacePoints(grid.elements(), all, zeta, 4);
-    double area = 0;
-    for (double w : points.weights) area += w;
-    // Quadratic elements of 1/8 of a radius: the arc's length to about (1/8)^4/1000.
-    EXPECT_NEAR(area, 0.7 * radius, 1e-6);
-    for (int q = 0; q < points.numPoints(); ++q) {
-      const double* x = &points.positions[3 * q];
-      EXPECT_NEAR(x[0] * points.normals[3 * q] + x[2] * points.normals[3 * q + 2], radius, 1e-5);
-    }
-  }
-}
-
 TEST(ShellLoads, Refused) {
   const ShellGrid grid = curved();
   const int node = 2 * grid.numNodes();

@@ -197,3 +197,45 @@ TEST(ShellPatch, FiniteRotationCostsNoForce) {
     }
   }
 }
+
+// A node's director may be another multiple of the element's own: w then is in its units. The same body, the
+// same forces on v, and forces on w times the multiple.
+TEST(ShellPatch, ScaledDirectors) {
+  const ShellGrid grid = shellGrid(3, 2, thickness, cylinder(1, 0, 1, 0, 1));
+  const ShellElements plain = grid.elements();
+  ShellElements scaled = plain;
+  Numbers scale = randomNumbers(grid.numNodes(), 0.5, 3);
+  for (double& s : scale) s += 1;
+  for (int e = 0; e < plain.count(); ++e)
+    for (int a = 0; a < 8; ++a) scaled.directorScale.push_back(scale[plain.nodes[16 * e + a]]);
+  const int node = 2 * grid.numNodes();
+  const auto problemOf = [&](const ShellElements& elements) {
+    fem::FeModel model;
+    model.numNodes = node + 1;
+    model.terms.push_back(
+        std::make_unique<Shell>(ShellLaw<SaintVenantKirchhoff>{material}, shellPoints(elements)));
+    model.terms.push_back(followerPressure(elements, {0, 2, 5}, topSurface, {0.01, 0}, node));
+    FollowerEdgeLoad load;
+    load.moment.constant = 0.01;
+    model.terms.push_back(followerEdgeLoad(elements, {{2, 1}, {5, 1}}, load, node));
+    model.supports = fem::Supports(node + 1);
+    prescribeLoadFactor(model.supports, node);
+    model.load.assign(3 * (node + 1), 0.0);
+    addShellAreaForce(elements, bottomSurface, {0.1, 0.2, 0.3}, model.load);
+    return std::make_unique<fem::FeProblem>(std::move(model));
+  };
+  Numbers u = randomNumbers(3 * (node + 1), 0.01, 4), v = u;
+  for (int n = 0; n < 3; ++n) u[3 * node + n] = v[3 * node + n] = 0;
+  for (int n = 0; n < grid.numNodes(); ++n)
+    for (int i = 0; i < 3; ++i) v[3 * grid.director(n) + i] /= scale[n];
+  auto first = problemOf(plain), second = problemOf(scaled);
+  const Numbers f = residual(*first, u, 0.7).r, g = residual(*second, v, 0.7).r;
+  double worst = 0;
+  for (int n = 0; n < grid.numNodes(); ++n)
+    for (int i = 0; i < 3; ++i) {
+      worst = std::max(worst, std::abs(f[3 * n + i] - g[3 * n + i]));
+      worst = std::max(worst, std::abs(f[3 * grid.director(n) + i] * scale[n] - g[3 * grid.director(n) + i]));
+    }
+  EXPECT_GT(largest(f), 1e-3);
+  EXPECT_LT(worst, 1e-15);  // rounding of forces of 1e-2
+}

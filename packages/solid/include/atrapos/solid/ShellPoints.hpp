@@ -14,9 +14,16 @@ namespace atrapos::solid {
 struct ShellElements {
   std::vector<int> nodes;          ///< [element][16]: eight nodes of v, then those of w
   std::vector<double> midsurface;  ///< [element][8][3] R, length
-  std::vector<double> directors;   ///< [element][8][3] D = (thickness/2) N, N the unit normal, length
+  std::vector<double>
+      directors;  ///< [element][8][3] D = (thickness/2) N of the element, N the normal, length
+  /// [element][8] the element's own director over that of the node, whose displacement is w: elements of
+  /// different thickness may share a director. Empty: 1 everywhere.
+  std::vector<double> directorScale;
 
   int count() const { return static_cast<int>(nodes.size() / 16); }
+  double scale(int element, int a) const {
+    return directorScale.empty() ? 1.0 : directorScale[8 * static_cast<std::size_t>(element) + a];
+  }
 };
 
 /// Cubature of a shell element: Gauss points along each reference coordinate.
@@ -38,17 +45,5 @@ using ShellTerm = fem::EnhancedTerm<ShellLaw<Material>, numShellParameters>;
 /// (counted from 1) where the Jacobian of X is not positive: the thickness is too large for the curvature, or
 /// the element is turned over or degenerate.
 fem::EnhancedPoints shellPoints(const ShellElements& elements, const ShellCubature& cubature = {});
-
-// ---- points on the surface zeta (-1 bottom, 0 mid, 1 top) for laws of the place x = X + v + zeta (D + w):
-// contact, forces that depend on the place. `which` lists elements; shapes are values {N_a, zeta N_a},
-// without the second half where zeta = 0.
-
-/// One point of weight 1 at every node of these elements, each (node, director) once, in ascending order.
-fem::PointSet shellNodePoints(const ShellElements& elements, const std::vector<int>& which, double zeta);
-
-/// Cubature points exact to `degree` on the reference square; weights are areas of the surface, normals its
-/// unit normals to the side of +D.
-fem::PointSet shellSurfacePoints(const ShellElements& elements, const std::vector<int>& which, double zeta,
-                                 int degree);
 
 }  // namespace atrapos::solid

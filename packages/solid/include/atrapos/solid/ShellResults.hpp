@@ -35,7 +35,7 @@ struct ShellResultants {
 ShellResultants shellResultants(const ShellElements& elements, const fem::PointValues& stress,
                                 const std::vector<double>& u, const ShellResultOptions& options = {});
 
-/// Change of the thickness, 2 (|D + w| - |D|), [element][8 nodes], length.
+/// Change of the thickness, 2 (|D + w| - |D|) with the element's own director, [element][8 nodes], length.
 std::vector<double> thicknessChange(const ShellElements& elements, const std::vector<double>& u);
 
 }  // namespace atrapos::solid
