@@ -39,12 +39,16 @@ static_assert(sizeof(Order) == kSlots * kLanes * sizeof(double));
 ATRAPOS_HAND Order* orders(double* history) { return reinterpret_cast<Order*>(history); }
 ATRAPOS_HAND const Order* orders(const double* history) { return reinterpret_cast<const Order*>(history); }
 
-/// A value loaded once and held in a register; GCC 12 would load it again for each of its uses.
-ATRAPOS_HAND Vector held(Vector a) {
+/// Keeps a loaded value in its register; GCC 12 would load it again for several of its uses.
+ATRAPOS_HAND void hold([[maybe_unused]] Vector& a) {
 #ifdef __AVX512F__
   asm("" : "+v"(a));
 #endif
-  return a;
+}
+ATRAPOS_HAND void hold(Vector& a, Vector& b, Vector& c) {
+  hold(a);
+  hold(b);
+  hold(c);
 }
 
 /// S of twice the strain, E2.
@@ -64,7 +68,9 @@ struct Strain {
 
   ATRAPOS_HAND void addRow(const Vector& a0, const Vector& a1, const Vector& a2, const Vector& b0,
                            const Vector& b1, const Vector& b2) {
-    const Vector ax = held(a0), ay = held(a1), az = held(a2), bx = held(b0), by = held(b1), bz = held(b2);
+    Vector ax = a0, ay = a1, az = a2, bx = b0, by = b1, bz = b2;
+    hold(ax, ay, az);
+    hold(bx, by, bz);
     xx += ax * bx;
     yy += ay * by;
     zz += az * bz;
@@ -89,7 +95,8 @@ struct Strain {
 /// p += a s for one row.
 ATRAPOS_HAND void addRow(const Vector& a0, const Vector& a1, const Vector& a2, const Symmetric& s, Vector& px,
                          Vector& py, Vector& pz) {
-  const Vector ax = held(a0), ay = held(a1), az = held(a2);
+  Vector ax = a0, ay = a1, az = a2;
+  hold(ax, ay, az);
   px += ax * s.xx;
   py += ax * s.xy;
   pz += ax * s.zx;
@@ -101,7 +108,9 @@ ATRAPOS_HAND void addRow(const Vector& a0, const Vector& a1, const Vector& a2, c
   pz += az * s.zz;
 }
 ATRAPOS_HAND void addProduct(const Tensor& a, const Symmetric& b, Tensor& P) {
-  const Symmetric s{held(b.xx), held(b.yy), held(b.zz), held(b.xy), held(b.yz), held(b.zx)};
+  Symmetric s = b;
+  hold(s.xx, s.yy, s.zz);
+  hold(s.xy, s.yz, s.zx);
   addRow(a.xx, a.xy, a.xz, s, P.xx, P.xy, P.xz);
   addRow(a.yx, a.yy, a.yz, s, P.yx, P.yy, P.yz);
   addRow(a.zx, a.zy, a.zz, s, P.zx, P.zy, P.zz);
@@ -198,7 +207,8 @@ ATRAPOS_HAND void sweep(const Material& m, double* history, int k, Tensor& P, co
 /// The same, and the convolutions of the orders k+1..end-1 begun, end <= 2 k, while the history is near:
 /// pairs of orders below k are added for all of them. The partial sums wait where nothing else is yet: those
 /// of E2 in the slots of S, those of P in the slots of H.
-ATRAPOS_HAND void sweepBlock(const Material& m, double* history, int k, int end, Tensor& P, const double* next) {
+ATRAPOS_HAND void sweepBlock(const Material& m, double* history, int k, int end, Tensor& P,
+                             const double* next) {
   sweep(m, history, k, P, next);
   Order* h = orders(history);
   for (int n = k + 1; n < end; ++n) addPairs<false>(h, n, n - k + 1, h[n].S, h[n].H, nullptr);
@@ -206,7 +216,8 @@ ATRAPOS_HAND void sweepBlock(const Material& m, double* history, int k, int end,
 
 /// Order k of a block that sweepBlock began at order `begin` < k: adds the pairs that it could not know,
 /// those with an order from begin to k-1.
-ATRAPOS_HAND void sweepWithin(const Material& m, double* history, int k, int begin, Tensor& P, const double* next) {
+ATRAPOS_HAND void sweepWithin(const Material& m, double* history, int k, int begin, Tensor& P,
+                              const double* next) {
   Order* h = orders(history);
   prefetch(next, 0);
   prefetch(next, begin);

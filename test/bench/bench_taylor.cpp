@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <stdexcept>
 
 #include "Inputs.hpp"
 #include "Jobs.hpp"
@@ -107,6 +108,9 @@ int measure(Options& o) {
     jobs.push_back(std::move(job));
   }
 
+  if (jobs.empty())
+    throw std::runtime_error(
+        "nothing to measure: no chosen law has a chosen method, or none fits into memory");
   Arena arena(doubles * sizeof(double));
   const Peaks peaks = measurePeaks(arena, o.quick ? 0.05 : 1.0);
   fmt::print(
