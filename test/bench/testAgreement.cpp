@@ -78,9 +78,12 @@ double difference(const Coefficients& a, const Coefficients& b) {
   return worst;
 }
 
-/// A hundred operations one after the other, each with an error of 10 to 20 eps at high orders
-/// (docs/theory/taylor.md, Rounding), and implicit laws solved with an inverse: 4e3 eps.
-constexpr double kTolerance = 1e-12;
+/// Different summation orders in a hundred operations; measured 2e-15 at most, up to 20 eps an operation can
+/// be expected at high orders (docs/theory/taylor.md, Rounding).
+constexpr double kTolerance = 2e-14;
+/// Laws solved by Newton against their closed form: both round h = |x - C| - r, ten times smaller than |x -
+/// C|, in their own way, and the pressure follows Delta - h, down to a hundredth of h. Measured 3e-13.
+constexpr double kImplicitTolerance = 2e-12;
 
 TEST(BenchAgreement, AllMethodsGiveTheSameCoefficients) {
   forEachCase([](const char* name, const auto& law, const auto& peerLaw, const Domain& domain) {
@@ -95,7 +98,9 @@ TEST(BenchAgreement, AllMethodsGiveTheSameCoefficients) {
     for (int i = 0; i < O; ++i) nonlinear += std::fabs(reference(0, i, 3));
     EXPECT_GT(nonlinear, 0);
 
-    EXPECT_LT(difference(reference, runSweep<O>(AtraposSweep<Law>(law, kOrder), inputs)), kTolerance);
+    const bool implicit = !std::is_same_v<Law, PeerLaw>;
+    EXPECT_LT(difference(reference, runSweep<O>(AtraposSweep<Law>(law, kOrder), inputs)),
+              implicit ? kImplicitTolerance : kTolerance);
     EXPECT_LT(difference(reference, runSweep<O>(AtraposSweep<PeerLaw>(peerLaw, kOrder), inputs)), kTolerance);
 #ifdef ATRAPOS_BENCH_ADOLC
     const AdolcPeer<PeerLaw> adolc(peerLaw, kOrder, 1, inputs);
