@@ -9,16 +9,10 @@
 #include <set>
 #include <stdexcept>
 
+#include "Vec3.hpp"
+
 namespace atrapos::fem {
 namespace {
-
-using Vec3 = std::array<double, 3>;
-
-Vec3 cross(const Vec3& a, const Vec3& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 /// sum_n x_n (x) dN_n/dxi_d: the tangent vectors of the map from reference coordinates, one a dimension.
 void tangents(const Mesh& mesh, const int* nodes, const Tabulation& t, int q, Vec3* g) {
