@@ -103,6 +103,10 @@ class Builder {
     shells.nodes.resize(2 * static_cast<std::size_t>(N) * numElements);
     shells.directors.resize(3 * static_cast<std::size_t>(N) * numElements);
     shells.directorScale.resize(static_cast<std::size_t>(N) * numElements);
+    for (int n : block(section).nodes) {
+      const Vec3 R = position(n);
+      shells.midsurface.insert(shells.midsurface.end(), R.begin(), R.end());
+    }
     result_.blocks.push_back(std::move(shells));
     normals_.emplace_back(static_cast<std::size_t>(N) * numElements);
     for (int e = 0; e < numElements; ++e) {

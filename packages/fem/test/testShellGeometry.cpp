@@ -146,6 +146,7 @@ TEST(ShellGeometry, FlatPlateHasHalfTheThicknessAlongItsNormal) {
         EXPECT_EQ(shells.directorNodes(v), std::vector<int>{w});
         EXPECT_EQ(shells.meshNode[w - mesh.numNodes()], v);
         EXPECT_EQ(s.directorScale[N * e + n], 1.0);
+        for (int i = 0; i < 3; ++i) EXPECT_EQ(s.midsurface[3 * (N * e + n) + i], mesh.coordinates[3 * v + i]);
         for (int i = 0; i < 3; ++i)
           EXPECT_EQ(s.directors[3 * (N * e + n) + i], shells.directors[3 * (w - mesh.numNodes()) + i]);
       }

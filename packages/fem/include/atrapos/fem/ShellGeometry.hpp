@@ -31,8 +31,8 @@ struct ShellBlock {
   int block = 0;            ///< position in Mesh::blocks
   int nodesPerElement = 0;  ///< N
   std::vector<int> nodes;   ///< [element][2 N]: N nodes of the mesh (v), then their N director nodes (w)
-  /// [element][N][3] the element's own D.
-  std::vector<double> directors;
+  std::vector<double> midsurface;  ///< [element][N][3] R
+  std::vector<double> directors;   ///< [element][N][3] the element's own D
   /// [element][N] the element's own D and w over those of the director node: 1, except where elements of
   /// different thickness share a director; the shape function of w is zeta times scale times N_a.
   std::vector<double> directorScale;
