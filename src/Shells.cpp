@@ -37,12 +37,13 @@ void refuseUnsupported(const deck::Deck& deck, const fem::Mesh& mesh) {
     const std::string key = "loads/" + load.name;
     const auto* surface = std::get_if<deck::SurfaceLoad>(&load.load);
     const auto* edge = std::get_if<deck::EdgeLoad>(&load.load);
-    if ((surface != nullptr && surface->follower) || (edge != nullptr && edge->follower))
-      fail(key + "/follower", "loads that follow cannot be run yet; accepted is false");
+    if (surface != nullptr && surface->follower)
+      fail(key + "/follower", "pressures that follow cannot be run yet; accepted is false");
     if (surface != nullptr && surface->at != deck::ShellPlace::Middle)
       fail(key + "/at", "loads on the top or bottom of shells cannot be run yet; accepted is middle");
-    if (edge != nullptr && edge->kind == deck::EdgeLoad::Kind::Moment)
-      fail(key + "/moment", "moments on edges cannot be run yet; accepted are total and force");
+    if (edge != nullptr && edge->kind != deck::EdgeLoad::Kind::Total &&
+        edge->kind != deck::EdgeLoad::Kind::Force)
+      fail(key, "moments on edges and forces that follow cannot be run yet; accepted are total and force");
   }
   for (const deck::Contact& contact : deck.contacts)
     if (contact.at != deck::ShellPlace::Middle)

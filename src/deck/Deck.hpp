@@ -114,15 +114,17 @@ struct SurfaceLoad {
 /// configuration.
 struct EdgeLoad {
   enum class Kind {
-    Total,  ///< vector = resultant force, spread uniformly over the length
-    Force,  ///< vector = force per length
-    Moment  ///< moment = moment per length about the edge
+    Total,          ///< vector = resultant force, spread uniformly over the length; dead
+    Force,          ///< vector = force per length; dead
+    Moment,         ///< vector = moment per length; dead, not about the director
+    FollowerForce,  ///< vector = force per length along the edge, outwards, along the director; turns with
+                    ///< them
+    FollowerMoment  ///< moment = moment per length about the edge; turns with it
   };
   std::string set;
   Kind kind = Kind::Total;
   Vector3 vector{};
-  double moment = 0;      ///< > 0 turns the directors outwards: tension on top
-  bool follower = false;  ///< turns with the edge
+  double moment = 0;  ///< > 0 turns the directors outwards: tension on top
 };
 
 /// Force per reference volume.

@@ -95,7 +95,7 @@ bool isZero(const Load& load) {
     return surface->kind == SurfaceLoad::Kind::Pressure ? surface->pressure == 0 : isZero(surface->vector);
   }
   if (const auto* edge = std::get_if<EdgeLoad>(&load.load)) {
-    return edge->kind == EdgeLoad::Kind::Moment ? edge->moment == 0 : isZero(edge->vector);
+    return edge->kind == EdgeLoad::Kind::FollowerMoment ? edge->moment == 0 : isZero(edge->vector);
   }
   return isZero(std::get<VolumeLoad>(load.load).force);
 }

@@ -127,17 +127,18 @@ const Variants<Load, decltype(Load::load)>& loadVariants() {
                                     [](const SurfaceLoad& s) {
                                       return s.kind == Kind::Pressure ? Node{yaml(s.pressure), {}} : Node{};
                                     }};
-  const Field<EdgeLoad> moment{"moment",
-                               false,
-                               "a number",
-                               "moment per reference length about the edge, > 0 turns the directors outwards",
-                               [](const Value& v, EdgeLoad& s) {
-                                 s.moment = v.real();
-                                 s.kind = EdgeLoad::Kind::Moment;
-                               },
-                               [](const EdgeLoad& s) {
-                                 return s.kind == EdgeLoad::Kind::Moment ? Node{yaml(s.moment), {}} : Node{};
-                               }};
+  const Field<EdgeLoad> followerMoment{
+      "follower_moment",
+      false,
+      "a number",
+      "moment per reference length about the edge, turning with it; > 0 turns the directors outwards",
+      [](const Value& v, EdgeLoad& s) {
+        s.moment = v.real();
+        s.kind = EdgeLoad::Kind::FollowerMoment;
+      },
+      [](const EdgeLoad& s) {
+        return s.kind == EdgeLoad::Kind::FollowerMoment ? Node{yaml(s.moment), {}} : Node{};
+      }};
   static const Variants<Load, V> variants{
       "type",
       &Load::load,
@@ -170,10 +171,15 @@ const Variants<Load, decltype(Load::load)>& loadVariants() {
            {name("set", required, &EdgeLoad::set, "a side set, name or id",
                  "edges of shells that are loaded"),
             edgeVector("total", EdgeLoad::Kind::Total, "force, spread uniformly over the reference length"),
-            edgeVector("force", EdgeLoad::Kind::Force, "force per reference length"), moment,
-            flag("follower", &EdgeLoad::follower, "true: turns with the edge")},
+            edgeVector("force", EdgeLoad::Kind::Force, "force per reference length"),
+            edgeVector("moment", EdgeLoad::Kind::Moment,
+                       "moment per reference length, not about the director"),
+            edgeVector(
+                "follower_force", EdgeLoad::Kind::FollowerForce,
+                "force per reference length along the edge, outwards, along the director, turning with them"),
+            followerMoment},
            [](const Value& map, const EdgeLoad&) {
-             requireExactlyOne(map, {"total", "force", "moment"});
+             requireExactlyOne(map, {"total", "force", "moment", "follower_force", "follower_moment"});
            })},
       {{"constant", false, "true or false", "true: not multiplied by the load factor",
         [](const Value& v, Load& s) { s.constant = v.boolean(); },

@@ -219,7 +219,7 @@ path:
 
 TEST_F(BadInput, PressureThatFollows) {
   refusesDeck("total: [0, 0, -10]", "pressure: 1, follower: true",
-              {"loads/tip/follower: loads that follow cannot be run yet"});
+              {"loads/tip/follower: pressures that follow cannot be run yet"});
 }
 
 }  // namespace

@@ -27,7 +27,9 @@ supports:
   tip: {set: x_max_y_max, y: 0, director_z: {value: 0, per_load_factor: 0.1}}
 loads:
   line: {type: edge, set: x_max, force: [0, 0, 1]}
-  turn: {type: edge, set: x_max, moment: 2, follower: true}
+  turn: {type: edge, set: x_max, follower_moment: 2}
+  bend: {type: edge, set: x_max, moment: [0, 3, 0], constant: true}
+  push: {type: edge, set: x_min, follower_force: [0, -1, 0], constant: true}
   pull: {type: edge, set: x_max, total: [3, 0, 0], constant: true}
   wind: {type: surface, set: top, pressure: 0.1, follower: true, at: top}
 tools:
@@ -86,14 +88,18 @@ TEST(ShellDeck, goodDeckGivesItsValues) {
   const auto& line = std::get<EdgeLoad>(deck.loads[0].load);
   EXPECT_EQ(line.kind, EdgeLoad::Kind::Force);
   EXPECT_EQ(line.vector, (Vector3{0, 0, 1}));
-  EXPECT_FALSE(line.follower);
   const auto& turn = std::get<EdgeLoad>(deck.loads[1].load);
-  EXPECT_EQ(turn.kind, EdgeLoad::Kind::Moment);
+  EXPECT_EQ(turn.kind, EdgeLoad::Kind::FollowerMoment);
   EXPECT_EQ(turn.moment, 2);
-  EXPECT_TRUE(turn.follower);
-  EXPECT_EQ(std::get<EdgeLoad>(deck.loads[2].load).kind, EdgeLoad::Kind::Total);
-  EXPECT_TRUE(deck.loads[2].constant);
-  const auto& wind = std::get<SurfaceLoad>(deck.loads[3].load);
+  const auto& bend = std::get<EdgeLoad>(deck.loads[2].load);
+  EXPECT_EQ(bend.kind, EdgeLoad::Kind::Moment);
+  EXPECT_EQ(bend.vector, (Vector3{0, 3, 0}));
+  const auto& push = std::get<EdgeLoad>(deck.loads[3].load);
+  EXPECT_EQ(push.kind, EdgeLoad::Kind::FollowerForce);
+  EXPECT_EQ(push.vector, (Vector3{0, -1, 0}));
+  EXPECT_EQ(std::get<EdgeLoad>(deck.loads[4].load).kind, EdgeLoad::Kind::Total);
+  EXPECT_TRUE(deck.loads[4].constant);
+  const auto& wind = std::get<SurfaceLoad>(deck.loads[5].load);
   EXPECT_TRUE(wind.follower);
   EXPECT_EQ(wind.at, ShellPlace::Top);
   EXPECT_EQ(deck.contacts[0].at, ShellPlace::Bottom);
@@ -202,8 +208,13 @@ TEST(ShellDeck, valuesOutOfRange) {
               "supports/side/director_y: is held by condition: symmetry_y already");
   expectError(", condition: clamped", "",
               "supports/clamp: holds nothing; expected at least one of x, y, z, condition");
-  expectError("force: [0, 0, 1]", "force: [0, 0, 1], moment: 1",
-              "loads/line: needs exactly one of total, force, moment, got force, moment");
+  expectError(
+      "force: [0, 0, 1]", "force: [0, 0, 1], moment: [1, 0, 0]",
+      "loads/line: needs exactly one of total, force, moment, follower_force, follower_moment, got force, "
+      "moment");
+  expectError("follower_moment: 2", "follower_moment: [0, 2, 0]", "loads/turn/follower_moment: expected a");
+  expectError("follower_moment: 2", "follower: true, force: [0, 0, 1]",
+              "loads/turn/follower: is not a key here");
   expectError("pressure: 0.1", "traction: [0, 0, 1]",
               "loads/wind/follower: has a meaning with pressure only");
   expectError("at: top", "at: outside", "loads/wind/at: 'outside' is not a choice here");
@@ -220,7 +231,7 @@ TEST(ShellDeck, valuesOutOfRange) {
 TEST(ShellDeck, directorsCanBeAllThatIsDriven) {
   std::string text = changed("per_load_factor: 0.1", "per_load_factor: 0");
   for (const char* line : {"  line: {type: edge, set: x_max, force: [0, 0, 1]}\n",
-                           "  turn: {type: edge, set: x_max, moment: 2, follower: true}\n",
+                           "  turn: {type: edge, set: x_max, follower_moment: 2}\n",
                            "  wind: {type: surface, set: top, pressure: 0.1, follower: true, at: top}\n"})
     text = changed(line, "", text);
   EXPECT_NE(errorOf(text).find("nothing depends on the load factor"), std::string::npos);
@@ -265,7 +276,9 @@ TEST(ShellDeckAgainstMesh, solidsHaveNeitherDirectorsNorTopAndBottom) {
   EXPECT_NE(errorOf(plain, &mesh).find("in the side set 'x_max' is no edge of a shell"), std::string::npos);
   std::string faces = plain;
   for (const char* line : {"  line: {type: edge, set: x_max, force: [0, 0, 1]}\n",
-                           "  turn: {type: edge, set: x_max, moment: 2, follower: true}\n",
+                           "  turn: {type: edge, set: x_max, follower_moment: 2}\n",
+                           "  bend: {type: edge, set: x_max, moment: [0, 3, 0], constant: true}\n",
+                           "  push: {type: edge, set: x_min, follower_force: [0, -1, 0], constant: true}\n",
                            "  pull: {type: edge, set: x_max, total: [3, 0, 0], constant: true}\n"})
     faces = changed(line, "", faces);
   EXPECT_EQ(
