@@ -60,8 +60,8 @@ struct ShellGeometry {
 ///
 /// Throws std::invalid_argument, in one line, that names
 /// - the block without section or thickness, or a section's block that holds no shells or has two sections;
-/// - the element whose middle surface has a zero Jacobian or one of varying sign, or whose body has: for
-///   one thing where the thickness exceeds twice the radius of curvature;
+/// - the element whose middle surface or body has a zero Jacobian or one of varying sign; a body has it where
+///   the thickness exceeds twice the radius of curvature;
 /// - two elements with a common edge that have opposite normals;
 /// - the node whose faces have no common director, or whose prescribed one points to a face's bottom.
 ShellGeometry shellGeometry(const Mesh& mesh, const std::vector<ShellSection>& sections,
