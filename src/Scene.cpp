@@ -8,13 +8,17 @@
 #include <numeric>
 
 #include "Registry.hpp"
+#include "Shells.hpp"
 #include "atrapos/fem/Loads.hpp"
 #include "atrapos/fem/ReferenceCell.hpp"
+#include "atrapos/fem/ShellFaces.hpp"
 
 namespace atrapos {
 
 Scene::Scene(const deck::Deck& deck, fem::Mesh mesh) : deck_(deck), mesh_(std::move(mesh)) {
   deck::checkAgainstMesh(deck_, mesh_);
+  shellsOf(deck_, mesh_);
+  refuseUnsupported(deck_, mesh_);
   fem::FeModel model;
   model.numNodes = mesh_.numNodes();
   addMaterials(model);
@@ -90,6 +94,13 @@ void Scene::addLoads(fem::FeModel& model) const {
         case deck::SurfaceLoad::Kind::Pressure:
           return fem::addPressure(scene.mesh_, set, load.pressure, force);
       }
+    }
+    void operator()(const deck::EdgeLoad& load) const {
+      const auto& set = scene.mesh_.sideSets.at(fem::findSideSet(scene.mesh_, load.set));
+      deck::Vector3 perLength = load.vector;
+      if (load.kind == deck::EdgeLoad::Kind::Total)
+        for (double& f : perLength) f /= fem::edgeLength(scene.mesh_, set);
+      fem::addEdgeForce(scene.mesh_, set, perLength, force);
     }
     void operator()(const deck::VolumeLoad& load) const {
       for (const std::string& name : load.blocks)
