@@ -11,10 +11,10 @@
 namespace atrapos::contact {
 
 /// Circular cone, one nappe that opens from `apex` along the unit `axis`, touched from outside (s = 1) or, a
-/// funnel, from inside (s = -1). With z the place along the axis, theta the half angle:
+/// funnel, from inside (s = -1). With z the place along the axis and theta the half angle:
 ///
-///     (s h + z sin theta)(s n + axis sin theta) - cos^2 theta (I - axis axis^T)(x - apex) = 0,  <n, n> - 1 =
-///     0
+///     (s h + z sin theta)(s n + axis sin theta) - cos^2 theta (I - axis axis^T)(x - apex) = 0
+///     <n, n> - 1 = 0
 ///
 /// (derivation: docs/theory/contact.md). A point on the axis has no projection: NaN. Behind the apex, where
 /// its tip would be nearest, the law continues the nappe; `ambiguity` says so.
