@@ -229,7 +229,7 @@ std::string PatchSet::ambiguity(const double* x) const {
 }
 
 void PatchSet::findSharedEdges() {
-  const double tolerance = 1e-8 * size_;  // of surfaces that are meant to meet
+  const double tolerance = 1e-5 * size_;  // modellers leave gaps of 1e-6 or so between faces that meet
   for (int n = 0; n < numPatches(); ++n)
     for (int edge = 0; edge < 4; ++edge) {
       bool shared = true;

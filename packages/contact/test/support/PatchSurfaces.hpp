@@ -28,8 +28,8 @@ inline NurbsSurface nurbsCylinder(const Cylinder& c, double half) {
   return s;
 }
 
-/// A whole cylinder of eight polynomial patches of degree p about the axis: the Taylor polynomials of cosine
-/// and sine, each right to (pi/4)^(p+1)/(p+1)! of the radius, and half as far off at most where they meet.
+/// A whole cylinder of eight polynomial patches of degree p about the axis: Taylor polynomials of cosine and
+/// sine about the middle of each arc, right to (pi/8)^(p+1)/(p+1)! of the radius.
 inline std::vector<BezierPatch> bezierCylinder(const Cylinder& c, double half, int p) {
   const auto [e, f] = normalsTo(vector(c.axis));
   const double arc = std::acos(-1.0) / 4;
