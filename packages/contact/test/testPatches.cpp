@@ -329,6 +329,56 @@ TEST(Patches, PointsCrossBordersAndLeaveAtTheEdge) {
   EXPECT_EQ(data[0], 1);
 }
 
+// Steps as path following makes them: data brought up to date, series of the force from there, their sum at
+// the step's end; against the surface as one patch, whose data need no change. The point runs over the border
+// of two halves inside a step and off their edge.
+TEST(Patches, SeriesOfStepsRunOverABorder) {
+  const BezierPatch patch = wavyPatch(true, 8);
+  const PatchSet one({patch}), two(halves(patch, 0));
+  const RegularisedPressure pressure{1e-2, 0.1};
+  const ContactLaw<PatchTool> lawOne{one.tool(), pressure}, lawTwo{two.tool(), pressure};
+  Vector3 n;
+  Vector3 x = sum(at(patch, -0.8, 0.3, &n), 0.3, n);
+  const Vector3 velocity = unit({1, 0.1, 0.02});
+  auto placeOne = one.locate(x.data()), placeTwo = two.locate(x.data());
+  const double step = 0.13;
+  int crossed = 0, carried = 0;
+  for (int i = 0; i < 30; ++i, x = sum(x, step, velocity)) {
+    one.follow(x.data(), placeOne.data());
+    const auto event = two.follow(x.data(), placeTwo.data()).event;
+    crossed += event == PatchSet::Event::Crosses ? 1 : 0;
+    ASSERT_EQ(placeOne[0] < 0, placeTwo[0] < 0) << i;
+    if (placeTwo[0] < 0) break;
+    ++carried;
+    Coefficients in(3, std::vector<Values>(21, Values(0.0)));
+    Values dataOne[4] = {0.3}, dataTwo[4] = {0.3};
+    for (int d = 0; d < 3; ++d) {
+      in[d][0] = x[d];
+      in[d][1] = step * velocity[d];
+      dataOne[1 + d] = placeOne[d];
+      dataTwo[1 + d] = placeTwo[d];
+    }
+    const auto a = runSeries(lawOne, in, Mode::ZeroThenComplete, dataOne);
+    const auto b = runSeries(lawTwo, in, Mode::ZeroThenComplete, dataTwo);
+    const double end[4] = {0.3, placeTwo[0], placeTwo[1], placeTwo[2]};
+    double exact[3];
+    taylor::value(lawTwo, sum(x, step, velocity).data(), end, exact);
+    for (int c = 0; c < 3; ++c) {
+      double sumOne = 0, sumTwo = 0;
+      for (int k = 0; k <= 20; ++k) {
+        sumOne += a.out[c][k][0];
+        sumTwo += b.out[c][k][0];
+      }
+      EXPECT_NEAR(sumTwo, sumOne, 1e5 * eps) << i;  // 20 orders of the same series in other parameters
+      // The step is about half the radius, sqrt(h^2 + 4 eta Delta/alpha) >= 0.25: 0.13/0.25 to the power 21.
+      EXPECT_NEAR(sumTwo, exact[c], 1e-5) << i;
+    }
+  }
+  EXPECT_EQ(crossed, 1);
+  EXPECT_GT(carried, 15);
+  EXPECT_LT(carried, 25);
+}
+
 // Around a closed surface, over the border where the knots begin and end.
 TEST(Patches, PointsGoRoundACylinder) {
   const Cylinder cylinder{{1, 2, 3}, {0, 1, 0}, 2};
