@@ -42,23 +42,24 @@ struct PatchTool {
     for (int i = 2; i <= p; ++i) power1[i] = power1[i - 1] * y[4];
     for (int j = 2; j <= q; ++j) power2[j] = power2[j - 1] * y[5];
 
+    const auto patch = origin(data[0]);
     const int components = rational ? 4 : 3;
     T A[3][4];  // A, A_1, A_2: linear in the monomials
     for (int i = 0; i <= p; ++i)
       for (int j = 0; j <= q; ++j) {
         if (i == 0 && j == 0) {
           for (int c = 0; c < components; ++c) {
-            A[0][c] = T(at(data[0], 0, 0, c));
-            A[1][c] = T(at(data[0], 1, 0, c));
-            A[2][c] = T(at(data[0], 0, 1, c));
+            A[0][c] = T(at(patch, 0, 0, c));
+            A[1][c] = T(at(patch, 1, 0, c));
+            A[2][c] = T(at(patch, 0, 1, c));
           }
           continue;
         }
         const T monomial = i == 0 ? power2[j] : j == 0 ? power1[i] : T(power1[i] * power2[j]);
         for (int c = 0; c < components; ++c) {
-          A[0][c] += at(data[0], i, j, c) * monomial;
-          if (i < p) A[1][c] += (i + 1.0) * at(data[0], i + 1, j, c) * monomial;
-          if (j < q) A[2][c] += (j + 1.0) * at(data[0], i, j + 1, c) * monomial;
+          A[0][c] += at(patch, i, j, c) * monomial;
+          if (i < p) A[1][c] += (i + 1.0) * at(patch, i + 1, j, c) * monomial;
+          if (j < q) A[2][c] += (j + 1.0) * at(patch, i, j + 1, c) * monomial;
         }
       }
 
@@ -76,8 +77,7 @@ struct PatchTool {
 
   /// Downhill from the data's (t1, t2): the nearest foot that belongs to the same sheet.
   KOKKOS_INLINE_FUNCTION void start(const double* x, const double* data, double* y) const {
-    const int stride = (degree[0] + 1) * (degree[1] + 1) * 4;
-    const double* patch = &coefficients(slot(data[0]) * stride);
+    const double* patch = origin(data[0]);
     double t[2] = {carries(data) != 0 ? data[1] : 0, carries(data) != 0 ? data[2] : 0};
     PatchPoint s = PatchPoint::of(patch, degree[0], degree[1], t[0], t[1]);
     const bool held[2] = {false, false};
@@ -128,13 +128,31 @@ struct PatchTool {
   KOKKOS_INLINE_FUNCTION int slot(double patch) const {
     return patch >= 0 && patch < numPatches ? static_cast<int>(patch) : numPatches;
   }
-  KOKKOS_INLINE_FUNCTION double at(double patch, int i, int j, int c) const {
-    return coefficients(((slot(patch) * (degree[0] + 1) + i) * (degree[1] + 1) + j) * 4 + c);
+  KOKKOS_INLINE_FUNCTION int stride() const { return (degree[0] + 1) * (degree[1] + 1) * 4; }
+
+  /// First coefficients of the patches of L points.
+  template <int L>
+  struct Origins {
+    const double* at[L];
+  };
+  KOKKOS_INLINE_FUNCTION const double* origin(double patch) const {
+    return &coefficients(slot(patch) * stride());
   }
   template <int L>
-  KOKKOS_INLINE_FUNCTION taylor::Lanes<L> at(const taylor::Lanes<L>& patch, int i, int j, int c) const {
+  KOKKOS_INLINE_FUNCTION Origins<L> origin(const taylor::Lanes<L>& patch) const {
+    Origins<L> origins;
+    for (int l = 0; l < L; ++l) origins.at[l] = origin(patch[l]);
+    return origins;
+  }
+
+  KOKKOS_INLINE_FUNCTION double at(const double* patch, int i, int j, int c) const {
+    return patch[((degree[1] + 1) * i + j) * 4 + c];
+  }
+  template <int L>
+  KOKKOS_INLINE_FUNCTION taylor::Lanes<L> at(const Origins<L>& patch, int i, int j, int c) const {
+    const int place = ((degree[1] + 1) * i + j) * 4 + c;
     taylor::Lanes<L> a;
-    for (int l = 0; l < L; ++l) a[l] = at(patch[l], i, j, c);
+    for (int l = 0; l < L; ++l) a[l] = patch.at[l][place];
     return a;
   }
 };
