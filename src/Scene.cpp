@@ -118,6 +118,11 @@ const deck::Tool& Scene::toolOf(const deck::Contact& contact) const {
 }
 
 void Scene::addContacts(fem::FeModel& model) {
+  for (const deck::Tool& tool : deck_.tools) try {
+      registry::validate(tool);
+    } catch (const std::invalid_argument& e) {
+      fail("tools/" + tool.name, e.what());
+    }
   for (const deck::Contact& contact : deck_.contacts) {
     const deck::Tool& tool = toolOf(contact);
     contact::RegularisedPressure pressure;
@@ -137,11 +142,12 @@ void Scene::addContacts(fem::FeModel& model) {
       std::vector<double> gaps, references;
       for (int p = 0; p < points.numPoints(); ++p) {
         const double* x = &points.positions[3 * static_cast<std::size_t>(p)];
+        const std::string ambiguity = registry::ambiguity(tool, x);
         const double gap = registry::project(tool, x)[0];
-        if (!std::isfinite(gap))
+        if (!ambiguity.empty() || !std::isfinite(gap))
           fail("contact/" + contact.name,
-               fmt::format("the point ({:.6g}, {:.6g}, {:.6g}) has no projection on tool '{}'", x[0], x[1],
-                           x[2], tool.name));
+               fmt::format("the point ({:.6g}, {:.6g}, {:.6g}) has no unique projection on tool '{}'{}{}",
+                           x[0], x[1], x[2], tool.name, ambiguity.empty() ? "" : ": it ", ambiguity));
         // Rounding of coordinates as large as the scene; anything deeper is meant.
         const double rounding = 1e-12 * (1 + std::abs(x[0]) + std::abs(x[1]) + std::abs(x[2]));
         if (gap < -rounding)

@@ -141,10 +141,56 @@ struct Load {
 
 // ------------------------------------------------------------------------------------ tools, contact
 
+/// On which side of a closed tool the body is.
+enum class Side { Outside, Inside };
+
 struct CylinderTool {
   Vector3 center{};  ///< any point of the axis
   Vector3 axis{};    ///< direction, not zero, any length
   double radius = 0;
+  Side side = Side::Outside;
+};
+
+struct SphereTool {
+  Vector3 center{};
+  double radius = 0;
+  Side side = Side::Outside;
+};
+
+struct ConeTool {
+  Vector3 apex{};
+  Vector3 axis{};        ///< from the apex into the cone, not zero, any length
+  double halfAngle = 0;  ///< degrees, in (0, 90)
+  Side side = Side::Outside;
+};
+
+struct TorusTool {
+  Vector3 center{};
+  Vector3 axis{};         ///< direction, not zero, any length
+  double radius = 0;      ///< of the tube's centre line
+  double tubeRadius = 0;  ///< < radius
+  Side side = Side::Outside;
+};
+
+/// Cylinder that turns into a cone at the distance `flat` from the centre, with a smoothed vertex.
+struct TaperedRollTool {
+  enum class Ends { Both, One };
+  Vector3 center{};      ///< on the axis, in the middle of the flat part
+  Vector3 axis{};        ///< direction, not zero, any length; with one end: to the end that tapers
+  double radius = 0;     ///< of the flat part
+  double flat = 0;       ///< length of the flat part from the centre
+  double angle = 0;      ///< degrees, in (-90, 90); > 0: the roll narrows
+  double smoothing = 0;  ///< width of the vertex, a length
+  Ends ends = Ends::Both;
+};
+
+/// Roll whose radius is a polynomial of the place along the axis, or goes through a table.
+struct CrownedRollTool {
+  Vector3 center{};                  ///< on the axis, where the place is 0
+  Vector3 axis{};                    ///< direction, not zero, any length
+  std::vector<double> coefficients;  ///< of the powers 0, 1, ... of the place; else
+  std::vector<double> places;        ///< ascending, and
+  std::vector<double> radii;
 };
 
 struct PlaneTool {
@@ -154,7 +200,8 @@ struct PlaneTool {
 
 struct Tool {
   std::string name;
-  std::variant<CylinderTool, PlaneTool> surface;
+  std::variant<CylinderTool, PlaneTool, SphereTool, ConeTool, TorusTool, TaperedRollTool, CrownedRollTool>
+      surface;
 };
 
 /// Contact of a set with a tool by R (R/alpha + h) = eta (Delta - h), eq. (15) of the paper.

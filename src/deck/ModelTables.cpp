@@ -1,4 +1,4 @@
-// Keys of the blocks that describe the body and what acts on it: materials, loads, tools, contact.
+// Keys of the blocks that describe the body and what acts on it: materials, loads, contact.
 #include "deck/DeckTables.hpp"
 
 namespace atrapos::deck {
@@ -186,23 +186,6 @@ const Variants<Load, decltype(Load::load)>& loadVariants() {
         [](const Load& s) {
           return Node{s.constant ? "true" : "false", {}};
         }}}};
-  return variants;
-}
-
-const Variants<Tool, decltype(Tool::surface)>& toolVariants() {
-  using V = decltype(Tool::surface);
-  static const Variants<Tool, V> variants{
-      "type",
-      &Tool::surface,
-      {alternative<V, CylinderTool>(
-           "cylinder",
-           {vector3("center", required, &CylinderTool::center, "any point of the axis"),
-            direction("axis", required, &CylinderTool::axis, "direction of the axis, of any length"),
-            real("radius", required, &CylinderTool::radius, check::positive, "of the cylinder")}),
-       alternative<V, PlaneTool>(
-           "plane", {vector3("point", required, &PlaneTool::point, "any point of the plane"),
-                     direction("normal", required, &PlaneTool::normal, "to the free side, of any length")})},
-      {}};
   return variants;
 }
 

@@ -111,6 +111,28 @@ TEST_F(BadInput, ToolInTheBody) {
   refusesDeck("center: [4, 0, -1.25]", "center: [4, 0, -0.75]", {"contact/lower", "penetrates", "gap -0.24"});
 }
 
+TEST_F(BadInput, ToolsThatAreNoSurface) {
+  const std::string roll = "{type: cylinder, center: [4, 0, -1.25], axis: [0, 1, 0], radius: 1}";
+  refusesDeck(roll, "{type: torus, center: [4, 0, -9], axis: [1, 0, 0], radius: 1, tube_radius: 1}",
+              {"tools/roll: torus: radius must be above the tube radius 1, got 1"});
+  refusesDeck(roll,
+              "{type: crowned_roll, center: [4, 0, -9], axis: [0, 1, 0], places: [0, 0], radii: [1, 1]}",
+              {"tools/roll", "places must ascend, got 0 after 0"});
+  refusesDeck(roll,
+              "{type: tapered_roll, center: [4, 0, -9], axis: [0, 1, 0], radius: 1, flat: -1, angle: 3, "
+              "smoothing: 0.1}",
+              {"tools/roll", "flat length must be >= 0 where both ends taper"});
+}
+
+TEST_F(BadInput, PointWithoutAUniqueProjection) {
+  // Faces' points of degree 4 lie at (1 +- sqrt(0.6))/2 and 1/2 of their sides; the axis goes through one of
+  // them.
+  refusesDeck("{type: cylinder, center: [4, 0, -1.25], axis: [0, 1, 0], radius: 1}",
+              "{type: cylinder, center: [3.5, 0.5, 0], axis: [0, 0, 1], radius: 9, side: inside}",
+              {"contact/lower", "(3.5, 0.5, 0) has no unique projection on tool 'roll'",
+               "lies on the axis of the cylinder"});
+}
+
 TEST_F(BadInput, LoadOnTheSupport) {
   refusesDeck("set: x_max, total", "set: x_min, total", {"loads", "without effect"});
 }

@@ -16,48 +16,62 @@ class AtraposSweep {
 
  public:
   AtraposSweep(const Law& law, int maxOrder)
-      : law_(law), maxOrder_(maxOrder), slots_(taylor::historySlots<kLanes>(law)) {}
+      : law_(law),
+        maxOrder_(maxOrder),
+        waiting_(taylor::HistoryShape::waiting(maxOrder)),
+        shape_(taylor::historyShape(law)) {}
 
   std::size_t historyDoubles(std::size_t batches) const { return batches * perBatch(); }
 
-  /// Bytes a point of all passes, each coefficient counted once a pass: the histories read (orders 0..k-1 for
-  /// order k) and written (order k, and order k-1 when it is completed).
+  /// Bytes a point of all passes, each number counted once a pass: what is read (order 0, the orders that the
+  /// sweep's block asks for, sums that wait, constants) and written (orders k-1 and k, sums).
   double bytesPerPoint() const {
-    double bytes = 8.0 * slots_;
-    for (int k = 1; k <= maxOrder_; ++k) bytes += 8.0 * slots_ * (k + 1 + (k > 1));
-    return bytes;
+    const bool blocked = shape_.sums > 0;
+    double numbers = shape_.slots + shape_.constants;
+    for (int k = 1; k <= maxOrder_; ++k) {
+      const taylor::OrderBlock block = taylor::orderBlock(k, maxOrder_);
+      const int within = k - block.begin;
+      const double orders = !blocked || within == 0 ? k : 1 + 2 * within;
+      const int begun = within == 0 ? block.end - k - 1 : 1;
+      numbers += shape_.slots * (orders + 1 + (k > 1)) + shape_.constants;
+      numbers += static_cast<double>(shape_.sums) * begun;
+    }
+    return 8.0 * numbers;
   }
 
   /// sink(k, batch) is where the batch's outputs of order k >= 0 go, those of inputs x_k = 0.
   template <class Sink>
   void run(double* history, std::size_t batches, const Inputs& inputs, const Sink& sink) const {
     const Pack datum(inputs.datum());
-    const Pack zero[Law::numInputs] = {};
+    taylor::Context<kLanes> context;
+    context.shape = shape_;
+    context.waiting = waiting_;
+    context.ahead = static_cast<std::ptrdiff_t>(perBatch());
     for (std::size_t b = 0; b < batches; ++b) {
-      taylor::Context<kLanes> context{history + b * perBatch(), maxOrder_, 0, taylor::Pass::Start, 0};
-      taylor::sweep(law_, context, inputs.batch(b, 0), &datum, sink(0, b));
+      context.memory = history + b * perBatch();
+      taylor::start(law_, context, inputs.batch(b, 0), &datum, sink(0, b));
     }
-    for (int k = 1; k <= maxOrder_; ++k)
+    for (int k = 1; k <= maxOrder_; ++k) {
+      context.block = taylor::orderBlock(k, maxOrder_);
       for (std::size_t b = 0; b < batches; ++b) {
-        taylor::Context<kLanes> context{history + b * perBatch(), maxOrder_, k, taylor::Pass::Sweep, 0};
+        context.memory = history + b * perBatch();
         if (k > 1) {
-          Pack ignored[Law::numOutputs];
           context.order = k - 1;
-          context.pass = taylor::Pass::Complete;
-          taylor::sweep(law_, context, inputs.batch(b, k - 1), &datum, ignored);
-          context.order = k;
-          context.pass = taylor::Pass::Sweep;
+          taylor::complete(law_, context, inputs.batch(b, k - 1), &datum);
         }
-        taylor::sweep(law_, context, zero, &datum, sink(k, b));
+        context.order = k;
+        taylor::sweep(law_, context, &datum, sink(k, b));
       }
+    }
   }
 
  private:
-  std::size_t perBatch() const { return taylor::historyDoubles<kLanes>(slots_, maxOrder_); }
+  std::size_t perBatch() const { return shape_.doubles<kLanes>(maxOrder_); }
 
   Law law_;
   int maxOrder_;
-  int slots_;
+  int waiting_;
+  taylor::HistoryShape shape_;
 };
 
 }  // namespace atrapos::bench
