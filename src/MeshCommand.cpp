@@ -7,6 +7,7 @@
 
 #include "atrapos/exodus/MeshFile.hpp"
 #include "atrapos/fem/StructuredMesh.hpp"
+#include "atrapos/fem/StructuredShell.hpp"
 
 namespace atrapos {
 namespace {
@@ -16,6 +17,10 @@ struct Builder {
   fem::Mesh operator()(const fem::StripOptions& o) const { return fem::stripMesh(o); }
   fem::Mesh operator()(const fem::CylinderPanelOptions& o) const { return fem::cylinderPanelMesh(o); }
   fem::Mesh operator()(const fem::SpherePanelOptions& o) const { return fem::spherePanelMesh(o); }
+  fem::Mesh operator()(const fem::ShellPlateOptions& o) const { return fem::shellPlateMesh(o); }
+  fem::Mesh operator()(const fem::ShellCylinderOptions& o) const { return fem::shellCylinderMesh(o); }
+  fem::Mesh operator()(const fem::ShellAnnulusOptions& o) const { return fem::shellAnnulusMesh(o); }
+  fem::Mesh operator()(const fem::ShellSphereOptions& o) const { return fem::shellSphereMesh(o); }
 };
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <memory>
+#include <string>
 
 #include "atrapos/contact/RegularisedPressure.hpp"
 #include "atrapos/fem/PointSet.hpp"
@@ -14,6 +15,12 @@ namespace atrapos::registry {
 
 /// The term of a material at volume points.
 std::unique_ptr<fem::Term> materialTerm(const deck::Material& material, const fem::PointSet& points);
+
+/// Throws std::invalid_argument, one line, where a tool's numbers make no surface.
+void validate(const deck::Tool& tool);
+
+/// Why the point at x has no unique projection, as the end of "the point ..."; empty where it has one.
+std::string ambiguity(const deck::Tool& tool, const double* x);
 
 /// Gap and normal of a tool seen from a place: h, n_x, n_y, n_z.
 std::array<double, 4> project(const deck::Tool& tool, const double* x);

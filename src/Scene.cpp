@@ -8,13 +8,17 @@
 #include <numeric>
 
 #include "Registry.hpp"
+#include "Shells.hpp"
 #include "atrapos/fem/Loads.hpp"
 #include "atrapos/fem/ReferenceCell.hpp"
+#include "atrapos/fem/ShellFaces.hpp"
 
 namespace atrapos {
 
 Scene::Scene(const deck::Deck& deck, fem::Mesh mesh) : deck_(deck), mesh_(std::move(mesh)) {
   deck::checkAgainstMesh(deck_, mesh_);
+  shellsOf(deck_, mesh_);
+  refuseUnsupported(deck_, mesh_);
   fem::FeModel model;
   model.numNodes = mesh_.numNodes();
   addMaterials(model);
@@ -91,6 +95,13 @@ void Scene::addLoads(fem::FeModel& model) const {
           return fem::addPressure(scene.mesh_, set, load.pressure, force);
       }
     }
+    void operator()(const deck::EdgeLoad& load) const {
+      const auto& set = scene.mesh_.sideSets.at(fem::findSideSet(scene.mesh_, load.set));
+      deck::Vector3 perLength = load.vector;
+      if (load.kind == deck::EdgeLoad::Kind::Total)
+        for (double& f : perLength) f /= fem::edgeLength(scene.mesh_, set);
+      fem::addEdgeForce(scene.mesh_, set, perLength, force);
+    }
     void operator()(const deck::VolumeLoad& load) const {
       for (const std::string& name : load.blocks)
         fem::addBodyForce(scene.mesh_, scene.mesh_.blocks.at(fem::findBlock(scene.mesh_, name)), load.force,
@@ -107,6 +118,11 @@ const deck::Tool& Scene::toolOf(const deck::Contact& contact) const {
 }
 
 void Scene::addContacts(fem::FeModel& model) {
+  for (const deck::Tool& tool : deck_.tools) try {
+      registry::validate(tool);
+    } catch (const std::invalid_argument& e) {
+      fail("tools/" + tool.name, e.what());
+    }
   for (const deck::Contact& contact : deck_.contacts) {
     const deck::Tool& tool = toolOf(contact);
     contact::RegularisedPressure pressure;
@@ -126,11 +142,12 @@ void Scene::addContacts(fem::FeModel& model) {
       std::vector<double> gaps, references;
       for (int p = 0; p < points.numPoints(); ++p) {
         const double* x = &points.positions[3 * static_cast<std::size_t>(p)];
+        const std::string ambiguity = registry::ambiguity(tool, x);
         const double gap = registry::project(tool, x)[0];
-        if (!std::isfinite(gap))
+        if (!ambiguity.empty() || !std::isfinite(gap))
           fail("contact/" + contact.name,
-               fmt::format("the point ({:.6g}, {:.6g}, {:.6g}) has no projection on tool '{}'", x[0], x[1],
-                           x[2], tool.name));
+               fmt::format("the point ({:.6g}, {:.6g}, {:.6g}) has no unique projection on tool '{}'{}{}",
+                           x[0], x[1], x[2], tool.name, ambiguity.empty() ? "" : ": it ", ambiguity));
         // Rounding of coordinates as large as the scene; anything deeper is meant.
         const double rounding = 1e-12 * (1 + std::abs(x[0]) + std::abs(x[1]) + std::abs(x[2]));
         if (gap < -rounding)

@@ -16,7 +16,7 @@ buildPackages=(
   # The reference BLAS would make every factorization several times slower.
   liblapack-dev libopenblas0-pthread
   libcli11-dev libfmt-dev nlohmann-json3-dev
-  libgtest-dev libbenchmark-dev
+  libgtest-dev libbenchmark-dev libadolc-dev
   gnuplot-nox
 )
 # What a Trilinos of our own links besides.

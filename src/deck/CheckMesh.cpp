@@ -1,8 +1,10 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 
 #include "atrapos/fem/Mesh.hpp"
+#include "atrapos/fem/PointSet.hpp"
 #include "deck/Deck.hpp"
 #include "deck/DeckValue.hpp"
 
@@ -81,12 +83,84 @@ class MeshCheck {
     }
   }
 
+  void sections() const {
+    std::map<int, std::string> sectionOf;
+    for (const auto& section : deck_.shells.sections) {
+      const std::string path = "shells/sections/" + section.name + "/blocks";
+      for (const auto& name : section.blocks) {
+        const int found = block(path, name);
+        const fem::Block& b = mesh_.blocks[static_cast<std::size_t>(found)];
+        if (!fem::isShell(b.topology)) {
+          fail(path, fmt::format("block '{}' has {}, no shells", name, fem::topologyName(b.topology)));
+        }
+        const auto [previous, isNew] = sectionOf.emplace(found, section.name);
+        if (!isNew) {
+          fail(path, fmt::format("block '{}' already has the section '{}'", name, previous->second));
+        }
+      }
+    }
+  }
+
+  void support(const Support& support) const {
+    const std::string path = "supports/" + support.name;
+    nodes(path + "/set", support.set);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (support.director[axis] && !holds(support.condition, axis, true) && !hasShells(support.set)) {
+        fail(fmt::format("{}/director_{}", path, "xyz"[axis]),
+             fmt::format("no node of '{}' belongs to shells, so there is no director", support.set));
+      }
+    }
+  }
+
+  /// The sides of a set that must be faces, of solids too where `place` is the middle.
+  void faces(const std::string& path, const std::string& set, ShellPlace place) const {
+    sides(path + "/set", set);
+    for (const fem::Side& side : sideSet(set).sides) {
+      const bool shell = fem::isShell(topologyOf(side));
+      if (shell && side.side > 1) {
+        fail(path + "/set",
+             fmt::format(
+                 "the side set '{}' has edges of shells; expected faces (edges take loads of type edge)",
+                 set));
+      }
+      if (!shell && place != ShellPlace::Middle) {
+        fail(path + "/at",
+             fmt::format("the side set '{}' has faces of solids; top and bottom are for shells", set));
+      }
+    }
+  }
+
+  void edges(const std::string& path, const std::string& set) const {
+    sides(path, set);
+    for (const fem::Side& side : sideSet(set).sides) {
+      if (!fem::isShell(topologyOf(side)) || side.side < 2) {
+        fail(path, fmt::format("side {} of element {} in the side set '{}' is no edge of a shell",
+                               side.side + 1, side.element + 1, set));
+      }
+    }
+  }
+
+  void contact(const Contact& contact) const {
+    const std::string path = "contact/" + contact.name;
+    if (contact.points == Contact::Points::Quadrature) {
+      faces(path, contact.set, contact.at);
+      return;
+    }
+    nodes(path + "/set", contact.set);
+    if (contact.at != ShellPlace::Middle && !hasShells(contact.set)) {
+      fail(path + "/at",
+           fmt::format("no node of '{}' belongs to shells, which have a top and a bottom", contact.set));
+    }
+  }
+
   void load(const Load& load) const {
     const std::string path = "loads/" + load.name;
     if (const auto* nodal = std::get_if<NodalLoad>(&load.load)) {
       nodes(path + "/set", nodal->set);
     } else if (const auto* surface = std::get_if<SurfaceLoad>(&load.load)) {
-      sides(path + "/set", surface->set);
+      faces(path, surface->set, surface->at);
+    } else if (const auto* edge = std::get_if<EdgeLoad>(&load.load)) {
+      edges(path + "/set", edge->set);
     } else {
       for (const auto& name : std::get<VolumeLoad>(load.load).blocks) {
         block(path + "/blocks", name);
@@ -97,6 +171,28 @@ class MeshCheck {
  private:
   [[noreturn]] void fail(const std::string& path, const std::string& what) const {
     throw DeckError(fmt::format("{}: {}: {}", deck_.file, path, what));
+  }
+
+  const fem::SideSet& sideSet(const std::string& name) const {
+    return mesh_.sideSets[static_cast<std::size_t>(fem::findSideSet(mesh_, name))];
+  }
+
+  fem::Topology topologyOf(const fem::Side& side) const {
+    return mesh_.blocks[static_cast<std::size_t>(fem::addressOf(mesh_, side.element).block)].topology;
+  }
+
+  bool hasShells(const std::string& set) const {
+    const int nodeSet = fem::findNodeSet(mesh_, set);
+    const std::vector<int> nodes = nodeSet >= 0 ? mesh_.nodeSets[static_cast<std::size_t>(nodeSet)].nodes
+                                                : fem::nodesOf(mesh_, sideSet(set));
+    std::vector<char> onShell(static_cast<std::size_t>(mesh_.numNodes()), 0);
+    for (const fem::Block& block : mesh_.blocks) {
+      for (const int node : block.nodes) {
+        onShell[static_cast<std::size_t>(node)] |= fem::isShell(block.topology) ? 1 : 0;
+      }
+    }
+    return std::any_of(nodes.begin(), nodes.end(),
+                       [&](int node) { return onShell[static_cast<std::size_t>(node)] != 0; });
   }
 
   static std::string listed(const std::string& kind, const std::vector<std::string>& names) {
@@ -112,19 +208,15 @@ class MeshCheck {
 void checkAgainstMesh(const Deck& deck, const fem::Mesh& mesh) {
   const MeshCheck check(deck, mesh);
   check.materials();
+  check.sections();
   for (const auto& support : deck.supports) {
-    check.nodes("supports/" + support.name + "/set", support.set);
+    check.support(support);
   }
   for (const auto& load : deck.loads) {
     check.load(load);
   }
   for (const auto& contact : deck.contacts) {
-    const std::string path = "contact/" + contact.name + "/set";
-    if (contact.points == Contact::Points::Nodes) {
-      check.nodes(path, contact.set);
-    } else {
-      check.sides(path, contact.set);
-    }
+    check.contact(contact);
   }
   for (const auto& monitor : deck.output.monitors) {
     if (const auto* displacement = std::get_if<DisplacementMonitor>(&monitor.quantity)) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "atrapos/fem/StructuredMesh.hpp"
+#include "atrapos/fem/StructuredShell.hpp"
 
 /// The deck: the input of the `atrapos` command, as plain data. docs/deck.md explains every key.
 /// Units are the user's own, consistent ones; "force", "length", "pressure" below mean those.
@@ -26,8 +27,9 @@ using Vector3 = std::array<double, 3>;
 // ---------------------------------------------------------------------------------------------- mesh
 
 /// How `atrapos mesh` makes the mesh file.
-using Generate =
-    std::variant<fem::BoxOptions, fem::StripOptions, fem::CylinderPanelOptions, fem::SpherePanelOptions>;
+using Generate = std::variant<fem::BoxOptions, fem::StripOptions, fem::CylinderPanelOptions,
+                              fem::SpherePanelOptions, fem::ShellPlateOptions, fem::ShellCylinderOptions,
+                              fem::ShellAnnulusOptions, fem::ShellSphereOptions>;
 
 struct MeshInput {
   std::string file;  ///< as written in the deck
@@ -48,6 +50,21 @@ struct Material {
   std::vector<std::string> blocks;  ///< names or ids
 };
 
+/// The thickness of the shells of some blocks; those without an entry have it in their attributes.
+struct ShellSection {
+  std::string name;
+  std::vector<std::string> blocks;  ///< names or ids
+  std::optional<double> thickness;  ///< length, > 0; empty = the attributes of the blocks
+};
+
+struct Shells {
+  double foldAngle = 20;  ///< degrees, in (0, 180): beyond it faces at a node have directors of their own
+  std::vector<ShellSection> sections;
+};
+
+/// Where in the thickness of shells something acts; middle for all others.
+enum class ShellPlace { Top, Middle, Bottom };
+
 /// A prescribed displacement component: value + loadFactor * perLoadFactor.
 struct Prescribed {
   double value = 0;
@@ -55,10 +72,19 @@ struct Prescribed {
 };
 
 struct Support {
+  /// What holds at zero: clamped all of v and w, hinged v, symmetry that component of both.
+  enum class Condition { None, Clamped, Hinged, SymmetryX, SymmetryY, SymmetryZ };
   std::string name;
-  std::string set;                                        ///< node set, else side set; name or id
+  std::string set;  ///< node set, else side set; name or id
+  /// The condition's components are in the two lists below already.
+  Condition condition = Condition::None;
   std::array<std::optional<Prescribed>, 3> components{};  ///< x, y, z; empty = free
+  /// x, y, z of the displacement w of the directors of shells at these nodes; empty = free
+  std::array<std::optional<Prescribed>, 3> director{};
 };
+
+/// Whether a condition holds this component (0, 1, 2) of the displacement, or of the director's displacement.
+bool holds(Support::Condition condition, std::size_t axis, bool director);
 
 // ---------------------------------------------------------------------------------------------- loads
 
@@ -69,7 +95,7 @@ struct NodalLoad {
   Vector3 force{};
 };
 
-/// A dead load on a side set; areas and normals are those of the reference configuration.
+/// A load on a side set; areas and normals are those of the reference configuration, unless it follows.
 struct SurfaceLoad {
   enum class Kind {
     Total,     ///< vector = resultant force, spread uniformly over the area
@@ -79,7 +105,26 @@ struct SurfaceLoad {
   std::string set;
   Kind kind = Kind::Total;
   Vector3 vector{};
-  double pressure = 0;  ///< > 0 pushes on the body
+  double pressure = 0;    ///< > 0 pushes on the body
+  bool follower = false;  ///< pressure only: on the deformed area, along its normal
+  ShellPlace at = ShellPlace::Middle;
+};
+
+/// A load on the edges of shells in a side set, along the middle surface; lengths are those of the reference
+/// configuration.
+struct EdgeLoad {
+  enum class Kind {
+    Total,          ///< vector = resultant force, spread uniformly over the length; dead
+    Force,          ///< vector = force per length; dead
+    Moment,         ///< vector = moment per length; dead, not about the director
+    FollowerForce,  ///< vector = force per length along the edge, outwards, along the director; turns with
+                    ///< them
+    FollowerMoment  ///< moment = moment per length about the edge; turns with it
+  };
+  std::string set;
+  Kind kind = Kind::Total;
+  Vector3 vector{};
+  double moment = 0;  ///< > 0 turns the directors outwards: tension on top
 };
 
 /// Force per reference volume.
@@ -91,15 +136,61 @@ struct VolumeLoad {
 struct Load {
   std::string name;
   bool constant = false;  ///< not multiplied by the load factor
-  std::variant<NodalLoad, SurfaceLoad, VolumeLoad> load;
+  std::variant<NodalLoad, SurfaceLoad, VolumeLoad, EdgeLoad> load;
 };
 
 // ------------------------------------------------------------------------------------ tools, contact
+
+/// On which side of a closed tool the body is.
+enum class Side { Outside, Inside };
 
 struct CylinderTool {
   Vector3 center{};  ///< any point of the axis
   Vector3 axis{};    ///< direction, not zero, any length
   double radius = 0;
+  Side side = Side::Outside;
+};
+
+struct SphereTool {
+  Vector3 center{};
+  double radius = 0;
+  Side side = Side::Outside;
+};
+
+struct ConeTool {
+  Vector3 apex{};
+  Vector3 axis{};        ///< from the apex into the cone, not zero, any length
+  double halfAngle = 0;  ///< degrees, in (0, 90)
+  Side side = Side::Outside;
+};
+
+struct TorusTool {
+  Vector3 center{};
+  Vector3 axis{};         ///< direction, not zero, any length
+  double radius = 0;      ///< of the tube's centre line
+  double tubeRadius = 0;  ///< < radius
+  Side side = Side::Outside;
+};
+
+/// Cylinder that turns into a cone at the distance `flat` from the centre, with a smoothed vertex.
+struct TaperedRollTool {
+  enum class Ends { Both, One };
+  Vector3 center{};      ///< on the axis, in the middle of the flat part
+  Vector3 axis{};        ///< direction, not zero, any length; with one end: to the end that tapers
+  double radius = 0;     ///< of the flat part
+  double flat = 0;       ///< length of the flat part from the centre
+  double angle = 0;      ///< degrees, in (-90, 90); > 0: the roll narrows
+  double smoothing = 0;  ///< width of the vertex, a length
+  Ends ends = Ends::Both;
+};
+
+/// Roll whose radius is a polynomial of the place along the axis, or goes through a table.
+struct CrownedRollTool {
+  Vector3 center{};                  ///< on the axis, where the place is 0
+  Vector3 axis{};                    ///< direction, not zero, any length
+  std::vector<double> coefficients;  ///< of the powers 0, 1, ... of the place; else
+  std::vector<double> places;        ///< ascending, and
+  std::vector<double> radii;
 };
 
 struct PlaneTool {
@@ -109,7 +200,8 @@ struct PlaneTool {
 
 struct Tool {
   std::string name;
-  std::variant<CylinderTool, PlaneTool> surface;
+  std::variant<CylinderTool, PlaneTool, SphereTool, ConeTool, TorusTool, TaperedRollTool, CrownedRollTool>
+      surface;
 };
 
 /// Contact of a set with a tool by R (R/alpha + h) = eta (Delta - h), eq. (15) of the paper.
@@ -122,6 +214,7 @@ struct Contact {
   std::string tool;
   std::string set;  ///< side set; with nodes: node set, else side set
   Points points = Points::Quadrature;
+  ShellPlace at = ShellPlace::Middle;  ///< of shells
   int quadratureDegree = 4;            ///< polynomial degree integrated exactly; unused with nodes
   std::optional<double> stiffness;     ///< alpha > 0; empty = rigid, 1/alpha = 0
   double regularisation = 0;           ///< eta > 0
@@ -204,6 +297,7 @@ struct Deck {
   std::string title;
   MeshInput mesh;
   std::vector<Material> materials;  ///< all entries in the deck's order
+  Shells shells;
   std::vector<Support> supports;
   std::vector<Load> loads;
   std::vector<Tool> tools;
@@ -219,8 +313,8 @@ Deck readDeck(const std::string& file);
 /// The same for a deck in memory; `file` names it in messages and gives the folder of relative file names.
 Deck readDeckText(const std::string& text, const std::string& file);
 
-/// Checks every block and set name against the mesh, and that each block of the mesh has exactly one
-/// material. Throws DeckError, naming what the mesh has.
+/// Checks every block and set name against the mesh, that each block of the mesh has exactly one material,
+/// and that what is meant for shells has shells. Throws DeckError, naming what the mesh has.
 void checkAgainstMesh(const Deck& deck, const fem::Mesh& mesh);
 
 /// Prints the effective values, defaults included, as a deck that reads back to the same values.

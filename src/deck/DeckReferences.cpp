@@ -47,6 +47,22 @@ void checkMaterials(const Value& materials, const Deck& deck) {
   }
 }
 
+void checkSections(const Value& root, const Deck& deck) {
+  std::map<std::string, std::string> sectionOf;
+  for (const auto& section : deck.shells.sections) {
+    for (const auto& block : section.blocks) {
+      const auto [previous, isNew] = sectionOf.emplace(block, section.name);
+      if (!isNew) {
+        root.at("shells")
+            .at("sections")
+            .at(section.name)
+            .at("blocks")
+            .fail(fmt::format("block '{}' already has the section '{}'", block, previous->second));
+      }
+    }
+  }
+}
+
 void checkMonitor(const Value& v, const Monitor& monitor, const Deck& deck) {
   if (const auto* force = std::get_if<ContactForceMonitor>(&monitor.quantity)) {
     find(v.at("contact"), force->contact, deck.contacts, "contact");
@@ -78,6 +94,9 @@ bool isZero(const Load& load) {
   if (const auto* surface = std::get_if<SurfaceLoad>(&load.load)) {
     return surface->kind == SurfaceLoad::Kind::Pressure ? surface->pressure == 0 : isZero(surface->vector);
   }
+  if (const auto* edge = std::get_if<EdgeLoad>(&load.load)) {
+    return edge->kind == EdgeLoad::Kind::FollowerMoment ? edge->moment == 0 : isZero(edge->vector);
+  }
   return isZero(std::get<VolumeLoad>(load.load).force);
 }
 
@@ -88,9 +107,11 @@ void checkSomethingIsDriven(const Value& root, const Deck& deck) {
     }
   }
   for (const auto& support : deck.supports) {
-    for (const auto& component : support.components) {
-      if (component && component->perLoadFactor != 0) {
-        return;
+    for (const auto& components : {support.components, support.director}) {
+      for (const auto& component : components) {
+        if (component && component->perLoadFactor != 0) {
+          return;
+        }
       }
     }
   }
@@ -104,6 +125,7 @@ void checkSomethingIsDriven(const Value& root, const Deck& deck) {
 
 void checkReferences(const Value& root, const Deck& deck) {
   checkMaterials(root.at("materials"), deck);
+  checkSections(root, deck);
   for (const auto& contact : deck.contacts) {
     find(root.at("contact").at(contact.name).at("tool"), contact.tool, deck.tools, "tools");
   }

@@ -1,51 +1,10 @@
 // Keys of the whole deck and of its named entries.
 #include "deck/DeckTables.hpp"
 
-#include <cctype>
+#include "deck/Entries.hpp"
 
 namespace atrapos::deck {
 namespace {
-
-void checkEntryName(const Value& entry) {
-  const std::string key = entry.key();
-  const bool word = !key.empty() && std::all_of(key.begin(), key.end(), [](unsigned char c) {
-    return std::isalnum(c) != 0 || c == '_' || c == '-' || c == '.';
-  });
-  if (!word) {
-    entry.fail("a name is made of letters, digits, '_', '-' and '.'");
-  }
-}
-
-/// A map of named entries, read and printed by `Kind`, a Table or Variants.
-template <class S, class Entry, class Kind>
-Field<S> entries(std::string key, Need need, std::vector<Entry> S::*member, const Kind& kind,
-                 std::string accepts, std::string meaning) {
-  const std::string expected = "a map of named entries, " + accepts;
-  return {std::move(key),
-          need == required,
-          expected,
-          std::move(meaning),
-          [=, &kind](const Value& v, S& s) {
-            if (v.keys().empty()) {
-              v.fail("is empty; expected " + expected);
-            }
-            for (const auto& name : v.keys()) {
-              const Value value = v.at(name);
-              checkEntryName(value);
-              Entry entry{};
-              entry.name = name;
-              read(kind, value, entry);
-              (s.*member).push_back(std::move(entry));
-            }
-          },
-          [=, &kind](const S& s) {
-            Node node;
-            for (const auto& entry : s.*member) {
-              node.children.emplace_back(entry.name, print(kind, entry));
-            }
-            return node;
-          }};
-}
 
 Field<Output> outputFieldList() {
   const auto& choices = outputFields();
@@ -86,14 +45,24 @@ const Table<Deck>& deckTable() {
   static const Table<Deck> table = [] {
     auto title = text("title", optional, &Deck::title, "a text", "of the result file");
     auto supports = entries("supports", required, &Deck::supports, supportTable(),
-                            "each with set and any of x, y, z", "prescribed displacements");
+                            "each with set and any of condition, x, y, z, director_x, director_y, director_z",
+                            "prescribed displacements");
     supports.read = [inner = supports.read](const Value& v, Deck& deck) {
       inner(v, deck);
       for (const auto& s : deck.supports) {
-        if (!s.components[0] && !s.components[1] && !s.components[2]) {
-          v.at(s.name).fail("holds nothing; expected at least one of x, y, z");
+        const auto given = [](const auto& component) { return component.has_value(); };
+        if (std::none_of(s.components.begin(), s.components.end(), given) &&
+            std::none_of(s.director.begin(), s.director.end(), given)) {
+          v.at(s.name).fail(
+              "holds nothing; expected at least one of x, y, z, condition, director_x, director_y, "
+              "director_z");
         }
       }
+    };
+    auto shells = block("shells", optional, &Deck::shells, shellsTable(), "thickness and folds of shells");
+    shells.print = [inner = shells.print](const Deck& deck) {
+      const bool plain = deck.shells.sections.empty() && deck.shells.foldAngle == Shells{}.foldAngle;
+      return plain ? Node{} : inner(deck);
     };
     auto solver = block("solver", optional, &Deck::solver, solverTable(), "factors the tangent");
     solver.read = [inner = solver.read](const Value& v, Deck& deck) {
@@ -107,6 +76,7 @@ const Table<Deck>& deckTable() {
         block("mesh", required, &Deck::mesh, meshTable(), "the body's mesh"),
         entries("materials", required, &Deck::materials, materialVariants(), "each with law, blocks, ...",
                 "what the blocks are made of"),
+        shells,
         supports,
         entries("loads", optional, &Deck::loads, loadVariants(), "each with type, ...",
                 "dead loads, multiplied by the load factor"),

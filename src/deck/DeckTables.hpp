@@ -14,6 +14,8 @@ struct GenerateInput {
 // The keys of every block of a deck. Alternatives stand in the order of the std::variant they fill.
 const Variants<GenerateInput, Generate>& generateVariants();
 const Variants<Material, decltype(Material::law)>& materialVariants();
+const Table<Shells>& shellsTable();
+const Table<ShellSection>& shellSectionTable();
 const Table<Support>& supportTable();
 const Variants<Load, decltype(Load::load)>& loadVariants();
 const Variants<Tool, decltype(Tool::surface)>& toolVariants();
@@ -25,6 +27,9 @@ const Variants<Monitor, decltype(Monitor::quantity)>& monitorVariants();
 const Table<Output>& outputTable();
 const Table<MeshInput>& meshTable();
 const Table<Deck>& deckTable();
+
+/// Where in a shell's thickness, with their words.
+const Choices<ShellPlace>& shellPlaces();
 
 /// The output fields with their words, in the order that messages give them.
 const Choices<OutputField>& outputFields();

@@ -24,6 +24,8 @@ const Check order{[](double x) { return x >= 1 && x <= 60; }, "from 1 to 60"};
 const Check degree{[](double x) { return x >= 1 && x <= 20; }, "from 1 to 20"};
 const Check direction{[](double x) { return x == 1 || x == -1; }, "1 or -1"};
 const Check poissonsRatio{[](double x) { return x > -1 && x < 0.5; }, "above -1 and below 0.5"};
+const Check acuteAngle{[](double x) { return x > 0 && x < 90; }, "above 0 and below 90 degrees"};
+const Check slopeAngle{[](double x) { return x > -90 && x < 90; }, "above -90 and below 90 degrees"};
 }  // namespace check
 
 namespace {
@@ -219,7 +221,7 @@ std::string Value::name() const {
   return text();
 }
 
-std::vector<double> Value::reals(std::size_t size) const {
+std::vector<double> Value::realList() const {
   std::vector<double> x;
   if (const auto* i = as<Teuchos::Array<int>>(entry_)) {
     x.assign(i->begin(), i->end());
@@ -228,8 +230,24 @@ std::vector<double> Value::reals(std::size_t size) const {
   } else if (const auto* d = as<Teuchos::Array<double>>(entry_)) {
     x.assign(d->begin(), d->end());
   }
-  if (x.size() != size || !std::all_of(x.begin(), x.end(), [](double v) { return std::isfinite(v); })) {
+  if (!std::all_of(x.begin(), x.end(), [](double v) { return std::isfinite(v); })) {
+    x.clear();
+  }
+  return x;
+}
+
+std::vector<double> Value::reals(std::size_t size) const {
+  const std::vector<double> x = realList();
+  if (x.size() != size) {
     fail(fmt::format("expected a list of {} finite numbers, got {}", size, shown()));
+  }
+  return x;
+}
+
+std::vector<double> Value::reals() const {
+  const std::vector<double> x = realList();
+  if (x.empty()) {
+    fail(fmt::format("expected a list of finite numbers, got {}", shown()));
   }
   return x;
 }

@@ -15,7 +15,8 @@ struct Check {
 };
 
 namespace check {
-extern const Check any, positive, nonzero, fraction, count, order, degree, direction, poissonsRatio;
+extern const Check any, positive, nonzero, fraction, count, order, degree, direction, poissonsRatio,
+    acuteAngle, slopeAngle;
 }
 
 /// A value of the deck with its key path. Every accessor throws DeckError where the value is not of its kind.
@@ -41,6 +42,8 @@ class Value {
   /// A name of the mesh's: a text, or an id given as a whole number.
   std::string name() const;
   std::vector<double> reals(std::size_t size) const;
+  /// One or more finite numbers.
+  std::vector<double> reals() const;
   std::vector<int> integers(std::size_t size, const Check& check) const;
   /// One or more texts.
   std::vector<std::string> texts() const;
@@ -56,6 +59,7 @@ class Value {
   [[noreturn]] void failMissing(const std::string& key, const std::string& accepts) const;
 
  private:
+  std::vector<double> realList() const;
   Value(const Value& parent, const std::string& key);
 
   const Teuchos::ParameterEntry* entry_ = nullptr;

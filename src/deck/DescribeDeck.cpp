@@ -101,6 +101,8 @@ void describeKeys(std::ostream& out) {
   printKeys("mesh/", meshTable(), out);
   printKeys("mesh/generate/", generateVariants(), out);
   printKeys("materials/NAME/", materialVariants(), out);
+  printKeys("shells/", shellsTable(), out);
+  printKeys("shells/sections/NAME/", shellSectionTable(), out);
   printKeys("supports/NAME/", supportTable(), out);
   printKeys("loads/NAME/", loadVariants(), out);
   printKeys("tools/NAME/", toolVariants(), out);

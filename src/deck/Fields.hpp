@@ -198,6 +198,19 @@ Field<S> vector3(std::string key, Need need, std::array<double, 3> S::*member, s
           }};
 }
 
+/// A list of numbers of any length.
+template <class S>
+Field<S> reals(std::string key, Need need, std::vector<double> S::*member, std::string meaning) {
+  return {std::move(key),
+          need == required,
+          "a list of numbers",
+          std::move(meaning),
+          [=](const Value& v, S& s) { s.*member = v.reals(); },
+          [=](const S& s) {
+            return (s.*member).empty() ? Node{} : Node{yamlList(s.*member), {}};
+          }};
+}
+
 /// A direction: three numbers that are not all zero.
 template <class S>
 Field<S> direction(std::string key, Need need, std::array<double, 3> S::*member, std::string meaning) {

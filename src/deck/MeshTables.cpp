@@ -13,14 +13,22 @@ const Choices<fem::Topology>& cells() {
   return choices;
 }
 
+const Choices<fem::Topology>& shellCells() {
+  using fem::Topology;
+  static const Choices<Topology> choices{
+      {"SHELL4", Topology::Shell4}, {"SHELL8", Topology::Shell8}, {"SHELL9", Topology::Shell9}};
+  return choices;
+}
+
 template <class S>
 Field<S> divisions(std::string meaning) {
+  constexpr std::size_t count = std::tuple_size<decltype(S::divisions)>::value;
   return {"divisions",
           true,
-          "a list of 3 whole numbers, at least 1",
+          fmt::format("a list of {} whole numbers, at least 1", count),
           std::move(meaning),
           [](const Value& v, S& s) {
-            const auto n = v.integers(3, check::count);
+            const auto n = v.integers(count, check::count);
             std::copy(n.begin(), n.end(), s.divisions.begin());
           },
           [](const S& s) {
@@ -49,11 +57,34 @@ Field<S> range(std::string key, double S::*low, double S::*high, std::string mea
 
 // The keys that every shape ends with.
 template <class S>
-Table<S> withCells(Table<S> table, const std::string& directions) {
+Table<S> withCells(Table<S> table, const std::string& directions,
+                   const Choices<fem::Topology>& choices = cells()) {
   table.push_back(divisions<S>("cells along " + directions));
-  table.push_back(choice("cell", optional, &S::topology, cells(), "Exodus' name of the cells"));
+  table.push_back(choice("cell", optional, &S::topology, choices, "Exodus' name of the cells"));
   table.push_back(text("block", optional, &S::blockName, "a text", "name of the mesh's one block"));
   return table;
+}
+
+/// A thickness of shells becomes the block's attribute; 0, printed as nothing, leaves it to `shells`.
+template <class S>
+Field<S> attributeThickness() {
+  auto field =
+      real("thickness", optional, &S::thickness, check::positive, "written as the block's attribute");
+  field.print = [](const S& s) { return s.thickness > 0 ? Node{yaml(s.thickness), {}} : Node{}; };
+  return field;
+}
+
+/// Whether a closed direction stays open.
+template <class S>
+Field<S> slit() {
+  return {"slit",
+          false,
+          "true or false",
+          "true: 360 degrees stay open, with two edges at the same place",
+          [](const Value& v, S& s) { s.slit = v.boolean(); },
+          [](const S& s) {
+            return Node{s.slit ? "true" : "false", {}};
+          }};
 }
 
 template <class S>
@@ -64,6 +95,73 @@ std::function<void(const Value&, const S&)> thinnerThanRadius() {
           .fail(fmt::format("must be below twice mid_radius = {}, got {}", s.midRadius, s.thickness));
     }
   };
+}
+
+Field<fem::ShellSphereOptions> shellLatitude() {
+  using Sphere = fem::ShellSphereOptions;
+  auto latitude = range("latitude", &Sphere::latitudeMin, &Sphere::latitudeMax,
+                        "first and last, degrees from the x-y plane, above -90 and below 90");
+  latitude.read = [inner = latitude.read](const Value& value, Sphere& s) {
+    inner(value, s);
+    if (s.latitudeMin <= -90 || s.latitudeMax >= 90) {
+      value.fail(fmt::format("must stay above -90 and below 90 degrees, got {}", value.shown()));
+    }
+  };
+  return latitude;
+}
+
+/// The middle surfaces of shells, in the order of Generate.
+void addShells(Variants<GenerateInput, Generate>& v) {
+  using Plate = fem::ShellPlateOptions;
+  using Cylinder = fem::ShellCylinderOptions;
+  using Annulus = fem::ShellAnnulusOptions;
+  using Sphere = fem::ShellSphereOptions;
+  auto angle = real("angle", optional, &Plate::angle, check::positive,
+                    "degrees between the edges, below 180: 90 a rectangle");
+  angle.read = [inner = angle.read](const Value& value, Plate& s) {
+    inner(value, s);
+    if (s.angle >= 180) {
+      value.fail(fmt::format("must be below 180 degrees, got {}", value.shown()));
+    }
+  };
+  v.alternatives.push_back(alternative<Generate, Plate>(
+      "shell_plate",
+      withCells<Plate>({real("length", required, &Plate::length, check::positive, "of the edges along x"),
+                        real("width", required, &Plate::width, check::positive, "of the other edges"), angle,
+                        vector3("origin", optional, &Plate::origin, "corner of x_min and y_min"),
+                        attributeThickness<Plate>()},
+                       "length, width", shellCells())));
+  v.alternatives.push_back(alternative<Generate, Cylinder>(
+      "shell_cylinder",
+      withCells<Cylinder>(
+          {real("radius", required, &Cylinder::radius, check::positive, "of the middle surface"),
+           range("theta", &Cylinder::thetaMin, &Cylinder::thetaMax,
+                 "first and last angle, degrees from z to x"),
+           real("length", required, &Cylinder::length, check::positive, "along y"),
+           real("y_min", optional, &Cylinder::yMin, check::any, "where the length begins"), slit<Cylinder>(),
+           attributeThickness<Cylinder>()},
+          "theta, y", shellCells())));
+  v.alternatives.push_back(alternative<Generate, Annulus>(
+      "shell_annulus",
+      withCells<Annulus>(
+          {real("inner_radius", required, &Annulus::innerRadius, check::positive, "of the hole"),
+           real("outer_radius", required, &Annulus::outerRadius, check::positive, "above inner_radius"),
+           range("angle", &Annulus::angleMin, &Annulus::angleMax, "first and last, degrees from x to y"),
+           slit<Annulus>(), attributeThickness<Annulus>()},
+          "radius, angle", shellCells()),
+      [](const Value& map, const Annulus& s) {
+        if (s.outerRadius <= s.innerRadius) {
+          map.at("outer_radius")
+              .fail(fmt::format("must be above inner_radius = {}, got {}", s.innerRadius, s.outerRadius));
+        }
+      }));
+  v.alternatives.push_back(alternative<Generate, Sphere>(
+      "shell_sphere",
+      withCells<Sphere>({real("radius", required, &Sphere::radius, check::positive, "of the middle surface"),
+                         range("longitude", &Sphere::longitudeMin, &Sphere::longitudeMax,
+                               "first and last, degrees from x to y"),
+                         shellLatitude(), slit<Sphere>(), attributeThickness<Sphere>()},
+                        "longitude, latitude", shellCells())));
 }
 
 }  // namespace
@@ -125,6 +223,7 @@ const Variants<GenerateInput, Generate>& generateVariants() {
                            latitude},
                           "longitude, latitude, thickness"),
         thinnerThanRadius<Sphere>()));
+    addShells(v);
     return v;
   }();
   return variants;

@@ -1,39 +1,10 @@
-// Keys of the blocks that describe the body and what acts on it: materials, supports, loads, tools, contact.
+// Keys of the blocks that describe the body and what acts on it: materials, loads, contact.
 #include "deck/DeckTables.hpp"
 
 namespace atrapos::deck {
 namespace {
 
 constexpr const char* setOfNodes = "a node set or side set, name or id";
-
-/// x, y or z of a support: a number, or a map with value and per_load_factor.
-Field<Support> component(std::size_t axis) {
-  static const Table<Prescribed> table{
-      real("value", optional, &Prescribed::value, check::any, "displacement at load factor 0"),
-      real("per_load_factor", optional, &Prescribed::perLoadFactor, check::any,
-           "added times the load factor")};
-  const std::string key(1, "xyz"[axis]);
-  return {key,
-          false,
-          "a number, or a map with value, per_load_factor",
-          "prescribed displacement along " + key,
-          [=](const Value& v, Support& s) {
-            Prescribed p;
-            if (v.isMap() && !v.isEmptyMap()) {
-              read(table, v, p);
-            } else {
-              p.value = v.real();
-            }
-            s.components[axis] = p;
-          },
-          [=](const Support& s) {
-            if (!s.components[axis]) {
-              return Node{};
-            }
-            const Prescribed p = *s.components[axis];
-            return p.perLoadFactor == 0 ? Node{yaml(p.value), {}} : print(table, p);
-          }};
-}
 
 Field<NodalLoad> nodalForce(const std::string& key, bool perNode, std::string meaning) {
   return {key,
@@ -62,6 +33,33 @@ Field<SurfaceLoad> surfaceVector(const std::string& key, SurfaceLoad::Kind kind,
           },
           [=](const SurfaceLoad& s) {
             return s.kind == kind ? Node{yamlList(s.vector), {}} : Node{};
+          }};
+}
+
+Field<EdgeLoad> edgeVector(const std::string& key, EdgeLoad::Kind kind, std::string meaning) {
+  return {key,
+          false,
+          "a list of 3 numbers",
+          std::move(meaning),
+          [=](const Value& v, EdgeLoad& s) {
+            const auto x = v.reals(3);
+            std::copy(x.begin(), x.end(), s.vector.begin());
+            s.kind = kind;
+          },
+          [=](const EdgeLoad& s) {
+            return s.kind == kind ? Node{yamlList(s.vector), {}} : Node{};
+          }};
+}
+
+template <class S>
+Field<S> flag(std::string key, bool S::*member, std::string meaning) {
+  return {std::move(key),
+          false,
+          "true or false",
+          std::move(meaning),
+          [=](const Value& v, S& s) { s.*member = v.boolean(); },
+          [=](const S& s) {
+            return Node{s.*member ? "true" : "false", {}};
           }};
 }
 
@@ -115,12 +113,6 @@ const Variants<Material, decltype(Material::law)>& materialVariants() {
   return variants;
 }
 
-const Table<Support>& supportTable() {
-  static const Table<Support> table{name("set", required, &Support::set, setOfNodes, "nodes that are held"),
-                                    component(0), component(1), component(2)};
-  return table;
-}
-
 const Variants<Load, decltype(Load::load)>& loadVariants() {
   using V = decltype(Load::load);
   using Kind = SurfaceLoad::Kind;
@@ -135,6 +127,18 @@ const Variants<Load, decltype(Load::load)>& loadVariants() {
                                     [](const SurfaceLoad& s) {
                                       return s.kind == Kind::Pressure ? Node{yaml(s.pressure), {}} : Node{};
                                     }};
+  const Field<EdgeLoad> followerMoment{
+      "follower_moment",
+      false,
+      "a number",
+      "moment per reference length about the edge, turning with it; > 0 turns the directors outwards",
+      [](const Value& v, EdgeLoad& s) {
+        s.moment = v.real();
+        s.kind = EdgeLoad::Kind::FollowerMoment;
+      },
+      [](const EdgeLoad& s) {
+        return s.kind == EdgeLoad::Kind::FollowerMoment ? Node{yaml(s.moment), {}} : Node{};
+      }};
   static const Variants<Load, V> variants{
       "type",
       &Load::load,
@@ -149,35 +153,39 @@ const Variants<Load, decltype(Load::load)>& loadVariants() {
            "surface",
            {name("set", required, &SurfaceLoad::set, "a side set, name or id", "faces that are loaded"),
             surfaceVector("total", Kind::Total, "force, spread uniformly over the reference area"),
-            surfaceVector("traction", Kind::Traction, "force per reference area"), pressure},
-           [](const Value& map, const SurfaceLoad&) {
+            surfaceVector("traction", Kind::Traction, "force per reference area"), pressure,
+            flag("follower", &SurfaceLoad::follower,
+                 "pressure only: true: on the deformed area, along its normal"),
+            choice("at", optional, &SurfaceLoad::at, shellPlaces(), "where in the thickness of shells")},
+           [](const Value& map, const SurfaceLoad& load) {
              requireExactlyOne(map, {"total", "traction", "pressure"});
+             if (load.follower && load.kind != Kind::Pressure) {
+               map.at("follower").fail("has a meaning with pressure only");
+             }
            }),
        alternative<V, VolumeLoad>(
            "volume", {names("blocks", required, &VolumeLoad::blocks, "blocks that are loaded"),
-                      vector3("force", required, &VolumeLoad::force, "force per reference volume")})},
+                      vector3("force", required, &VolumeLoad::force, "force per reference volume")}),
+       alternative<V, EdgeLoad>(
+           "edge",
+           {name("set", required, &EdgeLoad::set, "a side set, name or id",
+                 "edges of shells that are loaded"),
+            edgeVector("total", EdgeLoad::Kind::Total, "force, spread uniformly over the reference length"),
+            edgeVector("force", EdgeLoad::Kind::Force, "force per reference length"),
+            edgeVector("moment", EdgeLoad::Kind::Moment,
+                       "moment per reference length, not about the director"),
+            edgeVector(
+                "follower_force", EdgeLoad::Kind::FollowerForce,
+                "force per reference length along the edge, outwards, along the director, turning with them"),
+            followerMoment},
+           [](const Value& map, const EdgeLoad&) {
+             requireExactlyOne(map, {"total", "force", "moment", "follower_force", "follower_moment"});
+           })},
       {{"constant", false, "true or false", "true: not multiplied by the load factor",
         [](const Value& v, Load& s) { s.constant = v.boolean(); },
         [](const Load& s) {
           return Node{s.constant ? "true" : "false", {}};
         }}}};
-  return variants;
-}
-
-const Variants<Tool, decltype(Tool::surface)>& toolVariants() {
-  using V = decltype(Tool::surface);
-  static const Variants<Tool, V> variants{
-      "type",
-      &Tool::surface,
-      {alternative<V, CylinderTool>(
-           "cylinder",
-           {vector3("center", required, &CylinderTool::center, "any point of the axis"),
-            direction("axis", required, &CylinderTool::axis, "direction of the axis, of any length"),
-            real("radius", required, &CylinderTool::radius, check::positive, "of the cylinder")}),
-       alternative<V, PlaneTool>(
-           "plane", {vector3("point", required, &PlaneTool::point, "any point of the plane"),
-                     direction("normal", required, &PlaneTool::normal, "to the free side, of any length")})},
-      {}};
   return variants;
 }
 
@@ -210,6 +218,7 @@ const Table<Contact>& contactTable() {
         name("set", required, &Contact::set, "a side set (with points: nodes also a node set), name or id",
              "where the body may touch it"),
         choice("points", optional, &Contact::points, points, "where the law acts"),
+        choice("at", optional, &Contact::at, shellPlaces(), "where in the thickness of shells"),
         degree,
         positiveOr("stiffness", required, &Contact::stiffness, "rigid",
                    "alpha: pressure per length, with points: nodes force per length; rigid: 1/alpha = 0"),

@@ -111,6 +111,28 @@ TEST_F(BadInput, ToolInTheBody) {
   refusesDeck("center: [4, 0, -1.25]", "center: [4, 0, -0.75]", {"contact/lower", "penetrates", "gap -0.24"});
 }
 
+TEST_F(BadInput, ToolsThatAreNoSurface) {
+  const std::string roll = "{type: cylinder, center: [4, 0, -1.25], axis: [0, 1, 0], radius: 1}";
+  refusesDeck(roll, "{type: torus, center: [4, 0, -9], axis: [1, 0, 0], radius: 1, tube_radius: 1}",
+              {"tools/roll: torus: radius must be above the tube radius 1, got 1"});
+  refusesDeck(roll,
+              "{type: crowned_roll, center: [4, 0, -9], axis: [0, 1, 0], places: [0, 0], radii: [1, 1]}",
+              {"tools/roll", "places must ascend, got 0 after 0"});
+  refusesDeck(roll,
+              "{type: tapered_roll, center: [4, 0, -9], axis: [0, 1, 0], radius: 1, flat: -1, angle: 3, "
+              "smoothing: 0.1}",
+              {"tools/roll", "flat length must be >= 0 where both ends taper"});
+}
+
+TEST_F(BadInput, PointWithoutAUniqueProjection) {
+  // Faces' points of degree 4 lie at (1 +- sqrt(0.6))/2 and 1/2 of their sides; the axis goes through one of
+  // them.
+  refusesDeck("{type: cylinder, center: [4, 0, -1.25], axis: [0, 1, 0], radius: 1}",
+              "{type: cylinder, center: [3.5, 0.5, 0], axis: [0, 0, 1], radius: 9, side: inside}",
+              {"contact/lower", "(3.5, 0.5, 0) has no unique projection on tool 'roll'",
+               "lies on the axis of the cylinder"});
+}
+
 TEST_F(BadInput, LoadOnTheSupport) {
   refusesDeck("set: x_max, total", "set: x_min, total", {"loads", "without effect"});
 }
@@ -182,6 +204,44 @@ TEST_F(BadInput, CommandLine) {
   refuses({"run", "deck.yaml", "-o"}, {"--output"});
   refuses({"run", "deck.yaml", "--threads", "0"}, {"--threads", "1 to"});
   refuses({"run", "deck.yaml", "--threads", "two"}, {"--threads", "two"});
+}
+
+// Shells are read and checked; a run says that it cannot be, after all that is wrong with them.
+TEST_F(BadInput, Shells) {
+  const std::string deck = R"(mesh:
+  file: roof.exo
+  generate: {shape: shell_cylinder, radius: 10, theta: [-40, 40], length: 5, divisions: [4, 2], block: roof}
+materials:
+  steel: {law: saint_venant_kirchhoff, youngs_modulus: 1000, poissons_ratio: 0.3, blocks: [roof]}
+shells:
+  sections:
+    skin: {blocks: [roof], thickness: 0.1}
+supports:
+  clamp: {set: y_min, condition: clamped}
+loads:
+  tip: {type: edge, set: y_max, total: [0, 0, -10]}
+path:
+  stop: {load_factor: 1}
+)";
+  writeFile(folder_ / "deck.yaml", deck);
+  const CommandResult made = runAtrapos({"mesh", "-q", "deck.yaml"}, folder_.path());
+  ASSERT_EQ(made.exitCode, 0) << made.err;
+  refuses({"run", "-q", "deck.yaml"}, {"mesh/file: block 'roof' has SHELL8", "cannot be run yet"});
+  const auto refusesShell = [&](const std::string& from, const std::string& to,
+                                const std::vector<std::string>& words) {
+    writeFile(folder_ / "deck.yaml", edited(deck, from, to));
+    refuses({"check", "deck.yaml"}, words);
+  };
+  refusesShell("thickness: 0.1", "thickness: 21",
+               {"shells: element 1 (block 'roof'): the Jacobian is -", "too thick for its curvature"});
+  refusesShell("thickness: 0.1", "thickness: attribute",
+               {"shells: block 'roof': the shells have no thickness"});
+  refusesShell("set: y_max, total", "set: outer, total", {"loads/tip/set: side 1 of element 1", "no edge"});
+}
+
+TEST_F(BadInput, PressureThatFollows) {
+  refusesDeck("total: [0, 0, -10]", "pressure: 1, follower: true",
+              {"loads/tip/follower: pressures that follow cannot be run yet"});
 }
 
 }  // namespace

@@ -445,7 +445,8 @@ TEST(BadDeck, missingBlocksAndKeys) {
   expectError("  file: strip.exo\n", "", "mesh/file: is missing; expected a file name", {"(line 3)"});
   expectError(", radius: 50", "", "tools/roll/radius: is missing; expected a number, positive",
               {"(line 16)"});
-  expectError("{type: cylinder, ", "{", "tools/roll/type: is missing; expected one of cylinder, plane", {});
+  expectError("{type: cylinder, ", "{",
+              "tools/roll/type: is missing; expected one of cylinder, plane, sphere", {});
   expectError(", poissons_ratio: 0", "", "materials/steel/poissons_ratio: is missing",
               {"above -1 and below 0.5"});
   expectError("regularisation: 0.1", "quadrature_degree: 2", "contact/lower/regularisation: is missing", {});
@@ -547,9 +548,86 @@ TEST(BadDeck, valuesOutOfRange) {
               "mesh/generate/latitude: must stay above -90 and below 90 degrees", {});
 }
 
+/// The good deck with another tool.
+std::string withTool(const std::string& tool) {
+  return changed("{type: cylinder, center: [200, 0, -54.4], axis: [0, 1, 0], radius: 50}", tool);
+}
+
+TEST(Deck, tools) {
+  const auto read = [](const std::string& tool) {
+    const Deck deck = readDeckText(withTool(tool), "tools.yaml");
+    std::ostringstream once, twice;
+    describe(deck, once);
+    describe(readDeckText(once.str(), "tools.yaml"), twice);
+    EXPECT_EQ(once.str(), twice.str());
+    return deck.tools[0].surface;
+  };
+  EXPECT_EQ(std::get<CylinderTool>(
+                read("{type: cylinder, center: [1, 2, 3], axis: [0, 1, 0], radius: 4, side: inside}"))
+                .side,
+            Side::Inside);
+  const auto sphere = std::get<SphereTool>(read("{type: sphere, center: [1, 2, 3], radius: 4}"));
+  EXPECT_EQ(sphere.center, (Vector3{1, 2, 3}));
+  EXPECT_EQ(sphere.radius, 4.0);
+  EXPECT_EQ(sphere.side, Side::Outside);
+  const auto cone = std::get<ConeTool>(
+      read("{type: cone, apex: [1, 2, 3], axis: [0, 0, 2], half_angle: 30, side: inside}"));
+  EXPECT_EQ(cone.apex, (Vector3{1, 2, 3}));
+  EXPECT_EQ(cone.axis, (Vector3{0, 0, 2}));
+  EXPECT_EQ(cone.halfAngle, 30.0);
+  EXPECT_EQ(cone.side, Side::Inside);
+  const auto torus = std::get<TorusTool>(
+      read("{type: torus, center: [1, 2, 3], axis: [0, 1, 0], radius: 5, tube_radius: 1.5}"));
+  EXPECT_EQ(torus.radius, 5.0);
+  EXPECT_EQ(torus.tubeRadius, 1.5);
+  const auto taper = std::get<TaperedRollTool>(
+      read("{type: tapered_roll, center: [200, 0, -54], axis: [0, 1, 0], radius: 50, flat: 15, "
+           "angle: -5.7, smoothing: 0.04, ends: one}"));
+  EXPECT_EQ(taper.flat, 15.0);
+  EXPECT_EQ(taper.angle, -5.7);
+  EXPECT_EQ(taper.smoothing, 0.04);
+  EXPECT_EQ(taper.ends, TaperedRollTool::Ends::One);
+  const auto crown = std::get<CrownedRollTool>(
+      read("{type: crowned_roll, center: [0, 0, -50], axis: [0, 1, 0], coefficients: [50, 0, -1.0e-4]}"));
+  EXPECT_EQ(crown.coefficients, (std::vector<double>{50, 0, -1e-4}));
+  const auto table =
+      std::get<CrownedRollTool>(read("{type: crowned_roll, center: [0, 0, -50], axis: [0, 1, 0], places: "
+                                     "[-10, 0, 10], radii: [49, 50, 49]}"));
+  EXPECT_EQ(table.places, (std::vector<double>{-10, 0, 10}));
+  EXPECT_EQ(table.radii, (std::vector<double>{49, 50, 49}));
+}
+
+TEST(BadDeck, tools) {
+  const std::string cylinder = "{type: cylinder, center: [200, 0, -54.4], axis: [0, 1, 0], radius: 50}";
+  const auto refused = [&](const std::string& tool, const std::string& start,
+                           const std::vector<std::string>& words) {
+    expectError(cylinder, tool, start, words);
+  };
+  refused("{type: sphere, center: [0, 0, 0], radius: -1}", "tools/roll/radius: must be positive", {"-1"});
+  refused("{type: sphere, center: [0, 0, 0], radius: 1, side: below}",
+          "tools/roll/side: 'below' is not a choice", {"outside, inside"});
+  refused("{type: cone, apex: [0, 0, 0], axis: [0, 1, 0], half_angle: 90}",
+          "tools/roll/half_angle: must be above 0 and below 90 degrees", {"90"});
+  refused("{type: torus, center: [0, 0, 0], axis: [0, 0, 0], radius: 2, tube_radius: 1}",
+          "tools/roll/axis: must not be the zero vector", {});
+  refused("{type: tapered_roll, center: [0, 0, 0], axis: [0, 1, 0], radius: 2, flat: 1, angle: 1}",
+          "tools/roll/smoothing: is missing", {"positive"});
+  refused("{type: crowned_roll, center: [0, 0, 0], axis: [0, 1, 0]}", "tools/roll: needs either coefficients",
+          {});
+  refused(
+      "{type: crowned_roll, center: [0, 0, 0], axis: [0, 1, 0], coefficients: [1], places: [1, 2], radii: "
+      "[1, 1]}",
+      "tools/roll: needs either coefficients, or places and radii", {});
+  refused("{type: crowned_roll, center: [0, 0, 0], axis: [0, 1, 0], places: [1, 2]}",
+          "tools/roll/radii: is missing", {});
+  refused("{type: crowned_roll, center: [0, 0, 0], axis: [0, 1, 0], coefficients: big}",
+          "tools/roll/coefficients: expected a list of finite numbers", {"big"});
+}
+
 TEST(BadDeck, choices) {
   expectError("type: cylinder", "type: cilinder", "tools/roll/type: 'cilinder' is not a choice here",
-              {"did you mean 'cylinder'?", "expected one of cylinder, plane"});
+              {"did you mean 'cylinder'?",
+               "expected one of cylinder, plane, sphere, cone, torus, tapered_roll, crowned_roll"});
   expectError("law: saint_venant_kirchhoff", "law: mooney", "materials/steel/law: 'mooney' is not a choice",
               {});
   expectError("cell: HEX20", "cell: HEX21", "mesh/generate/cell: 'HEX21' is not a choice here",

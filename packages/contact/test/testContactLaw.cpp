@@ -116,7 +116,7 @@ void orders(const ContactLaw<Tool>& law, double gap, Random& random) {
     }
   }
   const Values data(Delta);
-  for (const Mode mode : {Mode::Direct, Mode::ZeroThenComplete, Mode::CompleteInThree}) {
+  for (const Mode mode : {Mode::Direct, Mode::AsASolver}) {
     const auto r = runSeries(law, x, mode, &data);
     for (int l = 0; l < L; ++l) {
       const LongSeries in[3] = {lane(x[0], l), lane(x[1], l), lane(x[2], l)};

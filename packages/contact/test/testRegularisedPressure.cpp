@@ -147,7 +147,7 @@ TEST(RegularisedPressure, OrdersOfTheSeries) {
     const PressureOfGap law{{c.compliance, 0.1}};
     const Values Delta(1.0);
     const auto h = testSeries(20, c.first, c.last, 1);
-    for (const Mode mode : {Mode::Direct, Mode::ZeroThenComplete, Mode::CompleteInThree}) {
+    for (const Mode mode : {Mode::Direct, Mode::AsASolver}) {
       const auto r = runSeries(law, {h}, mode, &Delta);
       for (int l = 0; l < L; ++l) {
         const LongSeries gap = lane(h, l), load = law.law.eta * (1.0 - gap);
@@ -180,7 +180,7 @@ TEST(RegularisedPressure, RadiusOfConvergenceNearClosing) {
   const double rho = 2 * std::sqrt(compliance * eta * Delta - compliance * compliance * eta * eta);
   in[0][1] = rho;  // h in units of the radius: coefficients of order 1
   const Values data(Delta);
-  const auto R = runSeries(law, in, Mode::ZeroThenComplete, &data).out[0];
+  const auto R = runSeries(law, in, Mode::AsASolver, &data).out[0];
   double binomial = 1;
   for (int k = 0; k <= 20; k += 2) {
     const double expected = rho / (2 * compliance) * binomial - (k == 0 ? eta : 0.0);

@@ -134,7 +134,7 @@ void orders(const Tool& tool, Random& random) {
       for (int i = 0; i < 3; ++i) x[i][k][l] = c[i];
     }
   }
-  for (const Mode mode : {Mode::Direct, Mode::ZeroThenComplete, Mode::CompleteInThree}) {
+  for (const Mode mode : {Mode::Direct, Mode::AsASolver}) {
     const auto r = runSeries(Projection<Tool>{tool}, x, mode);
     for (int l = 0; l < L; ++l) {
       const LongSeries in[3] = {lane(x[0], l), lane(x[1], l), lane(x[2], l)};
@@ -169,7 +169,7 @@ TEST(Tools, CylinderReferenceTurnedIntoSpace) {
     x[i][0] = center[i] + 30 * s[i] + 50 * t[i] + 8 * axis[i];
     x[i][1] = 10 * s[i] - 20 * t[i] + 3 * axis[i];  // motion along the axis changes nothing
   }
-  const auto r = runSeries(Projection<Cylinder>{tool}, x, Mode::ZeroThenComplete);
+  const auto r = runSeries(Projection<Cylinder>{tool}, x, Mode::AsASolver);
   for (std::size_t k = 0; k < rows.size(); ++k) {
     // Rounding of coordinates of about 60; the series decays as 2.6^-k, 2^-k leaves room for the growth of
     // errors.

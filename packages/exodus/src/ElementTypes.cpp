@@ -5,11 +5,19 @@
 
 namespace atrapos::exodus {
 
+namespace {
+
+std::string upperCase(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  return text;
+}
+
+}  // namespace
+
 std::optional<fem::Topology> topologyOf(const std::string& elementType, int nodesPerElement) {
   using fem::Topology;
-  std::string type = elementType;
-  std::transform(type.begin(), type.end(), type.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  const std::string type = upperCase(elementType);
   const auto begins = [&](const char* prefix) { return type.rfind(prefix, 0) == 0; };
   if (begins("HEX")) {
     if (nodesPerElement == 8) return Topology::Hex8;
@@ -21,12 +29,19 @@ std::optional<fem::Topology> topologyOf(const std::string& elementType, int node
   } else if (begins("WEDGE") || begins("PENTA")) {
     if (nodesPerElement == 6) return Topology::Wedge6;
     if (nodesPerElement == 15) return Topology::Wedge15;
+  } else if (begins("SHELL") || begins("QUAD")) {
+    if (nodesPerElement == 4) return Topology::Shell4;
+    if (nodesPerElement == 8) return Topology::Shell8;
+    if (nodesPerElement == 9) return Topology::Shell9;
   }
   return std::nullopt;
 }
 
+int firstSide(const std::string& elementType) { return upperCase(elementType).rfind("QUAD", 0) == 0 ? 2 : 0; }
+
 const char* acceptedElementTypes() {
-  return "HEX with 8, 20 or 27 nodes, TET with 4 or 10, WEDGE or PENTA with 6 or 15";
+  return "HEX with 8, 20 or 27 nodes, TET with 4 or 10, WEDGE or PENTA with 6 or 15, SHELL or QUAD "
+         "with 4, 8 or 9";
 }
 
 int numSides(fem::Topology topology) {
@@ -35,6 +50,9 @@ int numSides(fem::Topology topology) {
     case Topology::Hex8:
     case Topology::Hex20:
     case Topology::Hex27:
+    case Topology::Shell4:
+    case Topology::Shell8:
+    case Topology::Shell9:
       return 6;
     case Topology::Wedge6:
     case Topology::Wedge15:

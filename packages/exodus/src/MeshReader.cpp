@@ -28,12 +28,12 @@ class MeshReader {
     readCoordinates();
     readBlocks();
     readNodeSets();
+    require(static_cast<int64_t>(firstSide_.size()) == init_.num_elem,
+            "the blocks have " + std::to_string(firstSide_.size()) + " elements, the file announces " +
+                std::to_string(init_.num_elem));
     readSideSets();
     mesh_.nodeIds = idMap(EX_NODE_MAP, init_.num_nodes);
     mesh_.elementIds = idMap(EX_ELEM_MAP, init_.num_elem);
-    require(mesh_.numElements() == init_.num_elem, "the blocks have " + std::to_string(mesh_.numElements()) +
-                                                       " elements, the file announces " +
-                                                       std::to_string(init_.num_elem));
     checkMesh(mesh_, file_.name());
     return std::move(mesh_);
   }
@@ -89,6 +89,8 @@ class MeshReader {
       block.topology = *topology;
       block.nodes = readConnectivity(param, owner);
       readAttributes(param, owner, block);
+      firstSide_.insert(firstSide_.end(), static_cast<std::size_t>(param.num_entry),
+                        firstSide(param.topology));
       mesh_.blocks.push_back(std::move(block));
     }
   }
@@ -151,7 +153,13 @@ class MeshReader {
       const auto element = zeroBased(elements, init_.num_elem, owner, "element");
       const auto side = zeroBased(ordinals, 6, owner, "side");
       fem::SideSet set{name, id, {}};
-      for (std::size_t i = 0; i < element.size(); ++i) set.sides.push_back({element[i], side[i]});
+      for (std::size_t i = 0; i < element.size(); ++i) {
+        const int first = firstSide_[static_cast<std::size_t>(element[i])];
+        require(side[i] + first < 6, owner + " has side " + std::to_string(side[i] + 1) + " of element " +
+                                         std::to_string(element[i] + 1LL) + ", which has " +
+                                         std::to_string(6 - first) + " sides");
+        set.sides.push_back({element[i], side[i] + first});
+      }
       mesh_.sideSets.push_back(std::move(set));
     }
   }
@@ -169,6 +177,7 @@ class MeshReader {
   File file_;
   std::size_t nameLength_;
   ex_init_params init_{};
+  std::vector<int> firstSide_;  // [element] of the sides in the file
   fem::Mesh mesh_;
 };
 

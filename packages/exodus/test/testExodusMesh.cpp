@@ -8,6 +8,9 @@
 #include "SampleMesh.hpp"
 #include "TempFile.hpp"
 #include "atrapos/exodus/MeshFile.hpp"
+#include "atrapos/fem/ReferenceCell.hpp"
+#include "atrapos/fem/ShellThickness.hpp"
+#include "atrapos/fem/StructuredShell.hpp"
 
 using namespace atrapos;
 using fem::Mesh;
@@ -152,10 +155,12 @@ TEST(ExodusMesh, fileHasOneBasedNumbersAndLargeModel) {
 TEST(ExodusMesh, elementTypesByPrefixAndNodeCount) {
   const TempFile file;
   const std::vector<std::pair<std::string, Topology>> types = {
-      {"HEX", Topology::Hex8},       {"hex8", Topology::Hex8},     {"HEXAHEDRON", Topology::Hex20},
-      {"HEX27", Topology::Hex27},    {"TETRA", Topology::Tet4},    {"TETRA10", Topology::Tet10},
-      {"tetra", Topology::Tet10},    {"WEDGE", Topology::Wedge15}, {"PENTA6", Topology::Wedge6},
-      {"PENTA15", Topology::Wedge15}};
+      {"HEX", Topology::Hex8},        {"hex8", Topology::Hex8},     {"HEXAHEDRON", Topology::Hex20},
+      {"HEX27", Topology::Hex27},     {"TETRA", Topology::Tet4},    {"TETRA10", Topology::Tet10},
+      {"tetra", Topology::Tet10},     {"WEDGE", Topology::Wedge15}, {"PENTA6", Topology::Wedge6},
+      {"PENTA15", Topology::Wedge15}, {"SHELL", Topology::Shell8},  {"shell8", Topology::Shell8},
+      {"QUAD8", Topology::Shell8},    {"QUAD", Topology::Shell8},   {"SHELL9", Topology::Shell9},
+      {"Quad", Topology::Shell9},     {"SHELL4", Topology::Shell4}, {"QUAD", Topology::Shell4}};
   for (const auto& [type, topology] : types) {
     SCOPED_TRACE(type);
     Raw raw;
@@ -168,7 +173,7 @@ TEST(ExodusMesh, elementTypesByPrefixAndNodeCount) {
     raw.write(file());
     const Mesh mesh = exodus::readMesh(file());
     EXPECT_EQ(mesh.blocks[0].topology, topology);
-    EXPECT_EQ(mesh.sideSets[0].sides[0].side, 3);
+    EXPECT_EQ(mesh.sideSets[0].sides[0].side, std::toupper(type[0]) == 'Q' ? 5 : 3);
   }
 }
 
@@ -195,11 +200,22 @@ TEST(ExodusMesh, whatIsNotSupportedIsNamed) {
   expectMessage(messageOf([&] { exodus::readMesh(file.directory().string()); }), "not a regular file");
 
   Raw raw;
-  raw.type = "SHELL4";
-  raw.nodesPerElement = 4;
+  for (const char* type : {"SHELL3", "TRISHELL3", "TRI3"}) {
+    raw.type = type;
+    raw.nodesPerElement = 3;
+    raw.write(file());
+    expectMessage(read(), "block '' (id 10): element type '" + std::string(type) +
+                              "' with 3 nodes is not supported; accepted are HEX");
+  }
+  raw = {};
+  raw.type = "SHELL8";
+  raw.side = {1, 7};
   raw.write(file());
-  expectMessage(read(),
-                "block '' (id 10): element type 'SHELL4' with 4 nodes is not supported; accepted are HEX");
+  expectMessage(read(), "side set '' (id 30) has side 7");
+  raw.type = "QUAD8";
+  raw.side = {1, 5};
+  raw.write(file());
+  expectMessage(read(), "side set '' (id 30) has side 5 of element 1, which has 4 sides");
 
   raw = {};
   raw.dimensions = 2;
@@ -277,4 +293,99 @@ TEST(ExodusMesh, writesWholeOrNotAtAll) {
     ++entries;
   }
   EXPECT_EQ(entries, 2u);  // the file and the directory; no drafts left behind
+}
+
+// A plate in two blocks with all that shells carry: thickness, faces and edges in one side set.
+TEST(ExodusMesh, roundTripOfShells) {
+  for (Topology topology : {Topology::Shell4, Topology::Shell8, Topology::Shell9}) {
+    SCOPED_TRACE(fem::topologyName(topology));
+    fem::ShellPlateOptions options;
+    options.divisions = {3, 2};
+    options.thickness = 0.25;
+    options.topology = topology;
+    Mesh mesh = fem::shellPlateMesh(options);
+    const std::size_t N = fem::nodesPerElement(topology);
+    fem::Block& first = mesh.blocks[0];
+    fem::Block nodal = first;  // thickness node by node
+    nodal.name = "nodal";
+    nodal.id = 5;
+    first.nodes.resize(2 * N);
+    first.attributes.resize(2);
+    nodal.nodes.erase(nodal.nodes.begin(), nodal.nodes.begin() + static_cast<long>(2 * N));
+    nodal.attributeNames.clear();
+    nodal.attributes.clear();
+    for (std::size_t n = 0; n < N; ++n) nodal.attributeNames.push_back("thickness_" + std::to_string(n + 1));
+    for (std::size_t i = 0; i < 4 * N; ++i) nodal.attributes.push_back(0.1 + 0.01 * static_cast<double>(i));
+    mesh.blocks.push_back(nodal);
+    mesh.sideSets.push_back({"all sides", 77, {}});
+    for (int e = 0; e < 6; ++e)
+      for (int side = 0; side < 6; ++side) mesh.sideSets.back().sides.push_back({e, side});
+    const TempFile file;
+    exodus::writeMesh(mesh, file());
+    const Mesh back = exodus::readMesh(file());
+    expectEqual(mesh, back);
+    EXPECT_EQ(fem::shellThickness(back, {0, {}}), std::vector<double>(2 * N, 0.25));
+    EXPECT_EQ(fem::shellThickness(back, {1, {}}), nodal.attributes);
+  }
+}
+
+// What the library itself says are the nodes of a shell's sides, for every name that we read as a shell.
+TEST(ExodusMesh, sidesOfShellsAreTheLibrarys) {
+  const std::vector<std::pair<std::string, Topology>> types = {
+      {"SHELL4", Topology::Shell4}, {"SHELL8", Topology::Shell8}, {"SHELL9", Topology::Shell9},
+      {"SHELL", Topology::Shell8},  {"QUAD8", Topology::Shell8},  {"QUAD4", Topology::Shell4},
+      {"QUAD9", Topology::Shell9}};
+  for (const auto& [type, topology] : types) {
+    const bool quad = type[0] == 'Q';  // four edges only
+    for (int side = 0; side < (quad ? 4 : 6); ++side) {
+      SCOPED_TRACE(type + " side " + std::to_string(side + 1));
+      const TempFile file;
+      Raw raw;
+      raw.type = type;
+      raw.nodesPerElement = raw.numNodes = fem::nodesPerElement(topology);
+      raw.nodes.clear();
+      for (int i = 1; i <= raw.numNodes; ++i) raw.nodes.push_back(i);
+      raw.setNode = 1;
+      raw.side = {1, side + 1};
+      raw.write(file());
+      int words = 8, fileWords = 0;
+      float version = 0.0F;
+      const int id = ex_open(file().c_str(), EX_READ, &words, &fileWords, &version);
+      ASSERT_GE(id, 0);
+      int count = 0;
+      std::array<int, 9> nodes{};
+      ASSERT_EQ(ex_get_side_set_node_list(id, 30, &count, nodes.data()), 0);
+      ex_close(id);
+      const int ours = exodus::readMesh(file()).sideSets[0].sides[0].side;
+      EXPECT_EQ(ours, quad ? side + 2 : side);
+      const auto expected = fem::sideNodes(topology, ours);
+      // Libraries before 7 know the corners only of the faces of nine nodes.
+      const bool old = type == "SHELL9" && count < static_cast<int>(expected.size());
+      ASSERT_EQ(count, old ? (side < 2 ? 4 : 2) : static_cast<int>(expected.size()));
+      for (int n = 0; n < count; ++n) EXPECT_EQ(nodes[n] - 1, expected[n]);
+    }
+  }
+}
+
+TEST(ExodusMesh, shellBlocksAreWrittenAsShells) {
+  fem::ShellPlateOptions options;
+  options.thickness = 0.5;
+  const TempFile file;
+  exodus::writeMesh(fem::shellPlateMesh(options), file());
+  int words = 8, fileWords = 0;
+  float version = 0.0F;
+  const int id = ex_open(file().c_str(), EX_READ, &words, &fileWords, &version);
+  ASSERT_GE(id, 0);
+  char type[MAX_STR_LENGTH + 1] = "";
+  int count = 0, perElement = 0, edges = 0, faces = 0, attributes = 0;
+  ASSERT_EQ(ex_get_block(id, EX_ELEM_BLOCK, 1, type, &count, &perElement, &edges, &faces, &attributes), 0);
+  EXPECT_STREQ(type, "SHELL8");
+  EXPECT_EQ(perElement, 8);
+  EXPECT_EQ(attributes, 1);
+  int element = 0, side = 0;
+  ASSERT_EQ(ex_get_set(id, EX_SIDE_SET, 2, &element, &side), 0);
+  EXPECT_EQ(side, 4);  // x_max: the edge from corner 2 to 3
+  ASSERT_EQ(ex_get_set(id, EX_SIDE_SET, 6, &element, &side), 0);
+  EXPECT_EQ(side, 2);  // bottom
+  ex_close(id);
 }

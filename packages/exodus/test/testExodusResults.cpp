@@ -15,6 +15,7 @@
 #include "atrapos/exodus/MeshFile.hpp"
 #include "atrapos/exodus/ResultReader.hpp"
 #include "atrapos/exodus/ResultWriter.hpp"
+#include "atrapos/fem/StructuredShell.hpp"
 
 using namespace atrapos;
 
@@ -181,6 +182,22 @@ TEST(ExodusResults, badStepsAndNamesThrowAndLeaveTheFileAsItWas) {
   EXPECT_THROW(reader.nodal(0, "displ"), exodus::Error);
   EXPECT_THROW(reader.element(0, "displ_x"), exodus::Error);
   EXPECT_THROW(reader.global(0, "displ_x"), exodus::Error);
+}
+
+TEST(ExodusResults, resultsOfShellsStandOnTheirMiddleSurface) {
+  const TempFile file;
+  fem::ShellCylinderOptions options;
+  options.divisions = {4, 2};
+  options.thickness = 0.01;
+  const auto mesh = fem::shellCylinderMesh(options);
+  {
+    exodus::ResultWriter writer(file(), mesh, sampleNames());
+    for (int step = 0; step < 3; ++step) writeSampleStep(writer, mesh, step);
+  }
+  for (int step = 0; step < 3; ++step) expectSampleStep(exodus::ResultReader(file()), mesh, step);
+  const auto back = exodus::readMesh(file());
+  EXPECT_EQ(back.blocks[0].topology, fem::Topology::Shell8);
+  EXPECT_EQ(back.blocks[0].attributes, mesh.blocks[0].attributes);
 }
 
 TEST(ExodusResults, twoFilesAtATime) {

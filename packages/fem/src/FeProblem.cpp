@@ -83,6 +83,7 @@ struct FeProblem::Impl {
   View<char*> fixed;
   Field value, rate, load, constantLoad;
   Field sum;            // work
+  Field last;           // U of the order completed last
   double diagonal = 0;  // s of the prescribed rows
   double scaleFloor = 0;
   int numFree = 0;
@@ -99,6 +100,7 @@ struct FeProblem::Impl {
     model.constantLoad.resize(numDofs, 0.0);
     map = rcp(new Map(numDofs, 0, comm));
     sum = Field("sum", numDofs);
+    last = Field("last", numDofs);
     makeMatrix();
     uploadConditions();
     findScale();
@@ -287,15 +289,13 @@ void FeProblem::orderRhs(int k, Vector& Fk) {
   const Field total = impl_->sum, out = writable(Fk);
   const auto fixed = impl_->fixed;
   Kokkos::deep_copy(total, 0.0);
-  for (const auto& term : impl_->model.terms) term->addOrder(k, total);
+  for (const auto& term : impl_->model.terms) term->addOrder(k, impl_->last, total);
   Kokkos::parallel_for(
       "orderRhs", Kokkos::RangePolicy<Execution>(0, out.size()),
       KOKKOS_LAMBDA(int d) { out(d) = fixed(d) ? 0.0 : -total(d); });
 }
 
-void FeProblem::completeOrder(int k, const Vector& Uk, double) {
-  for (const auto& term : impl_->model.terms) term->completeOrder(k, field(Uk));
-}
+void FeProblem::completeOrder(int, const Vector& Uk, double) { Kokkos::deep_copy(impl_->last, field(Uk)); }
 
 RCP<Vector> FeProblem::initialState(double lambda) const {
   auto u = rcp(new Vector(impl_->map));

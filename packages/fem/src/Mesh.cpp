@@ -25,6 +25,10 @@ int Mesh::numElements() const {
   return static_cast<int>(count);
 }
 
+bool isShell(Topology topology) {
+  return topology == Topology::Shell4 || topology == Topology::Shell8 || topology == Topology::Shell9;
+}
+
 int nodesPerElement(Topology topology) {
   switch (topology) {
     case Topology::Hex8:
@@ -41,6 +45,12 @@ int nodesPerElement(Topology topology) {
       return 6;
     case Topology::Wedge15:
       return 15;
+    case Topology::Shell4:
+      return 4;
+    case Topology::Shell8:
+      return 8;
+    case Topology::Shell9:
+      return 9;
   }
   throw std::invalid_argument("nodesPerElement: not a value of Topology");
 }
@@ -61,6 +71,12 @@ const char* topologyName(Topology topology) {
       return "WEDGE6";
     case Topology::Wedge15:
       return "WEDGE15";
+    case Topology::Shell4:
+      return "SHELL4";
+    case Topology::Shell8:
+      return "SHELL8";
+    case Topology::Shell9:
+      return "SHELL9";
   }
   throw std::invalid_argument("topologyName: not a value of Topology");
 }

@@ -9,16 +9,10 @@
 #include <set>
 #include <stdexcept>
 
+#include "Vec3.hpp"
+
 namespace atrapos::fem {
 namespace {
-
-using Vec3 = std::array<double, 3>;
-
-Vec3 cross(const Vec3& a, const Vec3& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 /// sum_n x_n (x) dN_n/dxi_d: the tangent vectors of the map from reference coordinates, one a dimension.
 void tangents(const Mesh& mesh, const int* nodes, const Tabulation& t, int q, Vec3* g) {
@@ -40,6 +34,9 @@ void appendPosition(const Mesh& mesh, const int* nodes, const Tabulation& t, int
 }
 
 PointSet volume(const Mesh& mesh, const Block& block, const Tabulation& t, bool gradients) {
+  if (isShell(block.topology))
+    throw std::runtime_error(fmt::format("block '{}': {} is a surface and has no volume points", block.name,
+                                         topologyName(block.topology)));
   PointSet p;
   p.nodesPerEntity = t.numNodes;
   p.pointsPerEntity = t.numPoints;
@@ -106,6 +103,10 @@ std::vector<PointSet> facePoints(const Mesh& mesh, const SideSet& set, int degre
     const auto [b, e] = addressOf(mesh, side.element);
     const Block& block = mesh.blocks[b];
     const Face face = sideFace(block.topology, side.side);
+    if (isLine(face))
+      throw std::runtime_error(
+          fmt::format("side set '{}': side {} of element {} is an edge of a shell, where a face is needed",
+                      set.name, side.side + 1, side.element + 1));
     if (!tables.count(face)) tables[face] = tabulateFace(face, degree);
     const Tabulation& t = tables.at(face);
     PointSet& p = byShape[face];

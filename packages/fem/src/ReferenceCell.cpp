@@ -3,6 +3,7 @@
 #include <Intrepid2_DefaultCubatureFactory.hpp>
 #include <Intrepid2_HGRAD_HEX_C1_FEM.hpp>
 #include <Intrepid2_HGRAD_HEX_C2_FEM.hpp>
+#include <Intrepid2_HGRAD_LINE_C1_FEM.hpp>
 #include <Intrepid2_HGRAD_QUAD_C1_FEM.hpp>
 #include <Intrepid2_HGRAD_QUAD_C2_FEM.hpp>
 #include <Intrepid2_HGRAD_TET_C1_FEM.hpp>
@@ -58,8 +59,28 @@ shards::CellTopology cellOf(Topology topology) {
       return shardsCell<shards::Wedge<6>>();
     case Topology::Wedge15:
       return shardsCell<shards::Wedge<15>>();
+    case Topology::Shell4:
+      return shardsCell<shards::Quadrilateral<4>>();
+    case Topology::Shell8:
+      return shardsCell<shards::Quadrilateral<8>>();
+    case Topology::Shell9:
+      return shardsCell<shards::Quadrilateral<9>>();
   }
   unknownShape();
+}
+
+/// The cell whose sides are meant: a shell has two faces and four edges, its middle surface four edges.
+shards::CellTopology cellWithSides(Topology topology) {
+  switch (topology) {
+    case Topology::Shell4:
+      return shardsCell<shards::ShellQuadrilateral<4>>();
+    case Topology::Shell8:
+      return shardsCell<shards::ShellQuadrilateral<8>>();
+    case Topology::Shell9:
+      return shardsCell<shards::ShellQuadrilateral<9>>();
+    default:
+      return cellOf(topology);
+  }
 }
 
 shards::CellTopology cellOf(Face face) {
@@ -74,6 +95,10 @@ shards::CellTopology cellOf(Face face) {
       return shardsCell<shards::Quadrilateral<8>>();
     case Face::Quad9:
       return shardsCell<shards::Quadrilateral<9>>();
+    case Face::Line2:
+      return shardsCell<shards::Line<2>>();
+    case Face::Line3:
+      return shardsCell<shards::Line<3>>();
   }
   unknownShape();
 }
@@ -90,12 +115,14 @@ std::vector<double> vertices(const shards::CellTopology& cell) {
       return {-1, -1, 1, -1, 1, 1, -1, 1};
     case shards::Triangle<3>::key:
       return {0, 0, 1, 0, 0, 1};
+    case shards::Line<2>::key:
+      return {-1, 1};
   }
   unknownShape();
 }
 
 // Vertices, then the node at the middle of each edge and quadrilateral face where Shards says there is one.
-// The one node that is on neither (Hex27's and Quad9's own centre) lies at the origin.
+// The one node that is on neither (Hex27's, Quad9's and Line3's own centre) lies at the origin.
 std::vector<double> nodes(const shards::CellTopology& cell) {
   const int dim = cell.getDimension(), numVertices = cell.getVertexCount();
   std::vector<double> x = vertices(cell);
@@ -225,6 +252,10 @@ void fill(const shards::CellTopology& cell, Tabulation& t) {
       return fillSerendipity(cell, t, box);
     case shards::Quadrilateral<9>::key:
       return fillFromIntrepid<i2::Basis_HGRAD_QUAD_C2_FEM<Host>>(t);
+    case shards::Line<2>::key:
+      return fillFromIntrepid<i2::Basis_HGRAD_LINE_C1_FEM<Host>>(t);
+    case shards::Line<3>::key:
+      return fillSerendipity(cell, t, box);
   }
   unknownShape();
 }
@@ -297,6 +328,11 @@ std::vector<int> defaultDegrees(Topology topology) {
       return {2, 3};
     case Topology::Wedge15:
       return {2, 5};
+    case Topology::Shell4:
+    case Topology::Shell8:
+      return {3, 3};
+    case Topology::Shell9:
+      return {5, 5};
   }
   unknownShape();
 }
@@ -311,6 +347,8 @@ Topology vertexCell(Topology topology) {
       return Topology::Tet4;
     case shards::Wedge<6>::key:
       return Topology::Wedge6;
+    case shards::Quadrilateral<4>::key:
+      return Topology::Shell4;
   }
   unknownShape();
 }
@@ -342,12 +380,19 @@ void solveFactorized(int n, const std::vector<double>& l, double* x) {
   }
 }
 
-shards::CellTopology cellWithSide(Topology topology, int side) {
-  const shards::CellTopology cell = cellOf(topology);
-  if (side < 0 || side >= static_cast<int>(cell.getSideCount()))
+/// A side as Shards counts it: faces (dimension 2) first, then a shell's edges (dimension 1).
+struct SideOfCell {
+  shards::CellTopology cell;
+  int dimension, number;
+};
+
+SideOfCell sideOf(Topology topology, int side) {
+  const shards::CellTopology cell = cellWithSides(topology);
+  const int faces = static_cast<int>(cell.getSubcellCount(2)), sides = numSides(topology);
+  if (side < 0 || side >= sides)
     throw std::out_of_range("reference cell: side " + std::to_string(side) + " of a " + cell.getName() +
-                            " is not within 0 to " + std::to_string(cell.getSideCount() - 1));
-  return cell;
+                            " is not within 0 to " + std::to_string(sides - 1));
+  return side < faces ? SideOfCell{cell, 2, side} : SideOfCell{cell, 1, side - faces};
 }
 
 }  // namespace
@@ -370,11 +415,16 @@ std::vector<double> referenceNodes(Topology topology) { return nodes(cellOf(topo
 
 std::vector<double> referenceNodes(Face face) { return nodes(cellOf(face)); }
 
-int numSides(Topology topology) { return static_cast<int>(cellOf(topology).getSideCount()); }
+bool isLine(Face face) { return face == Face::Line2 || face == Face::Line3; }
+
+int numSides(Topology topology) {
+  const shards::CellTopology cell = cellWithSides(topology);
+  return static_cast<int>(cell.getSubcellCount(2) + (isShell(topology) ? cell.getSubcellCount(1) : 0));
+}
 
 Face sideFace(Topology topology, int side) {
-  const shards::CellTopology cell = cellWithSide(topology, side);
-  switch (cell.getKey(2, side)) {
+  const auto [cell, dimension, number] = sideOf(topology, side);
+  switch (cell.getKey(dimension, number)) {
     case shards::Triangle<3>::key:
       return Face::Tri3;
     case shards::Triangle<6>::key:
@@ -385,21 +435,26 @@ Face sideFace(Topology topology, int side) {
       return Face::Quad8;
     case shards::Quadrilateral<9>::key:
       return Face::Quad9;
+    case shards::Line<2>::key:
+      return Face::Line2;
+    case shards::Line<3>::key:
+      return Face::Line3;
   }
   unknownShape();
 }
 
 std::vector<int> sideNodes(Topology topology, int side) {
-  const shards::CellTopology cell = cellWithSide(topology, side);
-  std::vector<int> result(cell.getNodeCount(2, side));
-  for (size_t i = 0; i < result.size(); ++i) result[i] = cell.getNodeMap(2, side, i);
+  const auto [cell, dimension, number] = sideOf(topology, side);
+  std::vector<int> result(cell.getNodeCount(dimension, number));
+  for (size_t i = 0; i < result.size(); ++i) result[i] = cell.getNodeMap(dimension, number, i);
   return result;
 }
 
 std::vector<double> extrapolation(Topology topology, const Tabulation& tabulation) {
-  const int numNodes = static_cast<int>(cellOf(topology).getNodeCount()), numPoints = tabulation.numPoints;
-  if (tabulation.dim != 3 || tabulation.numNodes != numNodes || numPoints < 1 ||
-      static_cast<int>(tabulation.weights.size()) != numPoints)
+  const shards::CellTopology cell = cellOf(topology);
+  const int numNodes = static_cast<int>(cell.getNodeCount()), numPoints = tabulation.numPoints;
+  if (tabulation.dim != static_cast<int>(cell.getDimension()) || tabulation.numNodes != numNodes ||
+      numPoints < 1 || static_cast<int>(tabulation.weights.size()) != numPoints)
     throw std::invalid_argument("reference cell: extrapolation needs a cubature of the same cell");
   std::vector<double> result(static_cast<size_t>(numNodes) * numPoints, 1.0);
   if (numPoints == 1) return result;

@@ -29,8 +29,10 @@ Shape shapeOf(Topology topology) {
     case Topology::Wedge6:
     case Topology::Wedge15:
       return Shape::Wedge;
+    default:
+      throw std::invalid_argument(std::string("structured mesh: ") + topologyName(topology) +
+                                  " fills no solid body; shells have generators of their own");
   }
-  throw std::invalid_argument("structured mesh: not a value of Topology");
 }
 
 // Corner positions in a unit cell of the elements that fill it.

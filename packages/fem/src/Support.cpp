@@ -54,7 +54,7 @@ int rank(std::array<double, 36> gram) {
 }  // namespace
 
 std::vector<FreeBody> freeBodies(const Mesh& mesh, const Supports& supports,
-                                 const std::vector<HeldDirection>& held) {
+                                 const std::vector<HeldDirection>& held, const ShellGeometry* shells) {
   const int numNodes = mesh.numNodes();
   std::vector<int> parent(numNodes);
   std::iota(parent.begin(), parent.end(), 0);
@@ -95,6 +95,17 @@ std::vector<FreeBody> freeBodies(const Mesh& mesh, const Supports& supports,
     const auto motions = rigidMotions(&mesh.coordinates[3 * n], centre, size);
     for (int i = 0; i < 3; ++i)
       if (supports.fixed(3 * n + i)) hold(n, motions[i]);
+  }
+  // omega x D / |D|: of order 1 however thin the shell is.
+  for (int d = 0; shells != nullptr && d < shells->numDirectors(); ++d) {
+    const double* D = &shells->directors[3 * static_cast<std::size_t>(d)];
+    const double origin[3] = {0, 0, 0}, length = std::sqrt(D[0] * D[0] + D[1] * D[1] + D[2] * D[2]);
+    auto motions = rigidMotions(D, origin, length);
+    for (int i = 0; i < 3; ++i) {
+      if (!supports.fixed(3 * (numNodes + d) + i)) continue;
+      motions[i][0] = motions[i][1] = motions[i][2] = 0;
+      hold(shells->meshNode[d], motions[i]);
+    }
   }
   for (const HeldDirection& h : held) {
     const auto motions = rigidMotions(&mesh.coordinates[3 * h.node], centre, size);

@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 
+#include "atrapos/fem/StructuredShell.hpp"
 #include "atrapos/fem/Support.hpp"
 #include "support/Meshes.hpp"
 
@@ -121,4 +122,38 @@ TEST(Supports, AskedAndDriven) {
   EXPECT_EQ(supports.at(5, 3.0), 0.5);
   EXPECT_THROW(supports.prescribe(1, 2, 0.5, 1.0), std::invalid_argument);
   EXPECT_THROW(supports.prescribe(1, 2, 0.4, 0.0), std::invalid_argument);
+}
+
+// The strip's clamped edge is a line: only its directors hold the rotation about it.
+TEST(FreeBodies, DirectorsOfShellsHoldRotations) {
+  ShellPlateOptions options;
+  options.length = 100;
+  options.thickness = 1e-4;  // a millionth of the length: directors count, however short they are
+  options.divisions = {4, 1};
+  const Mesh mesh = shellPlateMesh(options);
+  const ShellGeometry shells = shellGeometry(mesh, {{0, std::nullopt}});
+  const auto motions = [&](const Supports& supports) {
+    const auto bodies = freeBodies(mesh, supports, {}, &shells);
+    return bodies.empty() ? 0 : bodies[0].motions;
+  };
+  Supports supports(shells.numNodes());
+  EXPECT_EQ(motions(supports), 6);
+  for (int n : nodesOfSet(mesh, "x_min"))
+    for (int i = 0; i < 3; ++i) supports.prescribe(n, i, 0, 0);
+  EXPECT_EQ(motions(supports), 1);
+  Supports stretch = supports, clamped = supports;
+  for (int n : nodesOfSet(mesh, "x_min"))
+    for (int d : shells.directorNodes(n)) {
+      stretch.prescribe(d, 2, 0, 0);  // along D: no rotation moves it
+      clamped.prescribe(d, 0, 0, 0);
+    }
+  EXPECT_EQ(motions(stretch), 1);
+  EXPECT_EQ(motions(clamped), 0);
+  // A single clamped node holds all but the spin about its director.
+  Supports one(shells.numNodes());
+  for (int i = 0; i < 3; ++i) {
+    one.prescribe(0, i, 0, 0);
+    one.prescribe(shells.directorNodes(0)[0], i, 0, 0);
+  }
+  EXPECT_EQ(motions(one), 1);
 }

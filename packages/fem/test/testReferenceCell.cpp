@@ -24,10 +24,18 @@ constexpr double rounding = 1e-13;
 
 const std::vector<Topology> allCells{Topology::Hex8,  Topology::Hex20,  Topology::Hex27,  Topology::Tet4,
                                      Topology::Tet10, Topology::Wedge6, Topology::Wedge15};
-const std::vector<Face> allFaces{Face::Tri3, Face::Tri6, Face::Quad4, Face::Quad8, Face::Quad9};
+const std::vector<Topology> shells{Topology::Shell4, Topology::Shell8, Topology::Shell9};
+const std::vector<Face> allFaces{Face::Tri3,  Face::Tri6,  Face::Quad4, Face::Quad8,
+                                 Face::Quad9, Face::Line2, Face::Line3};
 
 std::string name(Topology topology) {
   switch (topology) {
+    case Topology::Shell4:
+      return "Shell4";
+    case Topology::Shell8:
+      return "Shell8";
+    case Topology::Shell9:
+      return "Shell9";
     case Topology::Hex8:
       return "Hex8";
     case Topology::Hex20:
@@ -58,6 +66,10 @@ std::string name(Face face) {
       return "Quad8";
     case Face::Quad9:
       return "Quad9";
+    case Face::Line2:
+      return "Line2";
+    case Face::Line3:
+      return "Line3";
   }
   return "?";
 }
@@ -66,8 +78,8 @@ Tabulation at(Topology topology, const std::vector<double>& points) { return tab
 Tabulation at(Face face, const std::vector<double>& points) { return tabulateFaceAt(face, points); }
 Tabulation withDegree(Topology topology, int degree) { return tabulate(topology, degree); }
 Tabulation withDegree(Face face, int degree) { return tabulateFace(face, degree); }
-int dimension(Topology) { return 3; }
-int dimension(Face) { return 2; }
+int dimension(Topology topology) { return isShell(topology) ? 2 : 3; }
+int dimension(Face face) { return isLine(face) ? 1 : 2; }
 
 /// The reference domain as a product of a simplex (in the first coordinates) and lines [-1,1].
 int simplexDimension(Topology topology) {
@@ -99,6 +111,8 @@ double derivative(const Exponents& e, const double* x, int dim, int direction) {
   return e[direction] * monomial(lower, x, dim);
 }
 
+bool spans(Face face, const Exponents& e);
+
 /// Whether the monomial belongs to the space that the cell's shape functions are known to span.
 bool spans(Topology topology, const Exponents& e) {
   const int largest = std::max({e[0], e[1], e[2]}), total = e[0] + e[1] + e[2], plane = e[0] + e[1];
@@ -121,6 +135,12 @@ bool spans(Topology topology, const Exponents& e) {
       return plane <= 1 && e[2] <= 1;
     case Topology::Wedge15:
       return (plane <= 2 && e[2] <= 1) || (plane <= 1 && e[2] <= 2);
+    case Topology::Shell4:
+      return spans(Face::Quad4, e);
+    case Topology::Shell8:
+      return spans(Face::Quad8, e);
+    case Topology::Shell9:
+      return spans(Face::Quad9, e);
   }
   return false;
 }
@@ -139,6 +159,10 @@ bool spans(Face face, const Exponents& e) {
       return (e[0] > 1 ? e[0] : 0) + (e[1] > 1 ? e[1] : 0) <= 2;
     case Face::Quad9:
       return largest <= 2;
+    case Face::Line2:
+      return e[0] <= 1;
+    case Face::Line3:
+      return e[0] <= 2;
   }
   return false;
 }
@@ -189,7 +213,7 @@ void checkSpace(Shape shape) {
   const Tabulation t = at(shape, scatteredPoints(dim, 10));
   int spaceDimension = 0;
   for (int a = 0; a <= 3; ++a) {
-    for (int b = 0; b <= 3; ++b) {
+    for (int b = 0; b <= (dim >= 2 ? 3 : 0); ++b) {
       for (int c = 0; c <= (dim == 3 ? 3 : 0); ++c) {
         const Exponents e{a, b, c};
         double error = 0;
@@ -276,7 +300,7 @@ double cubatureError(const Tabulation& t, int simplexDim, int degree) {
   for (int a = 0; a <= degree; ++a) {
     for (int b = 0; a + b <= degree; ++b) {
       const int c = degree - a - b;
-      if (t.dim == 2 && c > 0) continue;
+      if ((t.dim <= 2 && c > 0) || (t.dim == 1 && b > 0)) continue;
       double sum = 0;
       for (int q = 0; q < t.numPoints; ++q)
         sum += t.weights[q] * monomial({a, b, c}, &t.points[q * t.dim], t.dim);
@@ -503,39 +527,45 @@ double extrapolationError(Topology topology, const Tabulation& t, const Exponent
 
 TEST(ReferenceCell, FunctionsSumToOne) {
   for (Topology cell : allCells) checkPartitionOfUnity(cell);
+  for (Topology shell : shells) checkPartitionOfUnity(shell);
   for (Face face : allFaces) checkPartitionOfUnity(face);
 }
 
 TEST(ReferenceCell, FunctionsAreOneAtTheirNodeAndZeroAtTheOthers) {
   for (Topology cell : allCells) checkNodalDelta(cell);
+  for (Topology shell : shells) checkNodalDelta(shell);
   for (Face face : allFaces) checkNodalDelta(face);
 }
 
 TEST(ReferenceCell, FunctionsSpanTheirSpaceAndNoMore) {
   for (Topology cell : allCells) checkSpace(cell);
+  for (Topology shell : shells) checkSpace(shell);
   for (Face face : allFaces) checkSpace(face);
 }
 
 TEST(ReferenceCell, GradientsAgreeWithDifferencesAtFirstOrder) {
   for (Topology cell : allCells) checkGradientRate(cell, cell == Topology::Tet4);
-  for (Face face : allFaces) checkGradientRate(face, face == Face::Tri3);
+  for (Topology shell : shells) checkGradientRate(shell, false);
+  for (Face face : allFaces) checkGradientRate(face, face == Face::Tri3 || face == Face::Line2);
 }
 
 TEST(ReferenceCell, CubatureIsExactToItsDegreeAndNotBeyond) {
   for (Topology cell : allCells) checkCubature(cell);
+  for (Topology shell : shells) checkCubature(shell);
   for (Face face : allFaces) checkCubature(face);
 }
 
 TEST(ReferenceCell, DefaultCubatureHasTheDocumentedPoints) {
-  const std::map<Topology, int> points{{Topology::Hex8, 8},   {Topology::Hex20, 8}, {Topology::Hex27, 27},
-                                       {Topology::Tet4, 1},   {Topology::Tet10, 4}, {Topology::Wedge6, 6},
-                                       {Topology::Wedge15, 9}};
-  for (Topology cell : allCells) {
+  const std::map<Topology, int> points{{Topology::Hex8, 8},    {Topology::Hex20, 8},  {Topology::Hex27, 27},
+                                       {Topology::Tet4, 1},    {Topology::Tet10, 4},  {Topology::Wedge6, 6},
+                                       {Topology::Wedge15, 9}, {Topology::Shell4, 4}, {Topology::Shell8, 4},
+                                       {Topology::Shell9, 9}};
+  for (const auto& [cell, count] : points) {
     SCOPED_TRACE(name(cell));
     const Tabulation t = tabulate(cell);
-    EXPECT_EQ(t.numPoints, points.at(cell));
-    EXPECT_EQ(t.numNodes * 3, static_cast<int>(referenceNodes(cell).size()));
-    EXPECT_EQ(t.dim, 3);
+    EXPECT_EQ(t.numPoints, count);
+    EXPECT_EQ(t.dim, dimension(cell));
+    EXPECT_EQ(t.numNodes * t.dim, static_cast<int>(referenceNodes(cell).size()));
   }
 }
 
@@ -563,6 +593,58 @@ TEST(ReferenceCell, SideNodesAreThoseOfExodus) {
       EXPECT_EQ(sideNodes(cell, side), row);
     }
   }
+}
+
+// The manual's table of SHELL9; SHELL4 and SHELL8 have the first 4 or 8 nodes of a face, the first 2 or 3 of
+// an edge. The exodus package compares it with what the library itself answers.
+TEST(ReferenceCell, SidesOfShellsAreTwoFacesThenFourEdges) {
+  const std::vector<std::vector<int>> exodus{
+      {1, 2, 3, 4, 5, 6, 7, 8, 9}, {1, 4, 3, 2, 8, 7, 6, 5, 9}, {1, 2, 5}, {2, 3, 6}, {3, 4, 7}, {4, 1, 8}};
+  for (Topology shell : shells) {
+    SCOPED_TRACE(name(shell));
+    const int numNodes = nodesPerElement(shell);
+    ASSERT_EQ(numSides(shell), 6);
+    EXPECT_THROW(sideNodes(shell, 6), std::out_of_range);
+    for (int side = 0; side < 6; ++side) {
+      SCOPED_TRACE(side);
+      std::vector<int> row;
+      for (int node : exodus[side])
+        if (node <= numNodes) row.push_back(node - 1);
+      EXPECT_EQ(sideNodes(shell, side), row);
+      EXPECT_EQ(isLine(sideFace(shell, side)), side >= 2);
+      const Tabulation t = tabulateFace(sideFace(shell, side), 3);
+      ASSERT_EQ(t.numNodes, static_cast<int>(row.size()));
+      // On its side, the cell's functions are those of the side: no node is out of order.
+      const std::vector<double> x = referenceNodes(shell);
+      std::vector<double> points(2 * static_cast<size_t>(t.numPoints), 0.0);
+      for (int q = 0; q < t.numPoints; ++q)
+        for (int n = 0; n < t.numNodes; ++n)
+          for (int i = 0; i < 2; ++i) points[2 * q + i] += t.values[q * t.numNodes + n] * x[2 * row[n] + i];
+      const Tabulation cell = tabulateAt(shell, points);
+      for (int q = 0; q < t.numPoints; ++q)
+        for (int n = 0; n < numNodes; ++n) {
+          const auto on = std::find(row.begin(), row.end(), n);
+          const double expected =
+              on == row.end() ? 0 : t.values[q * t.numNodes + static_cast<int>(on - row.begin())];
+          EXPECT_NEAR(cell.values[q * numNodes + n], expected, rounding);
+        }
+    }
+  }
+}
+
+TEST(ReferenceCell, ExtrapolationOnShellsIsExactForBilinearFields) {
+  for (Topology shell : shells)
+    for (const Tabulation& t : {tabulate(shell), tabulate(shell, 5)}) {
+      SCOPED_TRACE(name(shell));
+      const std::vector<double> matrix = extrapolation(shell, t), nodes = referenceNodes(shell);
+      for (const Exponents& e : {Exponents{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}})
+        for (int n = 0; n < t.numNodes; ++n) {
+          double sum = 0;
+          for (int q = 0; q < t.numPoints; ++q)
+            sum += matrix[n * t.numPoints + q] * monomial(e, &t.points[2 * q], 2);
+          EXPECT_NEAR(sum, monomial(e, &nodes[2 * n], 2), 1e-12);  // as for the solids below
+        }
+    }
 }
 
 TEST(ReferenceCell, SidesLieOnTheBoundaryAndFaceOutward) {

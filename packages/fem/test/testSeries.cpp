@@ -119,6 +119,6 @@ TEST(Series, HistoryBytes) {
   model.terms = solidTerms(mesh);
   model.supports = Supports(mesh.numNodes());
   FeProblem problem(std::move(model));
-  const std::size_t slots = atrapos::taylor::historySlots<kLanes>(ExponentialSolid{});
-  EXPECT_EQ(problem.historyBytes(20), 3u * 8 * 8 * slots * 21 * sizeof(double));
+  const auto shape = atrapos::taylor::historyShape(ExponentialSolid{});
+  EXPECT_EQ(problem.historyBytes(20), 3u * 8 * shape.doubles<kLanes>(20) * sizeof(double));
 }

@@ -38,6 +38,8 @@ const CellTopologyData& shardsCell(Topology topology) {
       return *shards::getCellTopologyData<shards::Wedge<6>>();
     case Topology::Wedge15:
       return *shards::getCellTopologyData<shards::Wedge<15>>();
+    default:
+      break;
   }
   throw std::logic_error("topology");
 }
@@ -105,6 +107,8 @@ std::vector<std::array<int, 3>> monomials(Topology topology) {
             break;
           case Topology::Wedge15:
             in = i + j <= (k == 2 ? 1 : 2);
+            break;
+          default:
             break;
         }
         if (in) result.push_back({i, j, k});

@@ -20,11 +20,10 @@ struct ExponentialMaterial {
   double a = 0.6, b = 3, mu = 0.4;
 
   template <class T>
-  KOKKOS_INLINE_FUNCTION void secondPiola(const T* E, T* S) const {
+  KOKKOS_INLINE_FUNCTION taylor::Symmetric3<T> secondPiola(const taylor::Symmetric3<T>& E) const {
     using std::exp;
-    const T volumetric = a * exp(b * (E[0] + E[1] + E[2])) - a;
-    for (int i = 0; i < 3; ++i) S[i] = volumetric + (2 * mu) * E[i];
-    for (int i = 3; i < 6; ++i) S[i] = (2 * mu) * E[i];
+    const T volumetric = a * exp(b * trace(E)) - a;
+    return plusIdentity((2 * mu) * E, volumetric);
   }
 };
 
@@ -33,9 +32,12 @@ struct UnsymmetricMaterial : ExponentialMaterial {
   static constexpr bool symmetric = false;
 
   template <class T>
-  KOKKOS_INLINE_FUNCTION void secondPiola(const T* E, T* S) const {
-    ExponentialMaterial::secondPiola(E, S);
-    S[2] = S[2] + 0.3 * E[0] + 0.5 * (E[0] * E[2]);
+  KOKKOS_INLINE_FUNCTION taylor::Symmetric3<T> secondPiola(const taylor::Symmetric3<T>& E) const {
+    taylor::Symmetric3<T> S = ExponentialMaterial::secondPiola(E);
+    const T Exx = E(0, 0), Ezz = E(2, 2);
+    const T more = S(2, 2) + 0.3 * Exx + 0.5 * (Exx * Ezz);
+    S.set(2, 2, more);
+    return S;
   }
 };
 
@@ -111,9 +113,16 @@ TEST(ShellOrdersFailure, AStateOutsideTheLawsDomainIsNamed) {
   model.terms.push_back(std::move(term));
   model.supports = fem::Supports(model.numNodes);
   fem::FeProblem problem(std::move(model));
-  const auto r = residual(problem, randomNumbers(3 * 2 * grid.numNodes(), 0.01, 1), 0);
+  const Numbers u = randomNumbers(3 * 2 * grid.numNodes(), 0.01, 1);
+  const auto r = residual(problem, u, 0);
   EXPECT_TRUE(std::isnan(r.norm.norm));
   EXPECT_EQ(shell.failure(), "element 1: the material is unstable in the enhanced strain");
+  try {
+    problem.beginSeries(*vectorOf(problem, u), 0, 3);
+    FAIL() << "a series from a state without enhanced strain";
+  } catch (const taylor::DomainError& error) {
+    EXPECT_EQ(std::string(error.what()).find(shell.failure()), 0u) << error.what();
+  }
 }
 
 TEST(ShellPointsErrors, JacobianNamesTheElement) {

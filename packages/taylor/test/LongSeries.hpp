@@ -123,3 +123,40 @@ inline LongSeries asin(const LongSeries& a) {
 inline LongSeries acos(const LongSeries& a) {
   return integral(std::acos(a.c[0]), -1.0 / sqrt(1.0 - a * a), a);
 }
+inline LongSeries longConstant(long double c) { return LongSeries(std::vector<long double>{c}); }
+inline LongSeries cbrt(const LongSeries& a) {
+  return a.at(0) < 0 ? -exp(longConstant(1 / 3.0L) * log(-a)) : exp(longConstant(1 / 3.0L) * log(a));
+}
+inline LongSeries hypot(const LongSeries& a, const LongSeries& b) { return sqrt(a * a + b * b); }
+inline LongSeries expm1(const LongSeries& a) {
+  LongSeries r = exp(a);
+  r.c[0] = std::expm1(a.c[0]);
+  return r;
+}
+inline LongSeries log10(const LongSeries& a) { return longConstant(1 / std::log(10.0L)) * log(a); }
+inline LongSeries log1p(const LongSeries& a) { return integral(std::log1p(a.c[0]), 1.0 / (1.0 + a), a); }
+inline LongSeries erf(const LongSeries& a) {
+  return integral(std::erf(a.c[0]), longConstant(2 / std::sqrt(std::acos(-1.0L))) * exp(-(a * a)), a);
+}
+inline LongSeries asinh(const LongSeries& a) {
+  return a.at(0) < 0 ? -log(sqrt(1.0 + a * a) - a) : log(sqrt(1.0 + a * a) + a);
+}
+inline LongSeries acosh(const LongSeries& a) { return log(sqrt(a * a - 1.0) + a); }
+inline LongSeries atanh(const LongSeries& a) { return 0.5 * log((1.0 + a) / (1.0 - a)); }
+// By the angle's tangent or cotangent, whichever is finite.
+inline LongSeries atan2(const LongSeries& y, const LongSeries& x) {
+  LongSeries r = std::fabs(x.at(0)) > std::fabs(y.at(0)) ? atan(y / x) : -atan(x / y);
+  r.c[0] = std::atan2(y.at(0), x.at(0));
+  return r;
+}
+inline LongSeries pow(const LongSeries& a, const LongSeries& b) { return exp(b * log(a)); }
+inline LongSeries pow(double a, const LongSeries& b) {
+  return exp(b * longConstant(std::log(static_cast<long double>(a))));
+}
+
+// Decided by order 0, as the library does.
+inline bool operator<(const LongSeries& a, const LongSeries& b) { return a.at(0) < b.at(0); }
+inline bool operator>(const LongSeries& a, const LongSeries& b) { return a.at(0) > b.at(0); }
+inline LongSeries fabs(const LongSeries& a) { return a < 0.0 ? -a : a; }
+inline LongSeries min(const LongSeries& a, const LongSeries& b) { return a < b ? a : b; }
+inline LongSeries max(const LongSeries& a, const LongSeries& b) { return a < b ? b : a; }

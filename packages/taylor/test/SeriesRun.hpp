@@ -16,44 +16,53 @@ constexpr int L = 8;
 using Values = atrapos::taylor::Lanes<L>;
 using Coefficients = std::vector<std::vector<Values>>;  ///< [input or output][order]
 
-enum class Mode { Direct, ZeroThenComplete, CompleteInThree };
+enum class Mode { Direct, AsASolver };
 
 struct SeriesResult {
   Coefficients out;
-  std::vector<double> history;
-  int slots = 0;
+  std::vector<double> memory;
+  atrapos::taylor::HistoryShape shape;
+  atrapos::taylor::Failures<L> failures;
 };
 
-/// All orders of a law: with the true coefficients at once, or as a solver does it (zeros, then increments).
+/// All orders of a law: with the true coefficients at once, or as a solver does it, who knows an order's
+/// inputs only after its sweep.
 template <class Law>
 SeriesResult runSeries(const Law& law, const Coefficients& in, Mode mode, const Values* data = nullptr) {
   using namespace atrapos::taylor;
   const int maxOrder = static_cast<int>(in[0].size()) - 1;
   SeriesResult r;
-  r.slots = historySlots<L>(law);
+  r.shape = historyShape(law);
   // NaN everywhere: a coefficient read before it is written cannot go unnoticed.
-  r.history.assign(historyDoubles<L>(r.slots, maxOrder), std::nan(""));
+  r.memory.assign(r.shape.doubles<L>(maxOrder), std::nan(""));
+  Context<L> context;
+  context.shape = r.shape;
+  context.memory = r.memory.data();
+  context.failures = &r.failures;
+  context.waiting = HistoryShape::waiting(maxOrder);
   r.out.assign(Law::numOutputs, std::vector<Values>(maxOrder + 1, Values(0.0)));
-  Context<L> context{r.history.data(), maxOrder, 0, Pass::Start, 0};
   Values x[Law::numInputs], y[Law::numOutputs];
-  const auto execute = [&](int k, Pass pass, double share) {
-    context.order = k;
-    context.pass = pass;
-    for (int j = 0; j < Law::numInputs; ++j) x[j] = share * in[j][k];
-    sweep<L>(law, context, x, data, y);
-    EXPECT_EQ(context.cursor, r.slots);
+  HistoryShape taken;
+  const auto add = [&](int k) {
     for (int i = 0; i < Law::numOutputs; ++i) r.out[i][k] += y[i];
+    if (k == 0) taken = context.taken;
+    EXPECT_EQ(context.taken.slots, taken.slots);
+    EXPECT_EQ(context.taken.constants, taken.constants);
   };
   for (int k = 0; k <= maxOrder; ++k) {
-    if (k == 0)
-      execute(k, Pass::Start, 1);
-    else if (mode == Mode::Direct)
-      execute(k, Pass::Sweep, 1);
-    else {
-      execute(k, Pass::Sweep, 0);
-      const int parts = mode == Mode::CompleteInThree ? 3 : 1;
-      for (int i = 0; i < parts; ++i) execute(k, Pass::Complete, 1.0 / parts);
+    context.order = k;
+    for (int j = 0; j < Law::numInputs; ++j) x[j] = in[j][k];
+    if (k == 0) {
+      start(law, context, x, data, y);
+    } else if (mode == Mode::Direct) {
+      sweepKnown(law, context, x, data, y);
+    } else {
+      context.block = orderBlock(k, maxOrder);
+      sweep(law, context, data, y);
+      add(k);
+      complete(law, context, x, data, y);
     }
+    add(k);
   }
   return r;
 }

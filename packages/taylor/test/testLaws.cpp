@@ -13,7 +13,7 @@ template <class Law, class Oracle>
 void checkLaw(const Law& law, const Oracle& oracle, const Coefficients& in, const Values* data,
               double tolerance) {
   const int n = Law::numInputs;
-  for (const Mode mode : {Mode::Direct, Mode::ZeroThenComplete, Mode::CompleteInThree}) {
+  for (const Mode mode : {Mode::Direct, Mode::AsASolver}) {
     const auto r = runSeries(law, in, mode, data);
     for (int i = 0; i < Law::numOutputs; ++i)
       expectSeries(
@@ -47,7 +47,7 @@ TEST(Laws, squarePlusExponential) {
   std::vector<Values> x(rows.size(), Values(0.0));
   for (int l = 0; l < L; ++l) x[0][l] = l % 2 == 0 ? 0.0 : 0.5;
   x[1] = 1.0;
-  const auto r = runSeries(SquarePlusExponential{}, {x}, Mode::ZeroThenComplete);
+  const auto r = runSeries(SquarePlusExponential{}, {x}, Mode::AsASolver);
   expectSeries(
       r.out[0], [&](int l) { return [&, l](int k) -> long double { return rows[k][1 + l % 2]; }; }, rounding,
       "x^2 + exp(3x)");
@@ -61,7 +61,7 @@ TEST(Laws, cylinderReference) {
   in[2][0] = 50.0;
   in[2][1] = -20.0;
   const Values radius = 50.0;
-  const auto r = runSeries(CylinderLaw{}, in, Mode::ZeroThenComplete, &radius);
+  const auto r = runSeries(CylinderLaw{}, in, Mode::AsASolver, &radius);
   const int column[] = {1, 2, 0, 3};
   for (const int i : {0, 1, 3})
     expectSeries(
@@ -115,21 +115,21 @@ struct BarForce {
 std::vector<double> barBranch(int maxOrder) {
   using namespace atrapos::taylor;
   const BarForce law;
-  std::vector<double> history(historyDoubles<L>(historySlots<L>(law), maxOrder)), s = {1.0};
-  Context<L> context{history.data(), maxOrder, 0, Pass::Start, 0};
+  Context<L> context;
+  context.shape = historyShape(law);
+  std::vector<double> memory(context.shape.doubles<L>(maxOrder)), s = {1.0};
+  context.memory = memory.data();
   Values in = 1.0, out;
-  sweep<L>(law, context, &in, nullptr, &out);
+  const Values* none = nullptr;
+  start(law, context, &in, none, &out);
   double p0, tangentAt1;
   tangent(law, s.data(), nullptr, &p0, &tangentAt1);
   for (int k = 1; k <= maxOrder; ++k) {
     context.order = k;
-    context.pass = Pass::Sweep;
-    in = 0.0;
-    sweep<L>(law, context, &in, nullptr, &out);
+    sweep(law, context, none, &out);
     in = ((k == 1 ? 1.0 : 0.0) - out) / tangentAt1;
     s.push_back(in[L - 1]);
-    context.pass = Pass::Complete;
-    sweep<L>(law, context, &in, nullptr, &out);
+    complete(law, context, &in, none);
   }
   return s;
 }

@@ -18,18 +18,23 @@ struct Cube {
 int main() {
   constexpr int lanes = 4, maxOrder = 4;
   const double expected[maxOrder + 1] = {1, 3, 3, 1, 0};
-  std::vector<double> history(taylor::historyDoubles<lanes>(taylor::historySlots<lanes>(Cube{}), maxOrder));
-  taylor::Context<lanes> context{history.data(), maxOrder, 0, taylor::Pass::Start, 0};
-  for (int order = 0; order <= maxOrder; ++order) {
-    context.order = order;
-    context.pass = order == 0 ? taylor::Pass::Start : taylor::Pass::Sweep;
+  taylor::Context<lanes> context;
+  context.shape = taylor::historyShape(Cube{});
+  std::vector<double> history(context.shape.doubles<lanes>(maxOrder));
+  context.memory = history.data();
+  const taylor::Lanes<lanes>* noData = nullptr;
+  for (context.order = 0; context.order <= maxOrder; ++context.order) {
+    const int order = context.order;
     taylor::Lanes<lanes> in, out;
     in = order <= 1 ? 1.0 : 0.0;
-    taylor::sweep<lanes>(Cube{}, context, &in, nullptr, &out);
+    if (order == 0)
+      taylor::start(Cube{}, context, &in, noData, &out);
+    else
+      taylor::sweepKnown(Cube{}, context, &in, noData, &out);
     for (int lane = 0; lane < lanes; ++lane) {
       // Sums and products of small whole numbers are exact.
-      if (out.v[lane] != expected[order]) {
-        std::printf("order %d: %g instead of %g\n", order, out.v[lane], expected[order]);
+      if (out[lane] != expected[order]) {
+        std::printf("order %d: %g instead of %g\n", order, out[lane], expected[order]);
         return 1;
       }
     }

@@ -3,6 +3,7 @@
 #include <Kokkos_Macros.hpp>
 #include <cmath>
 
+#include "atrapos/contact/Requirements.hpp"
 #include "atrapos/taylor/Implicit.hpp"
 
 namespace atrapos::contact {
@@ -30,6 +31,12 @@ struct RegularisedPressure {
     const double h = x[0], load = eta * (data[0] - h);
     const double root = std::sqrt(h * h + 4 * compliance * load);
     y[0] = h > 0 ? 2 * load / (h + root) : (root - h) / (2 * compliance);
+  }
+
+  void validate() const {
+    if (!(compliance >= 0) || !std::isfinite(compliance))
+      detail::refuse("contact law", "compliance must be >= 0 and finite, got " + detail::shown(compliance));
+    detail::requirePositive("contact law", "eta", eta);
   }
 };
 

@@ -9,18 +9,20 @@ namespace atrapos::exodus {
 
 /// Reads the mesh of an Exodus II file (NetCDF classic, 64-bit offset, or NetCDF-4).
 ///
-/// Element types are told by the beginning of their name (HEX, TET, WEDGE or PENTA; any case) and
-/// their node count. Ids, names, attributes and title are kept; sides become 0-based. Blocks without
-/// elements are left out. Edge and face blocks, edge, face and element sets, and distribution factors
-/// are not read, nor are results (see ResultReader).
+/// Element types are told by the beginning of their name (HEX, TET, WEDGE or PENTA, SHELL or QUAD; any case)
+/// and their node count; quadrilaterals are shells, and their attributes the thickness (fem::shellThickness).
+/// Ids, names, attributes and title are kept; sides become 0-based. Blocks without elements are left out.
+/// Edge and face blocks, edge, face and element sets, and distribution factors are not read, nor are results
+/// (see ResultReader).
 ///
 /// Throws Error where the file is missing, not Exodus, cut short, without nodes or elements, not
 /// three-dimensional, of an unsupported element type, or refers to nodes, elements or sides that it does not
 /// have. Nothing is printed.
 fem::Mesh readMesh(const std::string& file);
 
-/// Writes a mesh as an Exodus II file (NetCDF 64-bit offset), whole or not at all: a file with that
-/// name is replaced only once the new one is complete. No distribution factors are written.
+/// Writes a mesh as an Exodus II file (NetCDF 64-bit offset; shells as SHELL4, SHELL8, SHELL9), whole or not
+/// at all: a file with that name is replaced only once the new one is complete. No distribution factors are
+/// written.
 ///
 /// Throws Error where the file cannot be written or the mesh not be held by it: ids that are not
 /// positive, not unique or over 2^31 - 1; a title over 80 characters; a name over 255; lists that do not fit.

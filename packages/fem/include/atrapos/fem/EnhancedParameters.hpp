@@ -128,14 +128,14 @@ template <int M, class Pack>
 KOKKOS_INLINE_FUNCTION void invertInLanes(const Pack* K, Pack* inverse) {
   for (int lane = 0; lane < Pack::size; ++lane) {
     double a[M * M];
-    for (int i = 0; i < M * M; ++i) a[i] = K[i].v[lane];
+    for (int i = 0; i < M * M; ++i) a[i] = K[i][lane];
     taylor::detail::SmallLu<M> lu;
     const bool good = lu.factor(a);
     for (int j = 0; j < M; ++j) {
       double unit[M], column[M];
       for (int i = 0; i < M; ++i) unit[i] = i == j ? 1 : 0;
       if (good) lu.solve(unit, column);
-      for (int i = 0; i < M; ++i) inverse[i * M + j].v[lane] = good ? column[i] : NAN;
+      for (int i = 0; i < M; ++i) inverse[i * M + j][lane] = good ? column[i] : NAN;
     }
   }
 }

@@ -22,8 +22,8 @@ struct EnhancedPoints {
 ///     double enhancedStrainSize(const double* data) const;   // strain per unit of e, for convergence only
 /// and the observed values of LawTerm's laws.
 ///
-/// beta follows from the displacements alone. Where an element has none, its forces are NaN and failure()
-/// says why. M: number of parameters.
+/// beta follows from the displacements alone. Where an element has none, its forces are NaN, failure() says
+/// why and beginSeries throws it. M: number of parameters.
 template <class Law, int M>
 class EnhancedTerm final : public Term {
   static constexpr int L = kLanes, C = 3, I = 9, J = I + 1, D = Law::numData;
@@ -38,13 +38,10 @@ class EnhancedTerm final : public Term {
     View<double*> dPde;     // [batch][q][9][lane], times the weight
     View<double*> dsdH;     // the same, times the weight
     View<double*> inverse;  // [batch][M][M][lane] K_bb^-1
-    View<double*> g;        // [batch][M][lane] order k of g with U_k = 0, beta_k = 0
+    View<double*> g;        // [batch][M][lane] of the order swept last: g_k with U_k = 0, beta_k = 0
     View<int*> failed;      // [batch][lane]
 
     KOKKOS_INLINE_FUNCTION double mode(int q, int j) const { return modes(q * M + j); }
-    KOKKOS_INLINE_FUNCTION const double* weightAt(int b, int q) const {
-      return &this->weight((static_cast<std::size_t>(b) * this->Q + q) * L);
-    }
     KOKKOS_INLINE_FUNCTION Pack* at(const View<double*>& view, std::size_t item, int size) const {
       return reinterpret_cast<Pack*>(&view(item * size * L));
     }
@@ -60,7 +57,7 @@ class EnhancedTerm final : public Term {
         for (int q = 0; q < Q; ++q) {
           this->lanesOf(in + q * J, I, lane, one + q * J);
           this->lanesOf(this->dataAt(b, q), D, lane, data + q * D);
-          w[q] = weightAt(b, q)[lane];
+          w[q] = this->weightAt(b, q)[lane];
         }
         EnhancedFailure failure = EnhancedFailure::none;
         if (lane < this->lanesIn(b)) {
@@ -71,7 +68,7 @@ class EnhancedTerm final : public Term {
           for (int q = 0; q < Q; ++q) one[q * J + I] = 0;
         }
         failed(b * L + lane) = static_cast<int>(failure);
-        for (int q = 0; q < Q; ++q) in[q * J + I].v[lane] = one[q * J + I];
+        for (int q = 0; q < Q; ++q) in[q * J + I][lane] = one[q * J + I];
       }
     }
 
@@ -81,7 +78,7 @@ class EnhancedTerm final : public Term {
       Pack K[M * M];
       for (int i = 0; i < M * M; ++i) K[i] = Pack(0.0);
       for (int q = 0; q < this->Q; ++q) {
-        const double* w = weightAt(b, q);
+        const Pack w = this->weightAt(b, q);
         Pack dsde;
         for (int lane = 0; lane < L; ++lane) {
           double one[J], data[D + 1], out[J], jacobian[J * J];
@@ -90,19 +87,50 @@ class EnhancedTerm final : public Term {
           taylor::tangent(this->law, one, data, out, jacobian);
           if (dPdH)
             for (int m = 0; m < I; ++m)
-              for (int n = 0; n < I; ++n) dPdH[(q * I + m) * I + n].v[lane] = w[lane] * jacobian[m * J + n];
+              for (int n = 0; n < I; ++n) dPdH[(q * I + m) * I + n][lane] = w[lane] * jacobian[m * J + n];
           for (int m = 0; m < I; ++m) {
-            byE[q * I + m].v[lane] = w[lane] * jacobian[m * J + I];
-            byH[q * I + m].v[lane] = w[lane] * jacobian[I * J + m];
+            byE[q * I + m][lane] = w[lane] * jacobian[m * J + I];
+            byH[q * I + m][lane] = w[lane] * jacobian[I * J + m];
           }
-          dsde.v[lane] = w[lane] * jacobian[I * J + I];
+          dsde[lane] = w[lane] * jacobian[I * J + I];
         }
         for (int j = 0; j < M; ++j)
           for (int k = 0; k < M; ++k) K[j * M + k] += (mode(q, j) * mode(q, k)) * dsde;
       }
       for (int lane = this->lanesIn(b); lane < L; ++lane)
-        for (int j = 0; j < M; ++j) K[j * M + j].v[lane] = 1;  // padding: no weight, no stiffness
+        for (int j = 0; j < M; ++j) K[j * M + j][lane] = 1;  // padding: no weight, no stiffness
       invertInLanes<M>(K, Kinverse);
+    }
+
+    /// x = K_bb^-1 y
+    KOKKOS_INLINE_FUNCTION void solveInLanes(int b, const Pack* y, Pack* x) const {
+      const Pack* K = at(inverse, b, M * M);
+      for (int j = 0; j < M; ++j) {
+        x[j] = Pack(0.0);
+        for (int i = 0; i < M; ++i) x[j] += K[j * M + i] * y[i];
+      }
+    }
+
+    /// in[q] = (H_k, e_k) of U_k, with beta_k = -K_bb^-1 (g_k + K_bu U_k) and the g_k that the sweep of order
+    /// k left.
+    KOKKOS_INLINE_FUNCTION void trueInputs(int b, const ConstField& Uk, Pack* in) const {
+      Pack local[3 * kMaxNodes], sum[M], minusBeta[M];
+      this->gather(b, Uk, local);
+      for (int j = 0; j < M; ++j) sum[j] = at(g, b, M)[j];
+      for (int q = 0; q < this->Q; ++q) {
+        Pack* H = in + q * J;
+        this->interpolate(b, q, local, H);
+        const Pack* byH = at(dsdH, static_cast<std::size_t>(b) * this->Q + q, I);
+        Pack s(0.0);
+        for (int m = 0; m < I; ++m) s += byH[m] * H[m];
+        for (int j = 0; j < M; ++j) sum[j] += mode(q, j) * s;
+      }
+      solveInLanes(b, sum, minusBeta);
+      for (int q = 0; q < this->Q; ++q) {
+        Pack e(0.0);
+        for (int j = 0; j < M; ++j) e += mode(q, j) * minusBeta[j];
+        in[q * J + I] = -e;
+      }
     }
 
     /// force += B^T out without the point's weight.
@@ -110,11 +138,7 @@ class EnhancedTerm final : public Term {
       const double* s = this->shapeAt(b, q);
       for (int n = 0; n < this->N; ++n)
         for (int i = 0; i < 3; ++i)
-          for (int c = 0; c < C; ++c) {
-            const double* sc = s + (n * C + c) * L;
-            for (int lane = 0; lane < L; ++lane)
-              force[3 * n + i].v[lane] += out[i * C + c].v[lane] * sc[lane];
-          }
+          for (int c = 0; c < C; ++c) force[3 * n + i] += out[i * C + c] * Pack::load(s + (n * C + c) * L);
     }
   };
 
@@ -163,14 +187,14 @@ class EnhancedTerm final : public Term {
               a.lanesOf(in + q * J, J, lane, one);
               a.lanesOf(a.dataAt(b, q), D, lane, data);
               taylor::value(a.law, one, data, result);
-              for (int m = 0; m < J; ++m) out[m].v[lane] = result[m];
+              for (int m = 0; m < J; ++m) out[m][lane] = result[m];
             }
             a.accumulate(b, q, out, force);
           }
           a.scatter(b, force, f);
           double sum = 0;
           for (int n = 0; n < 3 * a.N; ++n)
-            for (int lane = 0; lane < L; ++lane) sum += force[n].v[lane] * force[n].v[lane];
+            for (int lane = 0; lane < L; ++lane) sum += force[n][lane] * force[n][lane];
           squares(b) = sum;  // padding lanes have weight, hence force, zero
         });
     return sumOf(squares);
@@ -219,6 +243,7 @@ class EnhancedTerm final : public Term {
   void beginSeries(const ConstField& u, int maxOrder) override {
     a_.reserveHistory(batches_.count, maxOrder);
     const Arrays a = a_;
+    const View<LawFailure*> failures("failures", batches_.count);
     forEachBatch(
         "beginSeries", batches_, a.order, KOKKOS_LAMBDA(int b) {
           Pack in[maxPoints * J], out[J];
@@ -226,36 +251,42 @@ class EnhancedTerm final : public Term {
           a.moduli(b, in, nullptr, a.at(a.dPde, b, a.Q * I), a.at(a.dsdH, b, a.Q * I),
                    a.at(a.inverse, b, M * M));
           for (int q = 0; q < a.Q; ++q) {
-            auto context = a.context(b, q, 0, taylor::Pass::Start);
-            taylor::sweep(a.law, context, in + q * J, a.dataAt(b, q), out);
+            taylor::Failures<L> noted;
+            auto context = a.context(b, q, 0);
+            context.failures = &noted;
+            taylor::start(a.law, context, in + q * J, a.dataAt(b, q), out);
+            a.findFailure(b, q, out, noted, failures(b));
           }
         });
+    const std::string unsolved = failure();
+    if (!unsolved.empty()) throw taylor::DomainError(taylor::Operation::Result, NAN, unsolved);
+    throwFirst(failures);
   }
 
-  // f_k - K_ub K_bb^-1 g_k
-  void addOrder(int k, const Field& f) override {
-    const Arrays a = a_;
+  // f_k - K_ub K_bb^-1 g_k, after the histories of order k - 1 became those of the true (U, beta).
+  void addOrder(int k, const ConstField& last, const Field& f) override {
+    Arrays a = a_;
+    a.block = taylor::orderBlock(k, a.maxOrder);
     forEachBatch(
         "addOrder", batches_, a.order, KOKKOS_LAMBDA(int b) {
-          Pack force[3 * kMaxNodes], in[J], out[J];
+          Pack force[3 * kMaxNodes], in[maxPoints * J], out[J], g[M];
           for (int n = 0; n < 3 * a.N; ++n) force[n] = Pack(0.0);
-          for (int m = 0; m < J; ++m) in[m] = Pack(0.0);
-          Pack* g = a.at(a.g, b, M);
           for (int j = 0; j < M; ++j) g[j] = Pack(0.0);
+          if (k > 1) a.trueInputs(b, last, in);
+          // Both orders in one visit: the histories are read from memory once an order.
           for (int q = 0; q < a.Q; ++q) {
-            auto context = a.context(b, q, k, taylor::Pass::Sweep);
-            taylor::sweep(a.law, context, in, a.dataAt(b, q), out);
+            if (k > 1) {
+              auto previous = a.context(b, q, k - 1);
+              taylor::complete(a.law, previous, in + q * J, a.dataAt(b, q));
+            }
+            auto context = a.context(b, q, k);
+            taylor::sweep(a.law, context, a.dataAt(b, q), out);
             a.accumulate(b, q, out, force);
-            const double* w = a.weightAt(b, q);
-            for (int lane = 0; lane < L; ++lane)
-              for (int j = 0; j < M; ++j) g[j].v[lane] += a.mode(q, j) * w[lane] * out[I].v[lane];
+            const Pack s = a.weightAt(b, q) * out[I];
+            for (int j = 0; j < M; ++j) g[j] += a.mode(q, j) * s;
           }
           Pack minusBeta[M];
-          const Pack* inverse = a.at(a.inverse, b, M * M);
-          for (int j = 0; j < M; ++j) {
-            minusBeta[j] = Pack(0.0);
-            for (int i = 0; i < M; ++i) minusBeta[j] += inverse[j * M + i] * g[i];
-          }
+          a.solveInLanes(b, g, minusBeta);
           for (int q = 0; q < a.Q; ++q) {
             Pack e(0.0), stress[I];
             for (int j = 0; j < M; ++j) e += a.mode(q, j) * minusBeta[j];
@@ -263,38 +294,8 @@ class EnhancedTerm final : public Term {
             for (int m = 0; m < I; ++m) stress[m] = -(byE[m] * e);
             a.accumulateWeighted(b, q, stress, force);
           }
+          for (int j = 0; j < M; ++j) a.at(a.g, b, M)[j] = g[j];
           a.scatter(b, force, f);
-        });
-  }
-
-  // beta_k = -K_bb^-1 (g_k + K_bu U_k); the histories become those of the true (U_k, beta_k).
-  void completeOrder(int k, const ConstField& Uk) override {
-    const Arrays a = a_;
-    forEachBatch(
-        "completeOrder", batches_, a.order, KOKKOS_LAMBDA(int b) {
-          Pack local[3 * kMaxNodes], in[maxPoints * J], out[J], g[M], beta[M];
-          a.gather(b, Uk, local);
-          for (int j = 0; j < M; ++j) g[j] = a.at(a.g, b, M)[j];
-          for (int q = 0; q < a.Q; ++q) {
-            Pack* H = in + q * J;
-            a.interpolate(b, q, local, H);
-            const Pack* byH = a.at(a.dsdH, static_cast<std::size_t>(b) * a.Q + q, I);
-            Pack s(0.0);
-            for (int m = 0; m < I; ++m) s += byH[m] * H[m];
-            for (int j = 0; j < M; ++j) g[j] += a.mode(q, j) * s;
-          }
-          const Pack* inverse = a.at(a.inverse, b, M * M);
-          for (int j = 0; j < M; ++j) {
-            beta[j] = Pack(0.0);
-            for (int i = 0; i < M; ++i) beta[j] = beta[j] - inverse[j * M + i] * g[i];
-          }
-          for (int q = 0; q < a.Q; ++q) {
-            Pack e(0.0);
-            for (int j = 0; j < M; ++j) e += a.mode(q, j) * beta[j];
-            in[q * J + I] = e;
-            auto context = a.context(b, q, k, taylor::Pass::Complete);
-            taylor::sweep(a.law, context, in + q * J, a.dataAt(b, q), out);
-          }
         });
   }
 

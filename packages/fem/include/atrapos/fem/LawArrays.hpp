@@ -28,6 +28,13 @@ View<T*> upload(const std::string& name, const std::vector<T>& host) {
   return view;
 }
 
+/// A point where a law has no Taylor series.
+struct LawFailure {
+  int entity = -1, point = 0;
+  taylor::Operation operation = taylor::Operation::None;
+  double value = 0;
+};
+
 /// What the element loops of a term read, and the steps that all of them share: gather, B, B^T, scatter,
 /// eight entities at a time. Copied by value into the kernels.
 ///
@@ -39,14 +46,18 @@ struct LawArrays {
   using Pack = taylor::Lanes<L>;
 
   Law law;
-  int numEntities, N, Q, slots = 0, maxOrder = 0;
+  int numEntities, N, Q;
+  taylor::HistoryShape histories;
+  std::size_t pointDoubles = 0;  // of the histories of L points
+  int maxOrder = 0, waiting = 0;
+  taylor::OrderBlock block;  // of the order that is swept
   View<int*> nodes;       // [batch][lane][node]
   View<int*> positions;   // [batch][lane][node a][node b]
   View<double*> shape;    // [batch][q][node][component][lane]
   View<double*> weight;   // [batch][q][lane]
   View<double*> offset;   // [batch][q][input][lane], CurrentPosition only: X
   View<double*> data;     // [batch][q][datum][lane]
-  View<double*> history;  // [batch][q][slot][order][lane]
+  View<double*> history;  // [batch][q], then as taylor::Context has it
   View<int*> order;
 
   KOKKOS_INLINE_FUNCTION int lanesIn(int b) const {
@@ -57,19 +68,22 @@ struct LawArrays {
   KOKKOS_INLINE_FUNCTION const double* shapeAt(int b, int q) const {
     return &shape((static_cast<std::size_t>(b) * Q + q) * N * C * L);
   }
+  KOKKOS_INLINE_FUNCTION Pack weightAt(int b, int q) const {
+    return Pack::load(&weight((static_cast<std::size_t>(b) * Q + q) * L));
+  }
   KOKKOS_INLINE_FUNCTION const Pack* dataAt(int b, int q) const {
     return D == 0 ? nullptr
                   : reinterpret_cast<const Pack*>(&data((static_cast<std::size_t>(b) * Q + q) * D * L));
   }
   KOKKOS_INLINE_FUNCTION double* historyAt(int b, int q) const {
-    return &history((static_cast<std::size_t>(b) * Q + q) * slots * (maxOrder + 1) * L);
+    return &history((static_cast<std::size_t>(b) * Q + q) * pointDoubles);
   }
 
   KOKKOS_INLINE_FUNCTION void gather(int b, const ConstField& u, Pack* local) const {
     for (int lane = 0; lane < L; ++lane) {
       const int* node = nodesOf(b, lane);
       for (int n = 0; n < N; ++n)
-        for (int i = 0; i < 3; ++i) local[3 * n + i].v[lane] = u(3 * node[n] + i);
+        for (int i = 0; i < 3; ++i) local[3 * n + i][lane] = u(3 * node[n] + i);
     }
   }
 
@@ -79,34 +93,25 @@ struct LawArrays {
     for (int m = 0; m < I; ++m) in[m] = Pack(0.0);
     for (int n = 0; n < N; ++n)
       for (int i = 0; i < 3; ++i)
-        for (int c = 0; c < C; ++c) {
-          const double* sc = s + (n * C + c) * L;
-          for (int lane = 0; lane < L; ++lane) in[i * C + c].v[lane] += local[3 * n + i].v[lane] * sc[lane];
-        }
+        for (int c = 0; c < C; ++c) in[i * C + c] += local[3 * n + i] * Pack::load(s + (n * C + c) * L);
   }
 
   /// Adds the constant part of the inputs (order 0 only).
   KOKKOS_INLINE_FUNCTION void addOffset(int b, int q, Pack* in) const {
     if (C != 1) return;
     const double* x = &offset((static_cast<std::size_t>(b) * Q + q) * I * L);
-    for (int m = 0; m < I; ++m)
-      for (int lane = 0; lane < L; ++lane) in[m].v[lane] += x[m * L + lane];
+    for (int m = 0; m < I; ++m) in[m] += Pack::load(x + m * L);
   }
 
   /// force += weight B^T out.
   KOKKOS_INLINE_FUNCTION void accumulate(int b, int q, const Pack* out, Pack* force) const {
     const double* s = shapeAt(b, q);
-    const double* w = &weight((static_cast<std::size_t>(b) * Q + q) * L);
+    const Pack w = weightAt(b, q);
     Pack scaled[I];
-    for (int m = 0; m < I; ++m)
-      for (int lane = 0; lane < L; ++lane) scaled[m].v[lane] = w[lane] * out[m].v[lane];
+    for (int m = 0; m < I; ++m) scaled[m] = w * out[m];
     for (int n = 0; n < N; ++n)
       for (int i = 0; i < 3; ++i)
-        for (int c = 0; c < C; ++c) {
-          const double* sc = s + (n * C + c) * L;
-          for (int lane = 0; lane < L; ++lane)
-            force[3 * n + i].v[lane] += scaled[i * C + c].v[lane] * sc[lane];
-        }
+        for (int c = 0; c < C; ++c) force[3 * n + i] += scaled[i * C + c] * Pack::load(s + (n * C + c) * L);
   }
 
   KOKKOS_INLINE_FUNCTION void scatter(int b, const Pack* force, const Field& f) const {
@@ -114,12 +119,12 @@ struct LawArrays {
     for (int lane = 0; lane < count; ++lane) {
       const int* node = nodesOf(b, lane);
       for (int n = 0; n < N; ++n)
-        for (int i = 0; i < 3; ++i) f(3 * node[n] + i) += force[3 * n + i].v[lane];
+        for (int i = 0; i < 3; ++i) f(3 * node[n] + i) += force[3 * n + i][lane];
     }
   }
 
   KOKKOS_INLINE_FUNCTION void lanesOf(const Pack* in, int count, int lane, double* one) const {
-    for (int m = 0; m < count; ++m) one[m] = in[m].v[lane];
+    for (int m = 0; m < count; ++m) one[m] = in[m][lane];
   }
 
   /// K += B^T moduli B + correction. `moduli` are those of the law times the point's weight, [q][out][in];
@@ -135,9 +140,7 @@ struct LawArrays {
         for (int m = 0; m < I; ++m)
           for (int j = 0; j < 3; ++j) {
             Pack sum(0.0);
-            for (int c = 0; c < C; ++c)
-              for (int lane = 0; lane < L; ++lane)
-                sum.v[lane] += moduli[(q * I + m) * I + j * C + c].v[lane] * s[c * L + lane];
+            for (int c = 0; c < C; ++c) sum += moduli[(q * I + m) * I + j * C + c] * Pack::load(s + c * L);
             column[(q * I + m) * 3 + j] = sum;
           }
       }
@@ -149,23 +152,41 @@ struct LawArrays {
           for (int i = 0; i < 3; ++i)
             for (int c = 0; c < C; ++c)
               for (int j = 0; j < 3; ++j)
-                for (int lane = 0; lane < L; ++lane)
-                  block[3 * i + j].v[lane] += s[c * L + lane] * column[(q * I + i * C + c) * 3 + j].v[lane];
+                block[3 * i + j] += Pack::load(s + c * L) * column[(q * I + i * C + c) * 3 + j];
         }
         for (int lane = 0; lane < count; ++lane) {
           const int node = nodesOf(b, lane)[na];
           const int position = positions((static_cast<std::size_t>(b * L + lane) * N + na) * N + nb);
           for (int i = 0; i < 3; ++i)
             for (int j = 0; j < 3; ++j)
-              sink.values(sink.rowStart(3 * node + i) + position + j) += block[3 * i + j].v[lane];
+              sink.values(sink.rowStart(3 * node + i) + position + j) += block[3 * i + j][lane];
         }
       }
     }
   }
 
-  /// Where the series of point q is kept and what is asked of it.
-  KOKKOS_INLINE_FUNCTION taylor::Context<L> context(int b, int q, int order, taylor::Pass pass) const {
-    return {historyAt(b, q), maxOrder, order, pass, 0};
+  /// Where the series of point q is kept, and the order asked of it.
+  KOKKOS_INLINE_FUNCTION taylor::Context<L> context(int b, int q, int k) const {
+    taylor::Context<L> c;
+    c.memory = historyAt(b, q);
+    c.shape = histories;
+    c.order = k;
+    c.block = block;
+    c.waiting = waiting;
+    c.ahead = static_cast<std::ptrdiff_t>(pointDoubles);
+    return c;
+  }
+
+  /// Remembers the first point of a batch where the law has no series: one with NaN in its results.
+  KOKKOS_INLINE_FUNCTION void findFailure(int b, int q, const Pack* out, const taylor::Failures<L>& noted,
+                                          LawFailure& first) const {
+    for (int lane = 0; lane < lanesIn(b) && first.entity < 0; ++lane)
+      for (int m = 0; m < Law::numOutputs; ++m)
+        if (out[m][lane] != out[m][lane]) {
+          const bool named = noted.operation[lane] != taylor::Operation::None;
+          first = {b * L + lane, q, named ? noted.operation[lane] : taylor::Operation::Result, noted.value[lane]};
+          break;
+        }
   }
 
   /// Host set-up from the points, `data` [entity][point][datum] and the batches of L entities.
@@ -182,7 +203,7 @@ struct LawArrays {
     numEntities = p.numEntities;
     N = p.nodesPerEntity;
     Q = p.pointsPerEntity;
-    slots = taylor::historySlots<L>(law);
+    histories = taylor::historyShape(law);
     const std::size_t batches = grouped.count;
     std::vector<int> n(batches * L * N);
     std::vector<double> s(batches * Q * N * C * L), w(batches * Q * L), x(C == 1 ? batches * Q * I * L : 0),
@@ -217,13 +238,16 @@ struct LawArrays {
   }
 
   std::size_t historyDoubles(int numBatches, int ordersTo) const {
-    return static_cast<std::size_t>(numBatches) * Q * taylor::historyDoubles<L>(slots, ordersTo);
+    return static_cast<std::size_t>(numBatches) * Q * histories.template doubles<L>(ordersTo);
   }
 
   /// Histories for series of orders up to `ordersTo`; kept where they are of that size already.
   void reserveHistory(int numBatches, int ordersTo) {
-    if (history.size() != 0 && maxOrder == ordersTo) return;
+    const std::size_t size = histories.template doubles<L>(ordersTo);
+    if (history.size() != 0 && pointDoubles == size) return;
+    pointDoubles = size;
     maxOrder = ordersTo;
+    waiting = taylor::HistoryShape::waiting(ordersTo);
     history = View<double*>();  // free before the new one is made
     history = View<double*>(Kokkos::view_alloc("history", Kokkos::WithoutInitializing),
                             historyDoubles(numBatches, ordersTo));
@@ -238,6 +262,16 @@ void forEachBatch(const char* name, const Batches& batches, const View<int*>& or
         name, Kokkos::RangePolicy<Execution>(batches.colourStart[c], batches.colourStart[c + 1]),
         KOKKOS_LAMBDA(int i) { kernel(order(i)); });
   Execution().fence();
+}
+
+/// Throws taylor::DomainError for the first batch that noted a failure.
+inline void throwFirst(const View<LawFailure*>& perBatch) {
+  auto host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), perBatch);
+  for (std::size_t b = 0; b < host.size(); ++b)
+    if (host(b).entity >= 0)
+      throw taylor::DomainError(host(b).operation, host(b).value,
+                                "entity " + std::to_string(host(b).entity + 1) + ", point " +
+                                    std::to_string(host(b).point + 1));
 }
 
 /// The sum over all batches, in one order for any number of threads.

@@ -66,14 +66,14 @@ class LawTerm final : public Term {
               a.lanesOf(in, I, lane, one);
               a.lanesOf(a.dataAt(b, q), D, lane, data);
               taylor::value(a.law, one, data, result);
-              for (int m = 0; m < I; ++m) out[m].v[lane] = result[m];
+              for (int m = 0; m < I; ++m) out[m][lane] = result[m];
             }
             a.accumulate(b, q, out, force);
           }
           a.scatter(b, force, f);
           double sum = 0;
           for (int n = 0; n < 3 * a.N; ++n)
-            for (int lane = 0; lane < L; ++lane) sum += force[n].v[lane] * force[n].v[lane];
+            for (int lane = 0; lane < L; ++lane) sum += force[n][lane] * force[n][lane];
           squares(b) = sum;  // padding lanes have weight, hence force, zero
         });
     return sumOf(squares);
@@ -89,13 +89,13 @@ class LawTerm final : public Term {
           for (int q = 0; q < a.Q; ++q) {
             a.interpolate(b, q, local, in);
             a.addOffset(b, q, in);
-            const double* w = &a.weight((static_cast<std::size_t>(b) * a.Q + q) * L);
+            const Pack w = a.weightAt(b, q);
             for (int lane = 0; lane < L; ++lane) {
               double one[I], data[D + 1], out[I], jacobian[I * I];
               a.lanesOf(in, I, lane, one);
               a.lanesOf(a.dataAt(b, q), D, lane, data);
               taylor::tangent(a.law, one, data, out, jacobian);
-              for (int m = 0; m < I * I; ++m) moduli[q * I * I + m].v[lane] = w[lane] * jacobian[m];
+              for (int m = 0; m < I * I; ++m) moduli[q * I * I + m][lane] = w[lane] * jacobian[m];
             }
           }
           const auto nothing = [](int, int, Pack* block) {
@@ -108,6 +108,7 @@ class LawTerm final : public Term {
   void beginSeries(const ConstField& u, int maxOrder) override {
     a_.reserveHistory(batches_.count, maxOrder);
     const Arrays a = a_;
+    const View<LawFailure*> failures("failures", batches_.count);
     forEachBatch(
         "beginSeries", batches_, a.order, KOKKOS_LAMBDA(int b) {
           Pack local[3 * kMaxNodes], in[I], out[I];
@@ -115,39 +116,36 @@ class LawTerm final : public Term {
           for (int q = 0; q < a.Q; ++q) {
             a.interpolate(b, q, local, in);
             a.addOffset(b, q, in);
-            auto context = a.context(b, q, 0, taylor::Pass::Start);
-            taylor::sweep(a.law, context, in, a.dataAt(b, q), out);
+            taylor::Failures<L> noted;
+            auto context = a.context(b, q, 0);
+            context.failures = &noted;
+            taylor::start(a.law, context, in, a.dataAt(b, q), out);
+            a.findFailure(b, q, out, noted, failures(b));
           }
         });
+    throwFirst(failures);
   }
 
-  void addOrder(int k, const Field& f) override {
-    const Arrays a = a_;
+  void addOrder(int k, const ConstField& last, const Field& f) override {
+    Arrays a = a_;
+    a.block = taylor::orderBlock(k, a.maxOrder);
     forEachBatch(
         "addOrder", batches_, a.order, KOKKOS_LAMBDA(int b) {
-          Pack force[3 * kMaxNodes], in[I], out[I];
+          Pack local[3 * kMaxNodes], force[3 * kMaxNodes], in[I], out[I];
           for (int n = 0; n < 3 * a.N; ++n) force[n] = Pack(0.0);
-          for (int m = 0; m < I; ++m) in[m] = Pack(0.0);
+          if (k > 1) a.gather(b, last, local);
+          // Both orders in one visit: the histories are read from memory once an order.
           for (int q = 0; q < a.Q; ++q) {
-            auto context = a.context(b, q, k, taylor::Pass::Sweep);
-            taylor::sweep(a.law, context, in, a.dataAt(b, q), out);
+            if (k > 1) {
+              a.interpolate(b, q, local, in);
+              auto previous = a.context(b, q, k - 1);
+              taylor::complete(a.law, previous, in, a.dataAt(b, q));
+            }
+            auto context = a.context(b, q, k);
+            taylor::sweep(a.law, context, a.dataAt(b, q), out);
             a.accumulate(b, q, out, force);
           }
           a.scatter(b, force, f);
-        });
-  }
-
-  void completeOrder(int k, const ConstField& Uk) override {
-    const Arrays a = a_;
-    forEachBatch(
-        "completeOrder", batches_, a.order, KOKKOS_LAMBDA(int b) {
-          Pack local[3 * kMaxNodes], in[I], out[I];
-          a.gather(b, Uk, local);
-          for (int q = 0; q < a.Q; ++q) {
-            a.interpolate(b, q, local, in);
-            auto context = a.context(b, q, k, taylor::Pass::Complete);
-            taylor::sweep(a.law, context, in, a.dataAt(b, q), out);
-          }
         });
   }
 

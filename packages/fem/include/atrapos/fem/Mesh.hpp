@@ -6,7 +6,14 @@
 namespace atrapos::fem {
 
 /// Cell shapes with their node count; node and side order are those of Exodus II (= Shards).
-enum class Topology { Hex8, Hex20, Hex27, Tet4, Tet10, Wedge6, Wedge15 };
+///
+/// Shells are quadrilaterals in space, given by their middle surface. Their sides are: 1 the top face, whose
+/// outward normal is that of the node order (counter-clockwise seen from the tip of the normal); 2 the bottom
+/// face; 3 to 6 the edges from corner 1 to 2, 2 to 3, 3 to 4, 4 to 1.
+enum class Topology { Hex8, Hex20, Hex27, Tet4, Tet10, Wedge6, Wedge15, Shell4, Shell8, Shell9 };
+
+/// Whether a cell is a surface in space that stands for a body with a thickness.
+bool isShell(Topology topology);
 
 /// Cells of one topology.
 struct Block {
@@ -53,7 +60,7 @@ struct Mesh {
 /// Number of nodes of a cell.
 int nodesPerElement(Topology topology);
 
-/// Exodus' name of a cell type: HEX8, HEX20, HEX27, TET4, TET10, WEDGE6, WEDGE15.
+/// Exodus' name of a cell type: HEX8, HEX20, HEX27, TET4, TET10, WEDGE6, WEDGE15, SHELL4, SHELL8, SHELL9.
 const char* topologyName(Topology topology);
 
 /// Position of the block, node set or side set with this name or (decimal) id; -1 where there is none.

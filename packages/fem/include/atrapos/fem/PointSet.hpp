@@ -25,13 +25,15 @@ struct PointSet {
 };
 
 /// Volume points of one block: gradients with respect to the reference configuration.
-/// Throws std::runtime_error naming the element where the Jacobian is not positive.
+/// Throws std::runtime_error naming the element where the Jacobian is not positive, and for shells.
 PointSet volumePoints(const Mesh& mesh, const Block& block, const Tabulation& cell);
 
 /// Volume points of one block with shape *values* (body forces).
 PointSet volumeValuePoints(const Mesh& mesh, const Block& block, const Tabulation& cell);
 
-/// Face points of a side set, one PointSet for each face shape in it; cubature exact to `degree`.
+/// Face points of a side set, one PointSet for each face shape in it; cubature exact to `degree`. The faces
+/// of a shell are taken on its middle surface. Throws std::runtime_error for edges of shells and faces
+/// without area.
 std::vector<PointSet> facePoints(const Mesh& mesh, const SideSet& set, int degree);
 
 /// One point at each node of a list, weight 1.

@@ -8,19 +8,23 @@
 /// Element loops copy a Tabulation into Kokkos views; nothing here is meant to be called inside a loop.
 ///
 /// Reference domains: hexahedra and quadrilaterals [-1,1]^dim; tetrahedra and triangles the unit simplex
-/// (xi, eta, zeta >= 0, sum <= 1); wedges the unit triangle times [-1,1]. Node and side order are those of
-/// Exodus II. Every function that tabulates needs Kokkos to be initialised (Intrepid2 allocates views) and
-/// throws std::logic_error where it is not.
+/// (xi, eta, zeta >= 0, sum <= 1); wedges the unit triangle times [-1,1]; shells, as their middle surface,
+/// the quadrilateral's [-1,1]^2; lines [-1,1]. Node and side order are those of Exodus II. Every function
+/// that tabulates needs Kokkos to be initialised (Intrepid2 allocates views) and throws std::logic_error
+/// where it is not.
 namespace atrapos::fem {
 
-/// Shape of a side of a cell, with its node count.
-enum class Face { Tri3, Tri6, Quad4, Quad8, Quad9 };
+/// Shape of a side of a cell, with its node count. Lines are the edges of shells.
+enum class Face { Tri3, Tri6, Quad4, Quad8, Quad9, Line2, Line3 };
+
+/// Whether a side is an edge of a shell.
+bool isLine(Face face);
 
 /// Shape functions of one cell or face at a set of reference points.
 struct Tabulation {
   int numNodes = 0;
   int numPoints = 0;
-  int dim = 0;                    ///< of the reference domain: 3 for cells, 2 for faces
+  int dim = 0;                    ///< of the reference domain: solids 3, shells and faces 2, edges 1
   std::vector<double> points;     ///< [point][dim] reference coordinates
   std::vector<double> weights;    ///< [point], sum = volume (area) of the reference domain; empty where the
                                   ///< points are the caller's own
@@ -39,6 +43,9 @@ struct Tabulation {
 /// | Tet10   | 4         | full: the strain is linear, the tangent of a straight-sided cell quadratic |
 /// | Wedge6  | 3 x 2     | full |
 /// | Wedge15 | 3 x 3     | reduced in the triangle, but of full rank (6 points would not be) |
+/// | Shell4  | 2 x 2     | of the middle surface; the points through the thickness are the element's |
+/// | Shell8  | 2 x 2     | the same, reduced |
+/// | Shell9  | 3 x 3     | the same, full |
 ///
 /// A straight row of Hex20, one cell wide and one cell thick, keeps one such mode per cell even when clamped:
 /// use tabulate(Topology::Hex20, 5), 3 x 3 x 3 points, there. See docs/theory/elements.md. "Full" is meant
@@ -50,17 +57,20 @@ Tabulation tabulate(Topology topology);
 /// within 0 to 20, on tetrahedra 0 to 6.
 Tabulation tabulate(Topology topology, int degree);
 
-/// The cell at given reference points, [point][3]; no weights. Throws std::invalid_argument where the size is
-/// not a multiple of 3. Points outside the cell are allowed (the polynomials continue there).
+/// The cell at given reference points, [point][3], of a shell [point][2]; no weights. Throws
+/// std::invalid_argument where the size is not a multiple of the dimension. Points outside the cell are
+/// allowed (the polynomials continue there).
 Tabulation tabulateAt(Topology topology, const std::vector<double>& points);
 
-/// A face in its own two reference coordinates, with a cubature as in tabulate(topology, degree).
+/// A face in its own two reference coordinates (an edge in its one), with a cubature as in tabulate(topology,
+/// degree).
 Tabulation tabulateFace(Face face, int degree);
 
-/// A face at given points, [point][2] in its own reference coordinates; no weights.
+/// A face at given points, [point][2] (an edge: [point][1]) in its own reference coordinates; no weights.
 Tabulation tabulateFaceAt(Face face, const std::vector<double>& points);
 
-/// Reference coordinates of the nodes: [node][3] of a cell, [node][2] of a face.
+/// Reference coordinates of the nodes: [node][3] of a solid cell, [node][2] of a shell or face, [node][1] of
+/// an edge.
 std::vector<double> referenceNodes(Topology topology);
 std::vector<double> referenceNodes(Face face);
 
@@ -71,16 +81,17 @@ int numSides(Topology topology);
 Face sideFace(Topology topology, int side);
 
 /// The cell's local nodes on a side, 0-based, in the order that sideFace's shape functions expect; seen from
-/// outside they run counter-clockwise, so that x_xi cross x_eta points out of the cell.
-/// Throws std::out_of_range for a number that is no side.
+/// outside they run counter-clockwise, so that x_xi cross x_eta points out of the cell. The two faces of a
+/// shell have the nodes of its middle surface, in opposite order; its edges run as the top face does. Throws
+/// std::out_of_range for a number that is no side.
 std::vector<int> sideNodes(Topology topology, int side);
 
 /// Matrix [node][point] that carries values at the cubature points to nodal values (smoothed nodal stresses):
 /// the weighted least-squares fit in the shape functions of the cell's vertices (trilinear for hexahedra,
-/// linear for tetrahedra, linear times linear for wedges), evaluated at all nodes. Exact for linear fields; a
-/// single point gives its value to every node. Throws std::invalid_argument where the tabulation has no
-/// weights, is not of this cell, or has points that determine no such fit (more than one, but too few or
-/// badly placed).
+/// bilinear for shells, linear for tetrahedra, linear times linear for wedges), evaluated at all nodes. Exact
+/// for linear fields; a single point gives its value to every node. Throws std::invalid_argument where the
+/// tabulation has no weights, is not of this cell, or has points that determine no such fit (more than one,
+/// but too few or badly placed).
 std::vector<double> extrapolation(Topology topology, const Tabulation& tabulation);
 
 }  // namespace atrapos::fem

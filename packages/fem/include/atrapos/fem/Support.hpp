@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "atrapos/fem/Mesh.hpp"
+#include "atrapos/fem/ShellGeometry.hpp"
 
 namespace atrapos::fem {
 
@@ -40,8 +41,12 @@ struct FreeBody {
   int motions = 0;    ///< number of independent rigid motions left, 1..6
 };
 
-/// Connected parts of the mesh whose rigid motions are not all held by the supports and held directions.
+/// Connected parts of the mesh whose rigid motions are not all held by the supports and held directions. With
+/// shells the supports go on with the director nodes; what holds a director D holds omega x D of a rotation
+/// omega. Parts that are joined by a hinge only (a fold with two directors, a shell's edge on a solid) count
+/// as one: that they can turn about it is not seen here.
 std::vector<FreeBody> freeBodies(const Mesh& mesh, const Supports& supports,
-                                 const std::vector<HeldDirection>& held);
+                                 const std::vector<HeldDirection>& held,
+                                 const ShellGeometry* shells = nullptr);
 
 }  // namespace atrapos::fem

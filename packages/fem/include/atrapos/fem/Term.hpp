@@ -49,14 +49,12 @@ class Term {
   /// K += dF/du.
   virtual void addTangent(const ConstField& u, const TangentSink& sink) const = 0;
 
-  /// Order 0 of the series at u; histories for orders up to maxOrder.
+  /// Order 0 of the series at u; histories for orders up to maxOrder. Throws taylor::DomainError, naming the
+  /// point, where the law has no series.
   virtual void beginSeries(const ConstField& u, int maxOrder) = 0;
 
-  /// f += order k of F(u(a)) with U_k = 0, from the orders completed so far.
-  virtual void addOrder(int k, const Field& f) = 0;
-
-  /// Makes U_k known.
-  virtual void completeOrder(int k, const ConstField& Uk) = 0;
+  /// Makes U_{k-1} = `last` known (k > 1; unused for k = 1), then f += order k of F(u(a)) with U_k = 0.
+  virtual void addOrder(int k, const ConstField& last, const Field& f) = 0;
 
   /// The law's named values at every point in the state u.
   virtual PointValues observe(const ConstField& u) const = 0;

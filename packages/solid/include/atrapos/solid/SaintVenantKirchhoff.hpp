@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "atrapos/solid/Strain.hpp"
 #include "atrapos/taylor/Law.hpp"
 
 namespace atrapos::solid {
@@ -31,52 +32,19 @@ struct SaintVenantKirchhoff {
     return {E * nu / ((1 + nu) * (1 - 2 * nu)), E / (2 * (1 + nu))};
   }
 
-  /// S in the order xx, yy, zz, xy, yz, zx.
+  /// S from the Green-Lagrange strain.
   template <class T>
-  KOKKOS_INLINE_FUNCTION void secondPiolaKirchhoff(const T* H, T* S) const {
-    // Twice the Green-Lagrange strain.
-    const T xx = 2.0 * H[0] + (H[0] * H[0] + H[3] * H[3] + H[6] * H[6]);
-    const T yy = 2.0 * H[4] + (H[1] * H[1] + H[4] * H[4] + H[7] * H[7]);
-    const T zz = 2.0 * H[8] + (H[2] * H[2] + H[5] * H[5] + H[8] * H[8]);
-    const T xy = H[1] + H[3] + (H[0] * H[1] + H[3] * H[4] + H[6] * H[7]);
-    const T yz = H[5] + H[7] + (H[1] * H[2] + H[4] * H[5] + H[7] * H[8]);
-    const T zx = H[2] + H[6] + (H[0] * H[2] + H[3] * H[5] + H[6] * H[8]);
-    const T trace = (0.5 * lambda) * (xx + yy + zz);
-    S[0] = trace + mu * xx;
-    S[1] = trace + mu * yy;
-    S[2] = trace + mu * zz;
-    S[3] = mu * xy;
-    S[4] = mu * yz;
-    S[5] = mu * zx;
-  }
-
-  /// S of a Green-Lagrange strain E, both in the order xx, yy, zz, xy, yz, zx (tensor shear strains).
-  template <class T>
-  KOKKOS_INLINE_FUNCTION void secondPiola(const T* E, T* S) const {
-    const T trace = lambda * (E[0] + E[1] + E[2]);
-    for (int i = 0; i < 3; ++i) S[i] = trace + (2 * mu) * E[i];
-    for (int i = 3; i < 6; ++i) S[i] = (2 * mu) * E[i];
+  KOKKOS_FORCEINLINE_FUNCTION taylor::Symmetric3<T> secondPiola(const taylor::Symmetric3<T>& E) const {
+    const T spherical = lambda * trace(E);
+    return plusIdentity((2 * mu) * E, spherical);
   }
 
   template <class T>
-  KOKKOS_INLINE_FUNCTION void operator()(const T* H, const taylor::Passive<T>*, T* P) const {
-    T S[6];
-    secondPiolaKirchhoff(H, S);
-    for (int i = 0; i < 3; ++i) {
-      const T* h = H + 3 * i;
-      P[3 * i + 0] = h[0] * S[0] + h[1] * S[3] + h[2] * S[5];
-      P[3 * i + 1] = h[0] * S[3] + h[1] * S[1] + h[2] * S[4];
-      P[3 * i + 2] = h[0] * S[5] + h[1] * S[4] + h[2] * S[2];
-    }
-    P[0] += S[0];
-    P[1] += S[3];
-    P[2] += S[5];
-    P[3] += S[3];
-    P[4] += S[1];
-    P[5] += S[4];
-    P[6] += S[5];
-    P[7] += S[4];
-    P[8] += S[2];
+  KOKKOS_INLINE_FUNCTION void operator()(const T* in, const taylor::Passive<T>*, T* out) const {
+    const taylor::Matrix3<T> H(in);
+    const taylor::Symmetric3<T> S = secondPiola(greenLagrange(H));
+    const taylor::Matrix3<T> P = full(S) + H * S;
+    P.store(out);
   }
 
   static constexpr int numObserved = 6;

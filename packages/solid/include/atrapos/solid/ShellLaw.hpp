@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "atrapos/solid/Strain.hpp"
 #include "atrapos/taylor/Law.hpp"
 
 namespace atrapos::solid {
@@ -18,8 +19,8 @@ namespace atrapos::solid {
 ///
 /// data: g (3), the scaled contravariant base vector of shellPoints.
 ///
-/// Material: `template <class T> void secondPiola(const T* E, T* S) const`, both in the order xx, yy, zz, xy,
-/// yz, zx with tensor (not engineering) shear strains.
+/// Material: `template <class T> taylor::Symmetric3<T> secondPiola(const taylor::Symmetric3<T>& E) const`,
+/// the second Piola-Kirchhoff stress of the Green-Lagrange strain.
 template <class Material>
 struct ShellLaw {
   static constexpr int numInputs = 10, numOutputs = 10, numData = 3;
@@ -29,47 +30,24 @@ struct ShellLaw {
 
   /// S of (H, e).
   template <class T>
-  KOKKOS_INLINE_FUNCTION void stress(const T* in, const taylor::Passive<T>* g, T* S) const {
-    const T* H = in;
-    const T& e = in[9];
-    T E[6];
-    E[0] = H[0] + 0.5 * (H[0] * H[0] + H[3] * H[3] + H[6] * H[6]) + e * (g[0] * g[0]);
-    E[1] = H[4] + 0.5 * (H[1] * H[1] + H[4] * H[4] + H[7] * H[7]) + e * (g[1] * g[1]);
-    E[2] = H[8] + 0.5 * (H[2] * H[2] + H[5] * H[5] + H[8] * H[8]) + e * (g[2] * g[2]);
-    E[3] = 0.5 * (H[1] + H[3] + (H[0] * H[1] + H[3] * H[4] + H[6] * H[7])) + e * (g[0] * g[1]);
-    E[4] = 0.5 * (H[5] + H[7] + (H[1] * H[2] + H[4] * H[5] + H[7] * H[8])) + e * (g[1] * g[2]);
-    E[5] = 0.5 * (H[2] + H[6] + (H[0] * H[2] + H[3] * H[5] + H[6] * H[8])) + e * (g[2] * g[0]);
-    material.secondPiola(E, S);
+  KOKKOS_FORCEINLINE_FUNCTION taylor::Symmetric3<T> stress(const taylor::Matrix3<T>& H, const T& e,
+                                                           const taylor::Passive<T>* g) const {
+    return material.secondPiola(plusDyad(greenLagrange(H), e, g));
   }
 
   template <class T>
   KOKKOS_INLINE_FUNCTION void operator()(const T* in, const taylor::Passive<T>* g, T* out) const {
-    T S[6];
-    stress(in, g, S);
-    for (int i = 0; i < 3; ++i) {
-      const T* h = in + 3 * i;
-      out[3 * i + 0] = h[0] * S[0] + h[1] * S[3] + h[2] * S[5];
-      out[3 * i + 1] = h[0] * S[3] + h[1] * S[1] + h[2] * S[4];
-      out[3 * i + 2] = h[0] * S[5] + h[1] * S[4] + h[2] * S[2];
-    }
-    out[0] += S[0];
-    out[1] += S[3];
-    out[2] += S[5];
-    out[3] += S[3];
-    out[4] += S[1];
-    out[5] += S[4];
-    out[6] += S[5];
-    out[7] += S[4];
-    out[8] += S[2];
-    out[9] = conjugate(S, g);
+    const taylor::Matrix3<T> H(in);
+    const taylor::Symmetric3<T> S = stress(H, in[9], g);
+    const taylor::Matrix3<T> P = full(S) + H * S;
+    P.store(out);
+    out[9] = projection(S, g);
   }
 
   /// s alone: what the enhanced parameters' own equation needs.
   template <class T>
   KOKKOS_INLINE_FUNCTION T enhancedStress(const T* in, const taylor::Passive<T>* g) const {
-    T S[6];
-    stress(in, g, S);
-    return conjugate(S, g);
+    return projection(stress(taylor::Matrix3<T>(in), in[9], g), g);
   }
 
   /// Strain per unit of e.
@@ -97,13 +75,6 @@ struct ShellLaw {
     sigma[3] = component(0, 1);
     sigma[4] = component(1, 2);
     sigma[5] = component(2, 0);
-  }
-
- private:
-  template <class T, class G>
-  KOKKOS_INLINE_FUNCTION static T conjugate(const T* S, const G* g) {
-    return S[0] * (g[0] * g[0]) + S[1] * (g[1] * g[1]) + S[2] * (g[2] * g[2]) + S[3] * (2.0 * (g[0] * g[1])) +
-           S[4] * (2.0 * (g[1] * g[2])) + S[5] * (2.0 * (g[2] * g[0]));
   }
 };
 

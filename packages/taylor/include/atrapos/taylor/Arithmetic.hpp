@@ -2,148 +2,133 @@
 
 #include "atrapos/taylor/Sweep.hpp"
 
-/// + - * / of Sweep with Sweep, double and Lanes. Sources: docs/theory/taylor.md, one heading per operation.
+/// + - * / of expressions with expressions, double and Lanes. Sources: docs/theory/taylor.md, one heading per
+/// operation.
 namespace atrapos::taylor {
 
 namespace detail {
 
-// c_k = sum_{i=0..k} a_i b_{k-i}
-template <int L>
-KOKKOS_INLINE_FUNCTION Sweep<L> product(const Sweep<L>& a, const Sweep<L>& b) {
-  Context<L>& context = *a.context();
-  const double* as = a.slot();
+// c_k = (a_k - b_k c_0 - sum_{i=1..k-1} b_i c_{k-i}) / b_0; ak is the coefficient of a in the current pass.
+template <class X>
+KOKKOS_INLINE_FUNCTION Sweep<X> quotient(const LanesOf<X>& ak, const Sweep<X>& b) {
+  Context<X::lanes>& context = *b.context();
   const double* bs = b.slot();
-  switch (context.pass) {
-    case Pass::Start:
-      return {a.value() * b.value(), &context};
-    case Pass::Sweep:
-      return {as == bs ? convolveSquare<L>(as, 0, context.order)
-                       : convolve<L>(as, bs, 0, context.order, context.order),
-              &context};
-    default:
-      return {a.value() * load<L>(bs) + load<L>(as) * b.value(), &context};
+  double* cs = takeSlots<X>(context);
+  LanesOf<X> c;
+  if (X::pass == Pass::Start) {
+    c = restrictTo(context.failures, Operation::Division, b.value(), ak / b.value(),
+                   [](double x) { return x != 0; });
+  } else {
+    c = ak - b.value() * LanesOf<X>::load(cs);
+    if (X::pass == Pass::Sweep) c -= convolve<X::lanes>(bs, cs, context.stride, context.order);
+    c /= LanesOf<X>::load(bs);
   }
+  record<X::pass>(context, cs, c);
+  return {c, &context, cs};
 }
 
-// c_k = (a_k - sum_{i=1..k} b_i c_{k-i}) / b_0; ak is the coefficient of a in the current pass.
-template <int L>
-KOKKOS_INLINE_FUNCTION Sweep<L> quotient(const Lanes<L>& ak, const Sweep<L>& b) {
-  Context<L>& context = *b.context();
-  const double* bs = b.slot();
-  double* cs = takeSlot(context);
-  Lanes<L> c;
-  switch (context.pass) {
-    case Pass::Start:
-      c = ak / b.value();
-      break;
-    case Pass::Sweep:
-      c = (ak - convolve<L>(bs, cs, 1, context.order, context.order)) / load<L>(bs);
-      break;
-    default:
-      c = (ak - load<L>(cs) * b.value()) / load<L>(bs);
-  }
-  record(context, cs, c);
-  return {c, &context, cs};
+template <class E, class F, class X>
+KOKKOS_FORCEINLINE_FUNCTION Scaled<E, F, X> scale(const Expression<E, X>& e, const F& factor) {
+  return {e.self(), factor};
+}
+template <class E, class F, class G, class X>
+KOKKOS_FORCEINLINE_FUNCTION auto scale(const Scaled<E, F, X>& e, const G& factor) {
+  using FG = decltype(e.factor * factor);
+  return Scaled<E, FG, X>(e.x, e.factor * factor);
+}
+
+// A factor of an operand becomes one of the product, so that the operand itself needs no history.
+template <class A, class B, class X>
+KOKKOS_FORCEINLINE_FUNCTION Product<A, B, X> multiply(const Expression<A, X>& a, const Expression<B, X>& b) {
+  return {a.self(), b.self()};
+}
+template <class A, class F, class B, class X>
+KOKKOS_FORCEINLINE_FUNCTION auto multiply(const Scaled<A, F, X>& a, const Expression<B, X>& b) {
+  return scale<Product<A, B, X>, F, X>(Product<A, B, X>(a.x, b.self()), a.factor);
+}
+template <class A, class B, class F, class X>
+KOKKOS_FORCEINLINE_FUNCTION auto multiply(const Expression<A, X>& a, const Scaled<B, F, X>& b) {
+  return scale<Product<A, B, X>, F, X>(Product<A, B, X>(a.self(), b.x), b.factor);
+}
+template <class A, class F, class B, class G, class X>
+KOKKOS_FORCEINLINE_FUNCTION auto multiply(const Scaled<A, F, X>& a, const Scaled<B, G, X>& b) {
+  using FG = decltype(a.factor * b.factor);
+  return scale<Product<A, B, X>, FG, X>(Product<A, B, X>(a.x, b.x), a.factor * b.factor);
 }
 
 }  // namespace detail
 
-template <int L>
-KOKKOS_FORCEINLINE_FUNCTION Sweep<L> operator+(const Sweep<L>& a) {
-  return a;
+template <class E, class X>
+KOKKOS_FORCEINLINE_FUNCTION auto operator+(const Expression<E, X>& a) {
+  return detail::scale(a.self(), 1.0);
 }
 
-template <int L>
-KOKKOS_FORCEINLINE_FUNCTION Sweep<L> operator-(const Sweep<L>& a) {
-  return {-a.value(), a.context()};
+template <class E, class X>
+KOKKOS_FORCEINLINE_FUNCTION auto operator-(const Expression<E, X>& a) {
+  return detail::scale(a.self(), -1.0);
 }
 
-// A constant added to an active value counts in Start only. The sum never keeps its operand's slot, not even
-// where it equals it: the slots given away must be the same in every pass.
-template <int L>
-KOKKOS_FORCEINLINE_FUNCTION Sweep<L> operator+(const Sweep<L>& a, const Lanes<L>& b) {
-  if (!a.isPassive() && a.context()->pass != Pass::Start) return {a.value(), a.context()};
-  return {a.value() + b, a.context()};
+template <class A, class B, class X>
+KOKKOS_FORCEINLINE_FUNCTION detail::Sum<A, B, 1, X> operator+(const Expression<A, X>& a,
+                                                              const Expression<B, X>& b) {
+  return {a.self(), b.self()};
 }
 
-template <int L>
-KOKKOS_FORCEINLINE_FUNCTION Sweep<L> operator*(const Sweep<L>& a, const Lanes<L>& b) {
-  return {a.value() * b, a.context()};
+template <class A, class B, class X>
+KOKKOS_FORCEINLINE_FUNCTION detail::Sum<A, B, -1, X> operator-(const Expression<A, X>& a,
+                                                               const Expression<B, X>& b) {
+  return {a.self(), b.self()};
 }
 
-template <int L>
-KOKKOS_FORCEINLINE_FUNCTION Sweep<L> operator/(const Sweep<L>& a, const Lanes<L>& b) {
-  return {a.value() / b, a.context()};
+template <class A, class B, class X>
+KOKKOS_FORCEINLINE_FUNCTION auto operator*(const Expression<A, X>& a, const Expression<B, X>& b) {
+  return detail::multiply(a.self(), b.self());
 }
 
-template <int L>
-KOKKOS_FORCEINLINE_FUNCTION Sweep<L> operator-(const Sweep<L>& a, const Lanes<L>& b) {
-  return a + (-b);
+template <class A, class B, class X>
+KOKKOS_FORCEINLINE_FUNCTION Sweep<X> operator/(const Expression<A, X>& a, const Expression<B, X>& b) {
+  const auto& divisor = detail::variable(b.self());
+  Context<X::lanes>* own = a.self().context();
+  if (divisor.isPassive()) return {detail::evaluate(a, own) / divisor.value(), own};
+  return detail::quotient(detail::evaluate(a, own != nullptr ? own : divisor.context()), divisor);
 }
 
-template <int L>
-KOKKOS_FORCEINLINE_FUNCTION Sweep<L> operator+(const Lanes<L>& a, const Sweep<L>& b) {
-  return b + a;
-}
-
-template <int L>
-KOKKOS_FORCEINLINE_FUNCTION Sweep<L> operator-(const Lanes<L>& a, const Sweep<L>& b) {
-  return -b + a;
-}
-
-template <int L>
-KOKKOS_FORCEINLINE_FUNCTION Sweep<L> operator*(const Lanes<L>& a, const Sweep<L>& b) {
-  return b * a;
-}
-
-template <int L>
-KOKKOS_FORCEINLINE_FUNCTION Sweep<L> operator/(const Lanes<L>& a, const Sweep<L>& b) {
-  if (b.isPassive()) return {a / b.value()};
-  return detail::quotient(b.context()->pass == Pass::Start ? a : Lanes<L>(0.0), b);
-}
-
-#define ATRAPOS_SWEEP_WITH_DOUBLE(OP)                                             \
-  template <int L>                                                                \
-  KOKKOS_FORCEINLINE_FUNCTION Sweep<L> operator OP(const Sweep<L>& a, double b) { \
-    return a OP Lanes<L>(b);                                                      \
-  }                                                                               \
-  template <int L>                                                                \
-  KOKKOS_FORCEINLINE_FUNCTION Sweep<L> operator OP(double a, const Sweep<L>& b) { \
-    return Lanes<L>(a) OP b;                                                      \
+#define ATRAPOS_EXPRESSION_WITH(PASSIVE)                                                       \
+  template <class E, class X>                                                                    \
+  KOKKOS_FORCEINLINE_FUNCTION auto operator+(const Expression<E, X>& a, PASSIVE b) {           \
+    return a + detail::Constant<X>(b);                                                         \
+  }                                                                                            \
+  template <class E, class X>                                                                    \
+  KOKKOS_FORCEINLINE_FUNCTION auto operator+(PASSIVE a, const Expression<E, X>& b) {           \
+    return b + detail::Constant<X>(a);                                                         \
+  }                                                                                            \
+  template <class E, class X>                                                                    \
+  KOKKOS_FORCEINLINE_FUNCTION auto operator-(const Expression<E, X>& a, PASSIVE b) {           \
+    return a - detail::Constant<X>(b);                                                         \
+  }                                                                                            \
+  template <class E, class X>                                                                    \
+  KOKKOS_FORCEINLINE_FUNCTION auto operator-(PASSIVE a, const Expression<E, X>& b) {           \
+    return detail::Constant<X>(a) - b;                                                         \
+  }                                                                                            \
+  template <class E, class X>                                                                    \
+  KOKKOS_FORCEINLINE_FUNCTION auto operator*(const Expression<E, X>& a, PASSIVE b) {           \
+    return detail::scale(a.self(), b);                                                              \
+  }                                                                                            \
+  template <class E, class X>                                                                    \
+  KOKKOS_FORCEINLINE_FUNCTION auto operator*(PASSIVE a, const Expression<E, X>& b) {           \
+    return detail::scale(b.self(), a);                                                              \
+  }                                                                                            \
+  template <class E, class X>                                                                    \
+  KOKKOS_FORCEINLINE_FUNCTION auto operator/(const Expression<E, X>& a, PASSIVE b) {           \
+    return detail::scale(a.self(), 1.0 / b);                                                   \
+  }                                                                                            \
+  template <class E, class X>                                                                    \
+  KOKKOS_FORCEINLINE_FUNCTION Sweep<X> operator/(PASSIVE a, const Expression<E, X>& b) {       \
+    return Sweep<X>(a) / b;                                                                    \
   }
 
-ATRAPOS_SWEEP_WITH_DOUBLE(+)
-ATRAPOS_SWEEP_WITH_DOUBLE(-)
-ATRAPOS_SWEEP_WITH_DOUBLE(*)
-ATRAPOS_SWEEP_WITH_DOUBLE(/)
-#undef ATRAPOS_SWEEP_WITH_DOUBLE
-
-template <int L>
-KOKKOS_FORCEINLINE_FUNCTION Sweep<L> operator+(const Sweep<L>& a, const Sweep<L>& b) {
-  if (a.isPassive()) return b + a.value();
-  if (b.isPassive()) return a + b.value();
-  return {a.value() + b.value(), a.context()};
-}
-
-template <int L>
-KOKKOS_FORCEINLINE_FUNCTION Sweep<L> operator-(const Sweep<L>& a, const Sweep<L>& b) {
-  if (a.isPassive()) return a.value() - b;
-  if (b.isPassive()) return a - b.value();
-  return {a.value() - b.value(), a.context()};
-}
-
-template <int L>
-KOKKOS_FORCEINLINE_FUNCTION Sweep<L> operator*(const Sweep<L>& a, const Sweep<L>& b) {
-  if (a.isPassive()) return b * a.value();
-  if (b.isPassive()) return a * b.value();
-  return detail::product(a, b);
-}
-
-template <int L>
-KOKKOS_FORCEINLINE_FUNCTION Sweep<L> operator/(const Sweep<L>& a, const Sweep<L>& b) {
-  if (a.isPassive()) return a.value() / b;
-  if (b.isPassive()) return a / b.value();
-  return detail::quotient(a.value(), b);
-}
+ATRAPOS_EXPRESSION_WITH(double)
+ATRAPOS_EXPRESSION_WITH(const LanesOf<X>&)
+#undef ATRAPOS_EXPRESSION_WITH
 
 }  // namespace atrapos::taylor

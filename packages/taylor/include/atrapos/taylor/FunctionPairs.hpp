@@ -2,86 +2,86 @@
 
 #include "atrapos/taylor/Sweep.hpp"
 
-/// The recurrences that circular and hyperbolic functions share, each through c' = w a'. Arguments named ..0
-/// are order 0 and used in Pass::Start only.
+/// The recurrences that several functions share, each through c' = w a'. Arguments named ..0 are order 0 and
+/// count in Pass::Start only.
 namespace atrapos::taylor::detail {
 
+template <class X>
+KOKKOS_FORCEINLINE_FUNCTION bool isStart(const Sweep<X>&) {
+  return X::pass == Pass::Start;
+}
+
 // s' = c a', c' = sign s a'
-template <int L>
-KOKKOS_INLINE_FUNCTION void sinePair(const Sweep<L>& a, const Lanes<L>& s0, const Lanes<L>& c0, double sign,
-                                     Sweep<L>& sine, Sweep<L>& cosine) {
-  Context<L>& context = *a.context();
+template <class X>
+KOKKOS_INLINE_FUNCTION void sinePair(const Sweep<X>& a, const LanesOf<X>& s0, const LanesOf<X>& c0, double sign,
+                                     Sweep<X>& sine, Sweep<X>& cosine) {
+  Context<X::lanes>& context = *a.context();
+  const LanesOf<X> ak = a.value();
   const double* as = a.slot();
-  double* ss = takeSlot(context);
-  double* cs = takeSlot(context);
-  Lanes<L> s, c;
-  switch (context.pass) {
-    case Pass::Start:
-      s = s0;
-      c = c0;
-      break;
-    case Pass::Sweep:
-      s = integrate<L>(as, cs, context.order);
-      c = sign * integrate<L>(as, ss, context.order);
-      break;
-    default:
-      s = load<L>(cs) * a.value();
-      c = sign * load<L>(ss) * a.value();
+  double* ss = takeSlots<X>(context, 2);
+  double* cs = ss + X::lanes;
+  LanesOf<X> s, c;
+  if (X::pass == Pass::Start) {
+    s = s0;
+    c = c0;
+  } else {
+    s = ak * LanesOf<X>::load(cs);
+    c = ak * LanesOf<X>::load(ss);
+    if (X::pass == Pass::Sweep) {
+      // Both sums in one loop: the weighted coefficients of a are read once.
+      LanesOf<X> sumS(0.0), sumC(0.0);
+      const int k = context.order;
+      for (int i = 1; i < k; ++i) {
+        const LanesOf<X> slope = static_cast<double>(i) * LanesOf<X>::load(as + i * context.stride);
+        sumS += slope * LanesOf<X>::load(cs + (k - i) * context.stride);
+        sumC += slope * LanesOf<X>::load(ss + (k - i) * context.stride);
+      }
+      s += sumS * (1.0 / k);
+      c += sumC * (1.0 / k);
+    }
+    c = sign * c;
   }
-  record(context, ss, s);
-  record(context, cs, c);
-  sine = Sweep<L>(s, &context, ss);
-  cosine = Sweep<L>(c, &context, cs);
+  record<X::pass>(context, ss, s);
+  record<X::pass>(context, cs, c);
+  sine = Sweep<X>(s, &context, ss);
+  cosine = Sweep<X>(c, &context, cs);
 }
 
 // t' = w a', w = 1 + sign t^2
-template <int L>
-KOKKOS_INLINE_FUNCTION Sweep<L> tangentPair(const Sweep<L>& a, const Lanes<L>& t0, const Lanes<L>& w0,
+template <class X>
+KOKKOS_INLINE_FUNCTION Sweep<X> tangentPair(const Sweep<X>& a, const LanesOf<X>& t0, const LanesOf<X>& w0,
                                             double sign) {
-  Context<L>& context = *a.context();
+  Context<X::lanes>& context = *a.context();
   const double* as = a.slot();
-  double* ts = takeSlot(context);
-  double* ws = takeSlot(context);
-  Lanes<L> t, w;
-  switch (context.pass) {
-    case Pass::Start:
-      t = t0;
-      w = w0;
-      record(context, ts, t);
-      break;
-    case Pass::Sweep:
-      t = integrate<L>(as, ws, context.order);
-      record(context, ts, t);  // before w, whose sum runs up to the t of this order
-      w = sign * convolveSquare<L>(ts, 0, context.order);
-      break;
-    default:
-      t = load<L>(ws) * a.value();
-      record(context, ts, t);
-      w = 2.0 * sign * load<L>(ts) * t;
+  double* ts = takeSlots<X>(context, 2);
+  double* ws = ts + X::lanes;
+  LanesOf<X> t, w;
+  if (X::pass == Pass::Start) {
+    t = t0;
+    w = w0;
+  } else {
+    t = a.value() * LanesOf<X>::load(ws);
+    if (X::pass == Pass::Sweep) t += integrate<X::lanes>(as, ws, context.stride, context.order);
+    w = 2.0 * LanesOf<X>::load(ts) * t;
+    if (X::pass == Pass::Sweep) w += convolveSquare<X::lanes>(ts, context.stride, context.order);
+    w = sign * w;
   }
-  record(context, ws, w);
+  record<X::pass>(context, ts, t);
+  record<X::pass>(context, ws, w);
   return {t, &context, ts};
 }
 
-// c' = w a' where w is itself a series that the law's own operations compute
-template <int L>
-KOKKOS_INLINE_FUNCTION Sweep<L> primitive(const Sweep<L>& a, const Sweep<L>& w, const Lanes<L>& c0) {
-  Context<L>& context = *a.context();
+// c' = factor w a' where w is itself a series that the law's own operations compute
+template <class X>
+KOKKOS_INLINE_FUNCTION Sweep<X> primitive(const Sweep<X>& a, const Sweep<X>& w, const LanesOf<X>& c0,
+                                          double factor = 1.0) {
+  Context<X::lanes>& context = *a.context();
   const double* as = a.slot();
   const double* ws = w.slot();
-  switch (context.pass) {
-    case Pass::Start:
-      return {c0, &context};
-    case Pass::Sweep:
-      return {integrate<L>(as, ws, context.order), &context};
-    default:
-      return {load<L>(ws) * a.value(), &context};
-  }
-}
-
-template <int L>
-KOKKOS_FORCEINLINE_FUNCTION bool isStart(const Sweep<L>& a) {
-  return a.context()->pass == Pass::Start;
+  if (X::pass == Pass::Start) return {c0, &context};
+  LanesOf<X> c = a.value() * LanesOf<X>::load(ws);
+  if (X::pass == Pass::Sweep) c += integrate<X::lanes>(as, ws, context.stride, context.order);
+  return {factor * c, &context};
 }
 
 }  // namespace atrapos::taylor::detail

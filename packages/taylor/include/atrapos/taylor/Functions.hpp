@@ -1,6 +1,7 @@
 #pragma once
 
 /// Everything a law may call on its scalar besides + - * /.
+#include "atrapos/taylor/Comparison.hpp"
 #include "atrapos/taylor/Exponential.hpp"
 #include "atrapos/taylor/Hyperbolic.hpp"
 #include "atrapos/taylor/Power.hpp"

@@ -47,11 +47,11 @@ KOKKOS_INLINE_FUNCTION bool solveImplicit(const G& g, const Fad* x, const double
 }
 
 // Order 0 in each lane: y, and the inverse of dg/dy where it is wanted. Lanes that fail become NaN.
-template <int NX, int NY, int ND, class G, int L>
-KOKKOS_INLINE_FUNCTION bool solveLanes(const G& g, const Sweep<L>* x, const Lanes<L>* data, Lanes<L>* y,
-                                       Lanes<L>* inverse) {
+template <int NX, int NY, int ND, class G, class X>
+KOKKOS_INLINE_FUNCTION bool solveLanes(const G& g, const Sweep<X>* x, const LanesOf<X>* data, LanesOf<X>* y,
+                                       LanesOf<X>* inverse, Failures<X::lanes>* failures) {
   bool converged = true;
-  for (int l = 0; l < L; ++l) {
+  for (int l = 0; l < X::lanes; ++l) {
     LocalNewton<NX, NY, ND> newton;
     double x0[NX], y0[NY], data0[ND + 1];
     for (int j = 0; j < NX; ++j) x0[j] = x[j].value()[l];
@@ -59,6 +59,7 @@ KOKKOS_INLINE_FUNCTION bool solveLanes(const G& g, const Sweep<L>* x, const Lane
     for (int j = 0; j < NY; ++j) y0[j] = y[j][l];
     const bool good = newton.solve(g, x0, data0, y0);
     converged = converged && good;
+    if (!good && failures != nullptr) failures->note(l, Operation::Implicit, newton.size);
     for (int j = 0; j < NY; ++j) y[j][l] = good ? y0[j] : std::numeric_limits<double>::quiet_NaN();
     double inverse0[NY * NY];
     if (good) newton.invert(inverse0);
@@ -68,71 +69,69 @@ KOKKOS_INLINE_FUNCTION bool solveLanes(const G& g, const Sweep<L>* x, const Lane
   return converged;
 }
 
-template <int NX, int NY, int ND, class G, int L>
-KOKKOS_INLINE_FUNCTION bool solveImplicit(const G& g, const Sweep<L>* x, const Lanes<L>* data, Sweep<L>* y) {
-  Context<L>* context = nullptr;
+template <int NX, int NY, int ND, class G, class X>
+KOKKOS_INLINE_FUNCTION bool solveImplicit(const G& g, const Sweep<X>* x, const LanesOf<X>* data, Sweep<X>* y) {
+  Context<X::lanes>* context = nullptr;
   for (int j = 0; j < NX; ++j)
     if (!x[j].isPassive()) context = x[j].context();
   for (int j = 0; j < NY; ++j)
     if (!y[j].isPassive()) context = y[j].context();
 
-  Lanes<L> yk[NY], inverse[NY * NY];
+  LanesOf<X> yk[NY], inverse[NY * NY];
   bool converged = true;
   if (context == nullptr) {  // constants only: the solution is one too
     for (int j = 0; j < NY; ++j) yk[j] = y[j].value();
-    converged = solveLanes<NX, NY, ND>(g, x, data, yk, inverse);
-    for (int j = 0; j < NY; ++j) y[j] = Sweep<L>(yk[j]);
+    converged = solveLanes<NX, NY, ND>(g, x, data, yk, inverse, static_cast<Failures<X::lanes>*>(nullptr));
+    for (int j = 0; j < NY; ++j) y[j] = Sweep<X>(yk[j]);
     return converged;
   }
 
-  const bool counting = context->maxOrder < 0;
-  const bool start = context->pass == Pass::Start;
-  for (int j = 0; j < NY; ++j) yk[j] = start ? y[j].value() : Lanes<L>(0.0);
-  if (start && !counting) converged = solveLanes<NX, NY, ND>(g, x, data, yk, inverse);
+  const bool start = X::pass == Pass::Start;
+  for (int j = 0; j < NY; ++j) yk[j] = start ? y[j].value() : LanesOf<X>(0.0);
+  if (start && !X::counting)
+    converged = solveLanes<NX, NY, ND>(g, x, data, yk, inverse, context->failures);
 
-  // Slots: y, then the inverse of dg/dy (its order 0 only), then what g takes.
+  // y takes slots, the inverse of dg/dy is of order 0 only; then comes what g takes.
+  double* slots = takeSlots<X>(*context, NY);
   for (int j = 0; j < NY; ++j) {
-    double* slot = takeSlot(*context);
-    record(*context, slot, yk[j]);
-    y[j] = Sweep<L>(yk[j], context, slot);
+    record<X::pass>(*context, slots + j * X::lanes, yk[j]);
+    y[j] = Sweep<X>(yk[j], context, slots + j * X::lanes);
   }
-  double* inverseSlot[NY * NY];
-  for (int j = 0; j < NY * NY; ++j) {
-    inverseSlot[j] = takeSlot(*context);
-    if (start && !counting) store(inverseSlot[j], inverse[j]);
-  }
+  for (int j = 0; j < NY * NY; ++j) inverse[j] = keep<X>(*context, inverse[j]);
 
   // The arguments as they are before g gives slots to some of them: g's second execution must take the
   // same slots again.
-  Sweep<L> still[NX];
+  Sweep<X> still[NX];
   if (!start)
-    for (int j = 0; j < NX; ++j) still[j] = x[j].isPassive() ? x[j] : x[j].withValue(Lanes<L>(0.0));
+    for (int j = 0; j < NX; ++j) still[j] = x[j].isPassive() ? x[j] : x[j].withValue(LanesOf<X>(0.0));
 
-  Sweep<L> residual[NY];
-  const int cursor = context->cursor;
-  callImplicit<ND>(g, x, static_cast<const Sweep<L>*>(y), data,
+  Sweep<X> residual[NY];
+  const Context<X::lanes> before = *context;
+  callImplicit<ND>(g, x, static_cast<const Sweep<X>*>(y), data,
                    residual);  // Sweep: gt_k; Complete: (dg/dx) dx
-  if (start) return converged;
+  if constexpr (X::pass == Pass::Start) return converged;
 
   for (int i = 0; i < NY; ++i) {
-    Lanes<L> sum(0.0);
-    for (int j = 0; j < NY; ++j)
-      sum += load<L>(inverseSlot[i * NY + j]) * residual[j].coefficient(context->pass);
+    LanesOf<X> sum(0.0);
+    for (int j = 0; j < NY; ++j) sum += inverse[i * NY + j] * residual[j].coefficient();
     yk[i] = -sum;
   }
 
   // Second execution: the histories inside g become those of the true y_k (paper, Algorithm 3, leaves this
   // out).
-  const Pass pass = context->pass;
-  context->pass = Pass::Complete;
-  context->cursor = cursor;
+  using Again = Execution<X::lanes, Pass::Complete, X::counting>;
+  double* const nextSum = context->nextSum;  // the sums of this pass: the second execution takes none
+  *context = before;
+  context->nextSum = nextSum;
+  Sweep<Again> xk[NX], dy[NY], unused[NY];
+  for (int j = 0; j < NX; ++j) xk[j] = still[j].template in<Again>();
   for (int j = 0; j < NY; ++j) {
     double* slot = y[j].slot();
-    record(*context, slot, yk[j]);
-    y[j] = Sweep<L>(yk[j], context, slot);
+    record<Pass::Complete>(*context, slot, yk[j]);
+    y[j] = Sweep<X>(yk[j], context, slot);
+    dy[j] = y[j].template in<Again>();
   }
-  callImplicit<ND>(g, static_cast<const Sweep<L>*>(still), static_cast<const Sweep<L>*>(y), data, residual);
-  context->pass = pass;
+  callImplicit<ND>(g, static_cast<const Sweep<Again>*>(xk), static_cast<const Sweep<Again>*>(dy), data, unused);
   return true;
 }
 

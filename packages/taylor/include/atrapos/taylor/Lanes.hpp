@@ -3,130 +3,108 @@
 #include <Kokkos_Macros.hpp>
 #include <cmath>
 
+// Requests to the compiler: unroll a short loop over the entries of a local array (left to itself it keeps the
+// array in memory), and inline all calls of a function.
+#if defined(__clang__)
+#define ATRAPOS_UNROLL _Pragma("unroll")
+#define ATRAPOS_FLATTEN __attribute__((flatten))
+#elif defined(__GNUC__)
+#define ATRAPOS_UNROLL _Pragma("GCC unroll 16")
+#define ATRAPOS_FLATTEN __attribute__((flatten))
+#else
+#define ATRAPOS_UNROLL
+#define ATRAPOS_FLATTEN
+#endif
+
 namespace atrapos::taylor {
+
+namespace detail {
+
+// GCC's and Clang's vector types keep L doubles in registers whatever the width of the instruction set;
+// loops over an array are at the mercy of the unroller.
+#if defined(__GNUC__) && !defined(__CUDACC__) && !defined(__HIPCC__)
+template <int L>
+struct VectorOf {
+  typedef double Type __attribute__((vector_size(8 * L)));
+  typedef double Memory __attribute__((vector_size(8 * L), aligned(8), may_alias));
+  typedef double Entry __attribute__((may_alias));  ///< one lane within a vector
+};
+#else
+template <int L>
+struct VectorOf {
+  struct Type {
+    double e[L];
+  };
+  using Memory = Type;
+  using Entry = double;
+};
+
+#define ATRAPOS_VECTOR_OPERATOR(OP)                                   \
+  template <class V>                                                  \
+  KOKKOS_FORCEINLINE_FUNCTION auto operator OP(V a, const V& b)       \
+      ->decltype(a.e[0], V()) {                                       \
+    for (unsigned l = 0; l < sizeof(V) / 8; ++l) a.e[l] = a.e[l] OP b.e[l]; \
+    return a;                                                         \
+  }
+ATRAPOS_VECTOR_OPERATOR(+)
+ATRAPOS_VECTOR_OPERATOR(-)
+ATRAPOS_VECTOR_OPERATOR(*)
+ATRAPOS_VECTOR_OPERATOR(/)
+#undef ATRAPOS_VECTOR_OPERATOR
+template <class V>
+KOKKOS_FORCEINLINE_FUNCTION auto operator-(double s, V a) -> decltype(a.e[0], V()) {
+  for (unsigned l = 0; l < sizeof(V) / 8; ++l) a.e[l] = s - a.e[l];
+  return a;
+}
+template <class V>
+KOKKOS_FORCEINLINE_FUNCTION auto operator-(V a) -> decltype(a.e[0], V()) {
+  for (unsigned l = 0; l < sizeof(V) / 8; ++l) a.e[l] = -a.e[l];
+  return a;
+}
+#endif
+
+}  // namespace detail
 
 /// One double per point for L points that are computed together in a SIMD register.
 /// All operations act lane by lane; L is a power of two.
 template <int L>
-struct alignas(8 * L) Lanes {
+struct Lanes {
   static_assert(L > 0 && (L & (L - 1)) == 0, "the number of lanes is a power of two");
   static constexpr int size = L;
+  using Vector = typename detail::VectorOf<L>::Type;
+  using Entry = typename detail::VectorOf<L>::Entry;
 
-  double v[L];
+  alignas(8 * L) Vector v;
 
   Lanes() = default;  ///< uninitialised, like a double; Lanes<L>{} is zero
-  KOKKOS_FORCEINLINE_FUNCTION Lanes(double s) {
-    for (int l = 0; l < L; ++l) v[l] = s;
+  KOKKOS_FORCEINLINE_FUNCTION Lanes(double s) : v(s - Vector{}) {}
+  KOKKOS_FORCEINLINE_FUNCTION explicit Lanes(const Vector& a) : v(a) {}
+  KOKKOS_FORCEINLINE_FUNCTION Entry& operator[](int l) { return reinterpret_cast<Entry*>(&v)[l]; }
+  KOKKOS_FORCEINLINE_FUNCTION const Entry& operator[](int l) const {
+    return reinterpret_cast<const Entry*>(&v)[l];
   }
-  KOKKOS_FORCEINLINE_FUNCTION double& operator[](int l) { return v[l]; }
-  KOKKOS_FORCEINLINE_FUNCTION const double& operator[](int l) const { return v[l]; }
-};
 
-namespace detail {
-
-// GCC's and Clang's vector types keep a value of L doubles in registers whatever the width of the
-// instruction set; loops over v[l] are at the mercy of the unroller.
-#if defined(__GNUC__) && !defined(__CUDACC__) && !defined(__HIPCC__)
-template <int L>
-struct Register {
-  typedef double Type __attribute__((vector_size(8 * L)));
-  typedef double Memory __attribute__((vector_size(8 * L), aligned(8), may_alias));
-
-  Type r;
-
-  static KOKKOS_FORCEINLINE_FUNCTION Register load(const double* p) {
-    return {*reinterpret_cast<const Memory*>(p)};
-  }
-  static KOKKOS_FORCEINLINE_FUNCTION Register fill(double s) { return {s - Type{}}; }
-  KOKKOS_FORCEINLINE_FUNCTION void store(double* p) const { *reinterpret_cast<Memory*>(p) = r; }
-  KOKKOS_FORCEINLINE_FUNCTION Register operator+(const Register& b) const { return {r + b.r}; }
-  KOKKOS_FORCEINLINE_FUNCTION Register operator-(const Register& b) const { return {r - b.r}; }
-  KOKKOS_FORCEINLINE_FUNCTION Register operator*(const Register& b) const { return {r * b.r}; }
-  KOKKOS_FORCEINLINE_FUNCTION Register operator/(const Register& b) const { return {r / b.r}; }
-  KOKKOS_FORCEINLINE_FUNCTION Register operator-() const { return {-r}; }
-};
-#else
-template <int L>
-struct Register {
-  double r[L];
-
-  static KOKKOS_FORCEINLINE_FUNCTION Register load(const double* p) {
-    Register a;
-    for (int l = 0; l < L; ++l) a.r[l] = p[l];
-    return a;
-  }
-  static KOKKOS_FORCEINLINE_FUNCTION Register fill(double s) {
-    Register a;
-    for (int l = 0; l < L; ++l) a.r[l] = s;
-    return a;
+  /// L consecutive doubles; any alignment of a double will do.
+  static KOKKOS_FORCEINLINE_FUNCTION Lanes load(const double* p) {
+    return Lanes(Vector(*reinterpret_cast<const typename detail::VectorOf<L>::Memory*>(p)));
   }
   KOKKOS_FORCEINLINE_FUNCTION void store(double* p) const {
-    for (int l = 0; l < L; ++l) p[l] = r[l];
-  }
-  KOKKOS_FORCEINLINE_FUNCTION Register operator+(const Register& b) const {
-    Register c;
-    for (int l = 0; l < L; ++l) c.r[l] = r[l] + b.r[l];
-    return c;
-  }
-  KOKKOS_FORCEINLINE_FUNCTION Register operator-(const Register& b) const {
-    Register c;
-    for (int l = 0; l < L; ++l) c.r[l] = r[l] - b.r[l];
-    return c;
-  }
-  KOKKOS_FORCEINLINE_FUNCTION Register operator*(const Register& b) const {
-    Register c;
-    for (int l = 0; l < L; ++l) c.r[l] = r[l] * b.r[l];
-    return c;
-  }
-  KOKKOS_FORCEINLINE_FUNCTION Register operator/(const Register& b) const {
-    Register c;
-    for (int l = 0; l < L; ++l) c.r[l] = r[l] / b.r[l];
-    return c;
-  }
-  KOKKOS_FORCEINLINE_FUNCTION Register operator-() const {
-    Register b;
-    for (int l = 0; l < L; ++l) b.r[l] = -r[l];
-    return b;
+    *reinterpret_cast<typename detail::VectorOf<L>::Memory*>(p) = v;
   }
 };
-#endif
-
-template <int L>
-KOKKOS_FORCEINLINE_FUNCTION Register<L> toRegister(const Lanes<L>& a) {
-  return Register<L>::load(a.v);
-}
-
-template <int L>
-KOKKOS_FORCEINLINE_FUNCTION Lanes<L> toLanes(const Register<L>& a) {
-  Lanes<L> r;
-  a.store(r.v);
-  return r;
-}
-
-template <int L>
-KOKKOS_FORCEINLINE_FUNCTION Lanes<L> load(const double* p) {
-  return toLanes(Register<L>::load(p));
-}
-
-template <int L>
-KOKKOS_FORCEINLINE_FUNCTION void store(double* p, const Lanes<L>& a) {
-  toRegister(a).store(p);
-}
-
-}  // namespace detail
 
 #define ATRAPOS_LANES_OPERATOR(OP)                                                         \
   template <int L>                                                                         \
   KOKKOS_FORCEINLINE_FUNCTION Lanes<L> operator OP(const Lanes<L>& a, const Lanes<L>& b) { \
-    return detail::toLanes(detail::toRegister(a) OP detail::toRegister(b));                \
+    return Lanes<L>(a.v OP b.v);                                                           \
   }                                                                                        \
   template <int L>                                                                         \
   KOKKOS_FORCEINLINE_FUNCTION Lanes<L> operator OP(const Lanes<L>& a, double b) {          \
-    return detail::toLanes(detail::toRegister(a) OP detail::Register<L>::fill(b));         \
+    return a OP Lanes<L>(b);                                                               \
   }                                                                                        \
   template <int L>                                                                         \
   KOKKOS_FORCEINLINE_FUNCTION Lanes<L> operator OP(double a, const Lanes<L>& b) {          \
-    return detail::toLanes(detail::Register<L>::fill(a) OP detail::toRegister(b));         \
+    return Lanes<L>(a) OP b;                                                               \
   }                                                                                        \
   template <int L>                                                                         \
   KOKKOS_FORCEINLINE_FUNCTION Lanes<L>& operator OP##=(Lanes<L>& a, const Lanes<L>& b) {   \
@@ -150,36 +128,53 @@ KOKKOS_FORCEINLINE_FUNCTION Lanes<L> operator+(const Lanes<L>& a) {
 
 template <int L>
 KOKKOS_FORCEINLINE_FUNCTION Lanes<L> operator-(const Lanes<L>& a) {
-  return detail::toLanes(-detail::toRegister(a));
+  return Lanes<L>(-a.v);
 }
 
 #define ATRAPOS_LANES_FUNCTION(NAME)                        \
   template <int L>                                          \
   KOKKOS_INLINE_FUNCTION Lanes<L> NAME(const Lanes<L>& a) { \
     Lanes<L> r;                                             \
-    for (int l = 0; l < L; ++l) r.v[l] = std::NAME(a.v[l]); \
+    for (int l = 0; l < L; ++l) r[l] = std::NAME(a[l]);     \
     return r;                                               \
   }
 
 ATRAPOS_LANES_FUNCTION(sqrt)
+ATRAPOS_LANES_FUNCTION(cbrt)
 ATRAPOS_LANES_FUNCTION(exp)
+ATRAPOS_LANES_FUNCTION(expm1)
 ATRAPOS_LANES_FUNCTION(log)
+ATRAPOS_LANES_FUNCTION(log10)
+ATRAPOS_LANES_FUNCTION(log1p)
 ATRAPOS_LANES_FUNCTION(sin)
 ATRAPOS_LANES_FUNCTION(cos)
 ATRAPOS_LANES_FUNCTION(tan)
-ATRAPOS_LANES_FUNCTION(sinh)
-ATRAPOS_LANES_FUNCTION(cosh)
-ATRAPOS_LANES_FUNCTION(tanh)
 ATRAPOS_LANES_FUNCTION(asin)
 ATRAPOS_LANES_FUNCTION(acos)
 ATRAPOS_LANES_FUNCTION(atan)
+ATRAPOS_LANES_FUNCTION(sinh)
+ATRAPOS_LANES_FUNCTION(cosh)
+ATRAPOS_LANES_FUNCTION(tanh)
+ATRAPOS_LANES_FUNCTION(asinh)
+ATRAPOS_LANES_FUNCTION(acosh)
+ATRAPOS_LANES_FUNCTION(atanh)
+ATRAPOS_LANES_FUNCTION(erf)
+ATRAPOS_LANES_FUNCTION(fabs)
 #undef ATRAPOS_LANES_FUNCTION
 
-template <int L>
-KOKKOS_INLINE_FUNCTION Lanes<L> pow(const Lanes<L>& a, double r) {
-  Lanes<L> c;
-  for (int l = 0; l < L; ++l) c.v[l] = std::pow(a.v[l], r);
-  return c;
-}
+#define ATRAPOS_LANES_FUNCTION(NAME)                                            \
+  template <int L>                                                              \
+  KOKKOS_INLINE_FUNCTION Lanes<L> NAME(const Lanes<L>& a, const Lanes<L>& b) {  \
+    Lanes<L> r;                                                                 \
+    for (int l = 0; l < L; ++l) r[l] = std::NAME(a[l], b[l]);                   \
+    return r;                                                                   \
+  }
+
+ATRAPOS_LANES_FUNCTION(pow)
+ATRAPOS_LANES_FUNCTION(atan2)
+ATRAPOS_LANES_FUNCTION(hypot)
+ATRAPOS_LANES_FUNCTION(fmin)
+ATRAPOS_LANES_FUNCTION(fmax)
+#undef ATRAPOS_LANES_FUNCTION
 
 }  // namespace atrapos::taylor

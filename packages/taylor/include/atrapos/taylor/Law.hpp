@@ -2,6 +2,7 @@
 
 #include <Sacado.hpp>
 #include <cstddef>
+#include <vector>
 
 #include "atrapos/taylor/Functions.hpp"
 #include "atrapos/taylor/Sweep.hpp"
@@ -19,7 +20,8 @@
 ///     };
 ///
 /// Its operations must not depend on the values of inputs or data (no branches): one execution serves
-/// several points. They may depend on the law's own members.
+/// several points; if_then_else, min, max and abs choose point by point. They may depend on the law's own
+/// members. Intermediate results are stored in a T (or a Matrix3<T>, Symmetric3<T>), never in an auto.
 namespace atrapos::taylor {
 
 /// out = law(in): numInputs, numData and numOutputs doubles.
@@ -43,43 +45,100 @@ KOKKOS_INLINE_FUNCTION void tangent(const Law& law, const double* in, const doub
   }
 }
 
-/// Executes the law once for the pass and order in context. Shapes: in[numInputs], data[numData],
-/// out[numOutputs]. In Pass::Start `in` holds values; in Pass::Sweep coefficient `order` of the inputs
-/// (zeros to get the nonlinear part of the outputs, paper (16)-(20)); in Pass::Complete an increment of
-/// that coefficient, whose linear effect is added to the histories and returned in `out`.
-/// Orders must come one after the other, each Sweep before its Completes; histories need no initial value.
-/// Values outside an operation's domain give NaN or infinity in their lane.
-template <int L, class Law>
-KOKKOS_INLINE_FUNCTION void sweep(const Law& law, Context<L>& context, const Lanes<L>* in,
-                                  const Lanes<L>* data, Lanes<L>* out) {
-  context.cursor = 0;
-  Sweep<L> x[Law::numInputs];
-  Sweep<L> y[Law::numOutputs];
+namespace detail {
+
+// Inlined whole, law included: only then do contexts, slots and what is constant stay out of memory.
+template <class X, bool Known, int L, class Law>
+ATRAPOS_FLATTEN KOKKOS_INLINE_FUNCTION void execute(const Law& law, Context<L>& given,
+                                                    [[maybe_unused]] const Lanes<L>* in, const Lanes<L>* data,
+                                                    Lanes<L>* out) {
+  Context<L> context;
+  context.begin(given);
+  Sweep<X> x[Law::numInputs];
+  Sweep<X> y[Law::numOutputs];
+  // Inputs come first, in their order. A slot that a Sweep without inputs left alone is written by Complete.
+  double* slots = takeSlots<X>(context, Law::numInputs);
+  ATRAPOS_UNROLL
   for (int j = 0; j < Law::numInputs; ++j) {
-    x[j] = Sweep<L>(in[j], &context);
-    x[j].slot();  // inputs come first, in their order
+    double* slot = slots + j * X::lanes;
+    if constexpr (Known) {
+      x[j] = Sweep<X>(in[j], &context, slot);
+      in[j].store(slot + context.order * context.stride);
+    } else {
+      x[j] = Sweep<X>::unknown(&context, slot);
+    }
   }
   law(x, data, y);
-  for (int i = 0; i < Law::numOutputs; ++i) out[i] = y[i].coefficient(context.pass);
+  given.taken.slots = context.taken.slots;
+  given.taken.constants = context.taken.constants;
+  given.taken.sums = context.taken.sums;
+  if (out == nullptr) return;
+  ATRAPOS_UNROLL
+  for (int i = 0; i < Law::numOutputs; ++i) out[i] = y[i].coefficient();
 }
 
-/// Number of history slots that one execution of the law takes, counted by executing it. Host.
+}  // namespace detail
+
+/// The passes: each executes the law once at L points for the order in context. Shapes: in[numInputs],
+/// data[numData], out[numOutputs]. Orders come one after the other; histories need no initial value.
+
+/// Order 0: `in` holds values. In a lane where an operation has no series the result is NaN, with a note in
+/// context.failures.
 template <int L, class Law>
-int historySlots(const Law& law) {
-  // With maxOrder = -1 slots are 0 doubles apart: all of them share this one.
-  double scratch[L];
-  Context<L> context{scratch, -1, 0, Pass::Start, 0};
-  Lanes<L> in[Law::numInputs], data[Law::numData + 1], out[Law::numOutputs];
-  for (auto& x : in) x = 1.0;
-  for (auto& x : data) x = 1.0;
-  sweep<L>(law, context, in, data, out);
-  return context.cursor;
+KOKKOS_FORCEINLINE_FUNCTION void start(const Law& law, Context<L>& context, const Lanes<L>* in,
+                                       const Lanes<L>* data, Lanes<L>* out) {
+  detail::execute<Execution<L, Pass::Start>, true>(law, context, in, data, out);
 }
 
-/// Number of doubles of the histories of L points.
-template <int L>
-constexpr std::size_t historyDoubles(int slots, int maxOrder) {
-  return static_cast<std::size_t>(slots) * (maxOrder + 1) * L;
+/// Order k with coefficient k of the inputs taken as zero, because it is not known yet: `out` is the nonlinear
+/// part of order k (paper (16)-(20)).
+template <int L, class Law>
+KOKKOS_FORCEINLINE_FUNCTION void sweep(const Law& law, Context<L>& context, const Lanes<L>* data, Lanes<L>* out) {
+  detail::execute<Execution<L, Pass::Sweep>, false>(law, context, static_cast<const Lanes<L>*>(nullptr), data, out);
+}
+
+/// Once after such a sweep: `in` is coefficient k of the inputs. The histories become those of the true series.
+template <int L, class Law>
+KOKKOS_FORCEINLINE_FUNCTION void complete(const Law& law, Context<L>& context, const Lanes<L>* in,
+                                          const Lanes<L>* data) {
+  detail::execute<Execution<L, Pass::Complete>, true>(law, context, in, data, static_cast<Lanes<L>*>(nullptr));
+}
+
+/// The same, and `out` is the linear effect of `in`.
+template <int L, class Law>
+KOKKOS_FORCEINLINE_FUNCTION void complete(const Law& law, Context<L>& context, const Lanes<L>* in,
+                                          const Lanes<L>* data, Lanes<L>* out) {
+  detail::execute<Execution<L, Pass::Complete>, true>(law, context, in, data, out);
+}
+
+/// Order k in one pass where coefficient k of the inputs is known.
+template <int L, class Law>
+KOKKOS_FORCEINLINE_FUNCTION void sweepKnown(const Law& law, Context<L>& context, const Lanes<L>* in,
+                                            const Lanes<L>* data, Lanes<L>* out) {
+  detail::execute<Execution<L, Pass::Sweep>, true>(law, context, in, data, out);
+}
+
+/// What the law needs to keep at a point, counted by executing it. Host.
+template <class Law>
+HistoryShape historyShape(const Law& law) {
+  using X = Execution<1, Pass::Start, true>;
+  constexpr int largestBlock = 16;  // slots that an operation may read at once beyond those there are
+  Context<1> context;
+  context.shape.slots = 64;
+  for (;;) {
+    std::vector<double> memory(context.shape.slots + largestBlock + Law::numInputs, 1.0);
+    context.memory = memory.data();
+    Lanes<1> in[Law::numInputs], data[Law::numData + 1];
+    for (auto& x : in) x = 1.0;
+    for (auto& x : data) x = 1.0;
+    detail::execute<X, true>(law, context, in, data, static_cast<Lanes<1>*>(nullptr));
+    if (context.taken.slots <= context.shape.slots) break;
+    context.shape.slots = context.taken.slots;
+  }
+  HistoryShape shape = context.taken;
+  // Orders a multiple of 16 slots (1 kB and more) apart would fall on the same few sets of a cache.
+  if (shape.slots % 16 == 0) ++shape.slots;
+  return shape;
 }
 
 }  // namespace atrapos::taylor

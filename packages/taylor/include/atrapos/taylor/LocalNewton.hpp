@@ -46,6 +46,7 @@ struct LocalNewton {
   double gx[NY][NX];   ///< dg/dx
   double gy[NY * NY];  ///< dg/dy by rows
   SmallLu<NY> lu;      ///< of gy
+  double size = 0;     ///< relative residual where `solve` ended
 
   /// Newton from the law's own start where it has one, otherwise from the guess in y. Each equation is judged
   /// by its own size, the sum of |dg/dz| |z| over its x and y, so neither units nor scalings matter. False
@@ -72,7 +73,7 @@ struct LocalNewton {
         for (int j = 0; j < NX; ++j) weight[i] += std::fabs(gx[i][j] * x[j]);
         for (int j = 0; j < NY; ++j) weight[i] += std::fabs(gy[i * NY + j] * y[j]);
       }
-      const double size = weighted(g, weight);
+      size = weighted(g, weight);
       if (std::isnan(size) || !lu.factor(gy)) return false;
       if (size == 0 || (last >= 0 && last <= 4 * eps)) return true;
       if (last >= 0 && last < nearRounding && size > 0.5 * last) return true;

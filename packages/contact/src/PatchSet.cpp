@@ -1,0 +1,276 @@
+#include "atrapos/contact/PatchSet.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace atrapos::contact {
+namespace {
+
+double distance(const PatchPoint& s, const double* x) { return std::sqrt(2 * SquaredDistance(s, x).value); }
+
+}  // namespace
+
+PatchSet::PatchSet(std::vector<BezierPatch> patches, bool reversed) {
+  if (patches.empty()) detail::refuse("patch surface", "needs at least one patch, got none");
+  for (const BezierPatch& patch : patches) {
+    patch.validate();
+    for (int d = 0; d < 2; ++d) degree_[d] = std::max(degree_[d], patch.degree[d]);
+    for (const double w : patch.weights) rational_ = rational_ || w != 1;
+  }
+  numSamples_ = std::min(2 * std::max(degree_[0], degree_[1]) + 3, 13);
+  double low[3], high[3];
+  std::fill_n(low, 3, std::numeric_limits<double>::infinity());
+  std::fill_n(high, 3, -std::numeric_limits<double>::infinity());
+  for (const BezierPatch& source : patches) {
+    Patch patch;
+    patch.coefficients = source.coefficients(degree_);
+    for (int c = 0; c < 3; ++c) {
+      patch.low[c] = patch.high[c] = source.points[0][c];
+      for (const auto& point : source.points) {
+        patch.low[c] = std::min(patch.low[c], point[c]);
+        patch.high[c] = std::max(patch.high[c], point[c]);
+      }
+      low[c] = std::min(low[c], patch.low[c]);
+      high[c] = std::max(high[c], patch.high[c]);
+    }
+    patches_.push_back(std::move(patch));
+  }
+  for (int c = 0; c < 3; ++c) size_ = std::max(size_, high[c] - low[c]);
+  for (int n = 0; n < numPatches(); ++n)
+    for (int a = 0; a < numSamples_; ++a)
+      for (int b = 0; b < numSamples_; ++b) {
+        const double t[2] = {-1 + 2.0 * a / (numSamples_ - 1), -1 + 2.0 * b / (numSamples_ - 1)};
+        patches_[n].samples.push_back(point(n, t));
+      }
+  requireNormals();
+  findSharedEdges();
+  makeTool(reversed);
+}
+
+PatchPoint PatchSet::point(int patch, const double* t) const {
+  return PatchPoint::of(patches_[patch].coefficients.data(), degree_[0], degree_[1], t[0], t[1]);
+}
+
+void PatchSet::requireNormals() const {
+  for (int n = 0; n < numPatches(); ++n) {
+    double largest = 0;
+    for (const PatchPoint& s : patches_[n].samples)
+      for (int c = 0; c < 3; ++c) largest = std::max({largest, std::fabs(s.S1[c]), std::fabs(s.S2[c])});
+    for (std::size_t i = 0; i < patches_[n].samples.size(); ++i) {
+      const PatchPoint& s = patches_[n].samples[i];
+      double N[3];
+      s.cross(N);
+      // Relative to the longest tangent of the patch: a side that shrinks to a point has none.
+      if (!(std::sqrt(N[0] * N[0] + N[1] * N[1] + N[2] * N[2]) > 1e-9 * largest * largest))
+        detail::refuse("patch surface", "the normal of patch " + std::to_string(n + 1) + " vanishes at (" +
+                                            detail::shown(s.S[0]) + ", " + detail::shown(s.S[1]) + ", " +
+                                            detail::shown(s.S[2]) +
+                                            "): cut the surface there or move control points that coincide");
+    }
+  }
+}
+
+/// Projected Newton's method from (t1, t2) inside [-1, 1]^2.
+Foot PatchSet::descend(int patch, double t1, double t2, const double* x) const {
+  Foot foot{patch, {t1, t2}, 0};
+  PatchPoint s = point(patch, foot.t);
+  for (int iteration = 0; iteration < 60; ++iteration) {
+    const SquaredDistance f(s, x);
+    bool held[2];
+    for (int d = 0; d < 2; ++d) held[d] = (foot.t[d] <= -1 && f.g[d] > 0) || (foot.t[d] >= 1 && f.g[d] < 0);
+    double dt[2], moved = 0;
+    f.step(held, dt);
+    for (double share = 1; share > 1e-6; share /= 2) {
+      double t[2];
+      for (int d = 0; d < 2; ++d) t[d] = std::clamp(foot.t[d] + share * dt[d], -1.0, 1.0);
+      const PatchPoint trial = point(patch, t);
+      if (SquaredDistance(trial, x).value < f.value) {
+        moved = std::fabs(t[0] - foot.t[0]) + std::fabs(t[1] - foot.t[1]);
+        std::copy_n(t, 2, foot.t);
+        s = trial;
+        break;
+      }
+    }
+    if (moved < 1e-13) break;
+  }
+  foot.distance = distance(s, x);
+  return foot;
+}
+
+Foot PatchSet::nearestOn(int patch, const double* x) const {
+  // From the best sample and from the best one that is not its neighbour.
+  const auto& samples = patches_[patch].samples;
+  const int n = numSamples_;
+  int best = 0, other = -1;
+  std::vector<double> squares;
+  for (const PatchPoint& s : samples) squares.push_back(SquaredDistance(s, x).value);
+  best = static_cast<int>(std::min_element(squares.begin(), squares.end()) - squares.begin());
+  for (int i = 0; i < n * n; ++i) {
+    const bool neighbour = std::abs(i / n - best / n) <= 1 && std::abs(i % n - best % n) <= 1;
+    if (!neighbour && (other < 0 || squares[i] < squares[other])) other = i;
+  }
+  const auto from = [&](int i) {
+    return descend(patch, -1 + 2.0 * (i / n) / (n - 1), -1 + 2.0 * (i % n) / (n - 1), x);
+  };
+  const Foot first = from(best);
+  if (other < 0) return first;
+  const Foot second = from(other);
+  return second.distance < first.distance ? second : first;
+}
+
+double PatchSet::boxDistance(const Patch& patch, const double* x) const {
+  double square = 0;
+  for (int c = 0; c < 3; ++c) {
+    const double d = std::max({patch.low[c] - x[c], x[c] - patch.high[c], 0.0});
+    square += d * d;
+  }
+  return std::sqrt(square);
+}
+
+/// Whether x pulls the foot over an edge that no patch continues.
+bool PatchSet::beyondEdge(const Foot& foot, const double* x) const {
+  if (foot.distance <= 1e-12 * size_) return false;
+  const PatchPoint s = point(foot.patch, foot.t);
+  const SquaredDistance f(s, x);
+  for (int d = 0; d < 2; ++d) {
+    const double tangent = std::sqrt(f.metric[2 * d]);
+    // Cosine of the angle to the tangent; Newton's method leaves it at about 1e-8 or less at a true foot.
+    const double pull = -f.g[d] / (foot.distance * tangent);
+    if (foot.t[d] <= -1 && pull < -1e-7 && !patches_[foot.patch].shared[2 * d]) return true;
+    if (foot.t[d] >= 1 && pull > 1e-7 && !patches_[foot.patch].shared[2 * d + 1]) return true;
+  }
+  return false;
+}
+
+Foot PatchSet::nearest(const double* x) const {
+  std::vector<double> bounds;
+  for (const Patch& patch : patches_) bounds.push_back(boxDistance(patch, x));
+  std::vector<int> order(patches_.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(), [&](int a, int b) { return bounds[a] < bounds[b]; });
+  Foot best;
+  best.distance = std::numeric_limits<double>::infinity();
+  for (const int n : order) {
+    if (bounds[n] > best.distance) break;
+    const Foot foot = nearestOn(n, x);
+    // Of patches that share the place, the first: decided by more than rounding.
+    if (foot.distance < best.distance - 1e-14 * size_) best = foot;
+  }
+  if (beyondEdge(best, x)) best.patch = -1;
+  return best;
+}
+
+std::array<double, 3> PatchSet::locate(const double* x) const {
+  const Foot foot = nearest(x);
+  return {static_cast<double>(foot.patch), foot.t[0], foot.t[1]};
+}
+
+PatchSet::Following PatchSet::follow(const double* x, double* data) const {
+  Following result;
+  if (data[0] < 0) {
+    const Foot foot = nearest(x);
+    if (foot.patch < 0) return result;
+    const double trial[3] = {static_cast<double>(foot.patch), foot.t[0], foot.t[1]};
+    double y[6];
+    tool_.start(x, trial, y);
+    if (y[0] < 0)
+      return result;  // from behind: the point went round the edge, it has not been pushed through
+    std::copy_n(trial, 3, data);
+    result.event = Event::Reaches;
+    return result;
+  }
+  double y[6];
+  tool_.start(x, data, y);
+  const double gap = y[0];
+  for (int crossing = 0; crossing < 4; ++crossing) {
+    const double beyond = std::max(std::fabs(y[4]), std::fabs(y[5])) - 1;
+    if (beyond <= 1e-9) break;  // on the patch, or on its border up to the accuracy of the search
+    const double place[3] = {x[0] - y[0] * y[1], x[1] - y[0] * y[2], x[2] - y[0] * y[3]};
+    const Foot foot = nearest(place);
+    if (foot.patch < 0) {
+      data[0] = -1;
+      data[1] = data[2] = 0;
+      result.event = Event::Leaves;
+      return result;
+    }
+    const bool same = foot.patch == static_cast<int>(data[0]) &&
+                      std::fabs(foot.t[0] - y[4]) + std::fabs(foot.t[1] - y[5]) < 0.5;
+    if (same) break;  // nothing else continues it better: a ridge, or beyond the border by rounding
+    data[0] = foot.patch;
+    data[1] = foot.t[0];
+    data[2] = foot.t[1];
+    result.event = Event::Crosses;
+    tool_.start(x, data, y);
+  }
+  data[1] = y[4];
+  data[2] = y[5];
+  result.mismatch = std::fabs(y[0] - gap);
+  return result;
+}
+
+std::string PatchSet::ambiguity(const double* x) const {
+  const Foot foot = nearest(x);
+  if (foot.patch < 0) return {};
+  const SquaredDistance f(point(foot.patch, foot.t), x);
+  const double metric = f.metric[0] * f.metric[2] - f.metric[1] * f.metric[1];
+  if (f.H[0] * f.H[2] - f.H[1] * f.H[1] < 1e-8 * metric)
+    return "lies at or beyond a centre of curvature of the surface";
+  const PatchPoint s = point(foot.patch, foot.t);
+  for (int n = 0; n < numPatches(); ++n) {
+    if (boxDistance(patches_[n], x) > foot.distance * (1 + 1e-9)) continue;
+    const Foot other = nearestOn(n, x);
+    if (other.distance <= foot.distance * (1 + 1e-9) &&
+        distance(point(n, other.t), s.S) > 1e-3 * foot.distance)
+      return "is equally near to two places of the surface";
+  }
+  return {};
+}
+
+void PatchSet::findSharedEdges() {
+  const double tolerance = 1e-5 * size_;  // modellers leave gaps of 1e-6 or so between faces that meet
+  for (int n = 0; n < numPatches(); ++n)
+    for (int edge = 0; edge < 4; ++edge) {
+      bool shared = true;
+      for (const double place : {-0.6, 0.1, 0.7}) {
+        double t[2];
+        t[edge / 2] = edge % 2 == 0 ? -1 : 1;
+        t[1 - edge / 2] = place;
+        const PatchPoint s = point(n, t);
+        bool met = false;
+        for (int m = 0; m < numPatches() && !met; ++m)
+          met =
+              m != n && boxDistance(patches_[m], s.S) <= tolerance && nearestOn(m, s.S).distance <= tolerance;
+        for (const double sign : {1.0, -1.0}) {  // a patch that closes on itself
+          double opposite[2];
+          opposite[edge / 2] = -t[edge / 2];
+          opposite[1 - edge / 2] = sign * place;
+          met = met || distance(point(n, opposite), s.S) <= tolerance;
+        }
+        shared = shared && met;
+      }
+      patches_[n].shared[edge] = shared;
+    }
+}
+
+void PatchSet::makeTool(bool reversed) {
+  const std::size_t stride = patches_[0].coefficients.size();
+  Kokkos::View<double*> all("patches", stride * (patches_.size() + 1));
+  auto host = Kokkos::create_mirror_view(all);
+  for (std::size_t n = 0; n < patches_.size(); ++n)
+    for (std::size_t i = 0; i < stride; ++i) host(n * stride + i) = patches_[n].coefficients[i];
+  double* plane = &host(patches_.size() * stride);
+  std::fill_n(plane, stride, 0.0);
+  plane[3] = 1;
+  plane[(degree_[1] + 1) * 4] = size_;  // t1 along x
+  plane[4 + 1] = size_;                 // t2 along y
+  Kokkos::deep_copy(all, host);
+  tool_.numPatches = numPatches();
+  std::copy(degree_.begin(), degree_.end(), tool_.degree);
+  tool_.rational = rational_;
+  tool_.orientation = reversed ? -1 : 1;
+  tool_.coefficients = all;
+}
+
+}  // namespace atrapos::contact

@@ -1,0 +1,49 @@
+// Keys of the block `shells`.
+#include "deck/DeckTables.hpp"
+#include "deck/Entries.hpp"
+
+namespace atrapos::deck {
+
+const Choices<ShellPlace>& shellPlaces() {
+  static const Choices<ShellPlace> choices{
+      {"top", ShellPlace::Top}, {"middle", ShellPlace::Middle}, {"bottom", ShellPlace::Bottom}};
+  return choices;
+}
+
+const Table<ShellSection>& shellSectionTable() {
+  static const Table<ShellSection> table{
+      names("blocks", required, &ShellSection::blocks, "blocks of the mesh with shells"),
+      {"thickness", false, "a positive number or attribute",
+       "of the shells; attribute: the blocks' own, by element or by node",
+       [](const Value& v, ShellSection& s) {
+         if (v.isText() && v.text() == "attribute") {
+           s.thickness.reset();
+         } else if (v.isText()) {
+           v.fail(fmt::format("expected a positive number or attribute, got {}", v.shown()));
+         } else {
+           s.thickness = v.real(check::positive);
+         }
+       },
+       [](const ShellSection& s) {
+         return Node{s.thickness ? yaml(*s.thickness) : "attribute", {}};
+       }}};
+  return table;
+}
+
+const Table<Shells>& shellsTable() {
+  static const Table<Shells> table = [] {
+    auto angle = real("fold_angle", optional, &Shells::foldAngle, check::positive,
+                      "degrees, below 180: faces at a node share a director up to this angle");
+    angle.read = [inner = angle.read](const Value& v, Shells& s) {
+      inner(v, s);
+      if (s.foldAngle >= 180) {
+        v.fail(fmt::format("must be below 180 degrees, got {}", v.shown()));
+      }
+    };
+    return Table<Shells>{angle, entries("sections", optional, &Shells::sections, shellSectionTable(),
+                                        "each with blocks, thickness", "thickness of the shells")};
+  }();
+  return table;
+}
+
+}  // namespace atrapos::deck

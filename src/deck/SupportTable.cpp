@@ -1,0 +1,109 @@
+// Keys of the entries of `supports`.
+#include "deck/DeckTables.hpp"
+
+namespace atrapos::deck {
+namespace {
+
+using Condition = Support::Condition;
+using Components = std::array<std::optional<Prescribed>, 3> Support::*;
+
+const Choices<Condition>& conditions() {
+  static const Choices<Condition> choices{{"clamped", Condition::Clamped},
+                                          {"hinged", Condition::Hinged},
+                                          {"symmetry_x", Condition::SymmetryX},
+                                          {"symmetry_y", Condition::SymmetryY},
+                                          {"symmetry_z", Condition::SymmetryZ}};
+  return choices;
+}
+
+Field<Support> conditionField() {
+  const std::string accepts = "one of " + joined(wordsOf(conditions()));
+  return {"condition",
+          false,
+          accepts,
+          "what is held at zero, of shells in displacement and director",
+          [](const Value& v, Support& s) {
+            s.condition = choose(v, v.text(), conditions());
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+              if (holds(s.condition, axis, false)) {
+                s.components[axis] = Prescribed{};
+              }
+              if (holds(s.condition, axis, true)) {
+                s.director[axis] = Prescribed{};
+              }
+            }
+          },
+          [](const Support& s) {
+            return Node{wordOf(s.condition, conditions()), {}};
+          }};
+}
+
+/// x, y or z of the displacement or the director: a number, or a map with value and per_load_factor.
+Field<Support> component(std::size_t axis, bool director) {
+  static const Table<Prescribed> table{
+      real("value", optional, &Prescribed::value, check::any, "displacement at load factor 0"),
+      real("per_load_factor", optional, &Prescribed::perLoadFactor, check::any,
+           "added times the load factor")};
+  const Components components = director ? &Support::director : &Support::components;
+  const std::string letter(1, "xyz"[axis]);
+  return {director ? "director_" + letter : letter,
+          false,
+          "a number, or a map with value, per_load_factor",
+          director
+              ? "prescribed displacement along " + letter + " of the directors of shells, top against middle"
+              : "prescribed displacement along " + letter,
+          [=](const Value& v, Support& s) {
+            if (holds(s.condition, axis, director)) {
+              v.fail(fmt::format("is held by condition: {} already", wordOf(s.condition, conditions())));
+            }
+            Prescribed p;
+            if (v.isMap() && !v.isEmptyMap()) {
+              read(table, v, p);
+            } else {
+              p.value = v.real();
+            }
+            (s.*components)[axis] = p;
+          },
+          [=](const Support& s) {
+            if (!(s.*components)[axis] || holds(s.condition, axis, director)) {
+              return Node{};
+            }
+            const Prescribed p = *(s.*components)[axis];
+            return p.perLoadFactor == 0 ? Node{yaml(p.value), {}} : print(table, p);
+          }};
+}
+
+}  // namespace
+
+bool holds(Support::Condition condition, std::size_t axis, bool director) {
+  switch (condition) {
+    case Support::Condition::None:
+      return false;
+    case Support::Condition::Clamped:
+      return true;
+    case Support::Condition::Hinged:
+      return !director;
+    case Support::Condition::SymmetryX:
+      return axis == 0;
+    case Support::Condition::SymmetryY:
+      return axis == 1;
+    case Support::Condition::SymmetryZ:
+      return axis == 2;
+  }
+  return false;
+}
+
+const Table<Support>& supportTable() {
+  static const Table<Support> table{
+      name("set", required, &Support::set, "a node set or side set, name or id", "nodes that are held"),
+      conditionField(),
+      component(0, false),
+      component(1, false),
+      component(2, false),
+      component(0, true),
+      component(1, true),
+      component(2, true)};
+  return table;
+}
+
+}  // namespace atrapos::deck

@@ -1,0 +1,291 @@
+// What decks say of shells: generated middle surfaces, sections, supports, loads, contact; and what is
+// refused.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "deck/Deck.hpp"
+
+namespace {
+
+using namespace atrapos;
+using namespace atrapos::deck;
+
+const char* const goodDeck = R"(mesh:
+  file: plate.exo
+  generate: {shape: shell_plate, length: 10, width: 2, divisions: [5, 1], block: plate}
+materials:
+  steel: {law: saint_venant_kirchhoff, youngs_modulus: 220000, poissons_ratio: 0.3, blocks: [plate]}
+shells:
+  fold_angle: 30
+  sections:
+    skin: {blocks: [plate], thickness: 0.25}
+supports:
+  clamp: {set: x_min, condition: clamped}
+  side: {set: y_min, condition: symmetry_y, director_x: 0.5}
+  tip: {set: x_max_y_max, y: 0, director_z: {value: 0, per_load_factor: 0.1}}
+loads:
+  line: {type: edge, set: x_max, force: [0, 0, 1]}
+  turn: {type: edge, set: x_max, follower_moment: 2}
+  bend: {type: edge, set: x_max, moment: [0, 3, 0], constant: true}
+  push: {type: edge, set: x_min, follower_force: [0, -1, 0], constant: true}
+  pull: {type: edge, set: x_max, total: [3, 0, 0], constant: true}
+  wind: {type: surface, set: top, pressure: 0.1, follower: true, at: top}
+tools:
+  floor: {type: plane, point: [0, 0, -1], normal: [0, 0, 1]}
+contact:
+  below: {tool: floor, set: bottom, at: bottom, stiffness: 1000, regularisation: 0.1}
+  points: {tool: floor, set: x_mid, points: nodes, stiffness: 1000, regularisation: 0.1}
+path:
+  stop: {load_factor: 1}
+)";
+
+std::string changed(const std::string& from, const std::string& to, std::string text = goodDeck) {
+  const auto at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << "the good deck has no '" << from << "'";
+  return at == std::string::npos ? text : text.replace(at, from.size(), to);
+}
+
+fem::Mesh meshOf(const Deck& deck) {
+  return fem::shellPlateMesh(std::get<fem::ShellPlateOptions>(*deck.mesh.generate));
+}
+
+/// The line with which a deck is refused, alone or against a mesh.
+std::string errorOf(const std::string& text, const fem::Mesh* mesh = nullptr) {
+  try {
+    const Deck deck = readDeckText(text, "shell.yaml");
+    if (mesh != nullptr) checkAgainstMesh(deck, *mesh);
+  } catch (const DeckError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+void expectError(const std::string& from, const std::string& to, const std::string& start,
+                 const fem::Mesh* mesh = nullptr) {
+  const std::string error = errorOf(changed(from, to), mesh);
+  EXPECT_EQ(error.substr(0, start.size() + 12), "shell.yaml: " + start) << error;
+  EXPECT_EQ(error.find('\n'), std::string::npos) << error;
+}
+
+fem::Mesh plateMesh() { return meshOf(readDeckText(goodDeck, "shell.yaml")); }
+
+}  // namespace
+
+TEST(ShellDeck, goodDeckGivesItsValues) {
+  const Deck deck = readDeckText(goodDeck, "shell.yaml");
+  const auto& plate = std::get<fem::ShellPlateOptions>(*deck.mesh.generate);
+  EXPECT_EQ(plate.divisions, (std::array<int, 2>{5, 1}));
+  EXPECT_EQ(plate.topology, fem::Topology::Shell8);
+  EXPECT_EQ(plate.angle, 90);
+  EXPECT_EQ(deck.shells.foldAngle, 30);
+  ASSERT_EQ(deck.shells.sections.size(), 1u);
+  EXPECT_EQ(deck.shells.sections[0].name, "skin");
+  EXPECT_EQ(deck.shells.sections[0].blocks, std::vector<std::string>{"plate"});
+  EXPECT_EQ(*deck.shells.sections[0].thickness, 0.25);
+
+  const auto& line = std::get<EdgeLoad>(deck.loads[0].load);
+  EXPECT_EQ(line.kind, EdgeLoad::Kind::Force);
+  EXPECT_EQ(line.vector, (Vector3{0, 0, 1}));
+  const auto& turn = std::get<EdgeLoad>(deck.loads[1].load);
+  EXPECT_EQ(turn.kind, EdgeLoad::Kind::FollowerMoment);
+  EXPECT_EQ(turn.moment, 2);
+  const auto& bend = std::get<EdgeLoad>(deck.loads[2].load);
+  EXPECT_EQ(bend.kind, EdgeLoad::Kind::Moment);
+  EXPECT_EQ(bend.vector, (Vector3{0, 3, 0}));
+  const auto& push = std::get<EdgeLoad>(deck.loads[3].load);
+  EXPECT_EQ(push.kind, EdgeLoad::Kind::FollowerForce);
+  EXPECT_EQ(push.vector, (Vector3{0, -1, 0}));
+  EXPECT_EQ(std::get<EdgeLoad>(deck.loads[4].load).kind, EdgeLoad::Kind::Total);
+  EXPECT_TRUE(deck.loads[4].constant);
+  const auto& wind = std::get<SurfaceLoad>(deck.loads[5].load);
+  EXPECT_TRUE(wind.follower);
+  EXPECT_EQ(wind.at, ShellPlace::Top);
+  EXPECT_EQ(deck.contacts[0].at, ShellPlace::Bottom);
+  EXPECT_EQ(deck.contacts[1].at, ShellPlace::Middle);
+  const fem::Mesh mesh = meshOf(deck);
+  EXPECT_EQ(errorOf(goodDeck, &mesh), "no error");
+}
+
+TEST(ShellDeck, conditionsHoldTheirComponents) {
+  struct Case {
+    const char *word, *displacement, *director;
+  };
+  for (const Case& c : {Case{"clamped", "xyz", "xyz"},
+                        {"hinged", "xyz", ""},
+                        {"symmetry_x", "x", "x"},
+                        {"symmetry_y", "y", "y"},
+                        {"symmetry_z", "z", "z"}}) {
+    SCOPED_TRACE(c.word);
+    const Deck deck =
+        readDeckText(changed("condition: clamped", std::string("condition: ") + c.word), "s.yaml");
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const auto held = [&](const char* letters) {
+        return std::string(letters).find("xyz"[axis]) != std::string::npos;
+      };
+      EXPECT_EQ(deck.supports[0].components[axis].has_value(), held(c.displacement));
+      EXPECT_EQ(deck.supports[0].director[axis].has_value(), held(c.director));
+      if (held(c.displacement)) {
+        EXPECT_EQ(deck.supports[0].components[axis]->value, 0);
+      }
+    }
+  }
+  const Deck deck = readDeckText(goodDeck, "s.yaml");
+  const Support& side = deck.supports[1];
+  EXPECT_FALSE(side.components[0]);
+  EXPECT_TRUE(side.components[1]);
+  EXPECT_EQ(side.director[0]->value, 0.5);
+  EXPECT_EQ(side.director[1]->value, 0);
+  EXPECT_FALSE(side.director[2]);
+  EXPECT_EQ(deck.supports[2].director[2]->perLoadFactor, 0.1);
+}
+
+TEST(ShellDeck, everyShapeReadsItsKeys) {
+  const auto shape = [](const std::string& text) {
+    return *readDeckText(changed("shape: shell_plate, length: 10, width: 2, divisions: [5, 1]", text),
+                         "s.yaml")
+                .mesh.generate;
+  };
+  const auto skew = std::get<fem::ShellPlateOptions>(shape(
+      "shape: shell_plate, length: 1, width: 2, angle: 30, origin: [1, 2, 3], thickness: 0.5, divisions: [3, "
+      "4], cell: SHELL9"));
+  EXPECT_EQ(skew.angle, 30);
+  EXPECT_EQ(skew.origin, (Vector3{1, 2, 3}));
+  EXPECT_EQ(skew.thickness, 0.5);
+  EXPECT_EQ(skew.topology, fem::Topology::Shell9);
+  const auto cylinder =
+      std::get<fem::ShellCylinderOptions>(shape("shape: shell_cylinder, radius: 5, theta: [-40, 40], length: "
+                                                "7, y_min: -1, slit: true, divisions: [3, 4]"));
+  EXPECT_EQ(cylinder.thetaMin, -40);
+  EXPECT_EQ(cylinder.yMin, -1);
+  EXPECT_TRUE(cylinder.slit);
+  const auto annulus = std::get<fem::ShellAnnulusOptions>(
+      shape("shape: shell_annulus, inner_radius: 6, outer_radius: 10, angle: [0, 360], divisions: [3, 12]"));
+  EXPECT_EQ(annulus.outerRadius, 10);
+  EXPECT_TRUE(annulus.slit);
+  const auto sphere = std::get<fem::ShellSphereOptions>(
+      shape("shape: shell_sphere, radius: 10, longitude: [0, 90], latitude: [0, 72], divisions: [3, 4]"));
+  EXPECT_EQ(sphere.latitudeMax, 72);
+  EXPECT_FALSE(sphere.slit);
+}
+
+TEST(ShellDeck, describedDeckReadsBack) {
+  for (const std::string& text : {std::string(goodDeck), changed("thickness: 0.25", "thickness: attribute"),
+                                  changed("shape: shell_plate, length: 10, width: 2, divisions: [5, 1]",
+                                          "shape: shell_cylinder, radius: 5, theta: [-40, 40], length: 7, "
+                                          "thickness: 0.1, divisions: [3, 4]"),
+                                  changed("condition: clamped", "condition: hinged")}) {
+    std::ostringstream first, second;
+    describe(readDeckText(text, "shell.yaml"), first);
+    describe(readDeckText(first.str(), "shell.yaml"), second);
+    EXPECT_EQ(first.str(), second.str());
+    EXPECT_NE(first.str().find("shells:\n  fold_angle: 30"), std::string::npos) << first.str();
+    EXPECT_NE(first.str().find("\n    director_z: {value: 0, per_load_factor: 0.1}\n"), std::string::npos)
+        << first.str();
+  }
+  // Nothing of shells stands in a deck without them.
+  std::ostringstream plain;
+  describe(
+      readDeckText(changed("shells:\n  fold_angle: 30\n  sections:\n    skin: {blocks: [plate], thickness: "
+                           "0.25}\n",
+                           ""),
+                   "shell.yaml"),
+      plain);
+  EXPECT_EQ(plain.str().find("shells:"), std::string::npos);
+}
+
+TEST(ShellDeck, valuesOutOfRange) {
+  expectError("thickness: 0.25", "thickness: 0", "shells/sections/skin/thickness: must be positive, got 0");
+  expectError("thickness: 0.25", "thickness: thin",
+              "shells/sections/skin/thickness: expected a positive number or attribute, got the text 'thin'");
+  expectError("fold_angle: 30", "fold_angle: 180", "shells/fold_angle: must be below 180 degrees, got 180");
+  expectError("condition: clamped", "condition: fixed",
+              "supports/clamp/condition: 'fixed' is not a choice here");
+  expectError("condition: clamped", "condition: clamped, x: 0",
+              "supports/clamp/x: is held by condition: clamped already");
+  expectError("condition: symmetry_y, director_x: 0.5", "condition: symmetry_y, director_y: 0.5",
+              "supports/side/director_y: is held by condition: symmetry_y already");
+  expectError(", condition: clamped", "",
+              "supports/clamp: holds nothing; expected at least one of x, y, z, condition");
+  expectError(
+      "force: [0, 0, 1]", "force: [0, 0, 1], moment: [1, 0, 0]",
+      "loads/line: needs exactly one of total, force, moment, follower_force, follower_moment, got force, "
+      "moment");
+  expectError("follower_moment: 2", "follower_moment: [0, 2, 0]", "loads/turn/follower_moment: expected a");
+  expectError("follower_moment: 2", "follower: true, force: [0, 0, 1]",
+              "loads/turn/follower: is not a key here");
+  expectError("pressure: 0.1", "traction: [0, 0, 1]",
+              "loads/wind/follower: has a meaning with pressure only");
+  expectError("at: top", "at: outside", "loads/wind/at: 'outside' is not a choice here");
+  expectError("divisions: [5, 1]", "divisions: [5, 1, 1]", "mesh/generate/divisions: ");
+  expectError("divisions: [5, 1]", "divisions: [5, 1], cell: HEX8",
+              "mesh/generate/cell: 'HEX8' is not a choice");
+  expectError("divisions: [5, 1]", "divisions: [5, 1], angle: 180",
+              "mesh/generate/angle: must be below 180 degrees, got 180");
+  expectError("    skin: {blocks: [plate], thickness: 0.25}\n",
+              "    skin: {blocks: [plate], thickness: 0.25}\n    more: {blocks: [plate]}\n",
+              "shells/sections/more/blocks: block 'plate' already has the section 'skin'");
+}
+
+TEST(ShellDeck, directorsCanBeAllThatIsDriven) {
+  std::string text = changed("per_load_factor: 0.1", "per_load_factor: 0");
+  for (const char* line : {"  line: {type: edge, set: x_max, force: [0, 0, 1]}\n",
+                           "  turn: {type: edge, set: x_max, follower_moment: 2}\n",
+                           "  wind: {type: surface, set: top, pressure: 0.1, follower: true, at: top}\n"})
+    text = changed(line, "", text);
+  EXPECT_NE(errorOf(text).find("nothing depends on the load factor"), std::string::npos);
+  EXPECT_EQ(errorOf(changed("director_z: {value: 0, per_load_factor: 0}",
+                            "director_z: {value: 0, per_load_factor: 0.1}", text)),
+            "no error");
+}
+
+TEST(ShellDeckAgainstMesh, edgesAndFacesAreToldApart) {
+  const fem::Mesh mesh = plateMesh();
+  expectError("type: edge, set: x_max, force", "type: edge, set: top, force",
+              "loads/line/set: side 1 of element 1 in the side set 'top' is no edge of a shell", &mesh);
+  expectError("type: surface, set: top", "type: surface, set: x_max",
+              "loads/wind/set: the side set 'x_max' has edges of shells; expected faces", &mesh);
+  expectError("set: bottom, at", "set: y_max, at",
+              "contact/below/set: the side set 'y_max' has edges of shells", &mesh);
+  expectError("blocks: [plate], thickness", "blocks: [roof], thickness",
+              "shells/sections/skin/blocks: the mesh has no block 'roof'", &mesh);
+  expectError("    skin: {blocks: [plate], thickness: 0.25}\n",
+              "    skin: {blocks: [plate], thickness: 0.25}\n    more: {blocks: [1]}\n",
+              "shells/sections/more/blocks: block '1' already has the section 'skin'", &mesh);
+}
+
+TEST(ShellDeckAgainstMesh, solidsHaveNeitherDirectorsNorTopAndBottom) {
+  fem::StripOptions options;
+  options.blockName = "plate";
+  const fem::Mesh mesh = fem::stripMesh(options);
+  expectError("x_max", "x_max", "shells/sections/skin/blocks: block 'plate' has HEX20, no shells", &mesh);
+  const std::string text = changed(
+      "shells:\n  fold_angle: 30\n  sections:\n    skin: {blocks: [plate], thickness: "
+      "0.25}\n",
+      "");
+  const auto error = [&](const std::string& from, const std::string& to) {
+    return errorOf(changed(from, to, text), &mesh);
+  };
+  EXPECT_EQ(
+      error("x_max", "x_max"),
+      "shell.yaml: supports/side/director_x: no node of 'y_min' belongs to shells, so there is no director");
+  // A condition holds what is there.
+  const std::string plain =
+      changed(", director_x: 0.5", "", changed(", director_z: {value: 0, per_load_factor: 0.1}", "", text));
+  EXPECT_NE(errorOf(plain, &mesh).find("in the side set 'x_max' is no edge of a shell"), std::string::npos);
+  std::string faces = plain;
+  for (const char* line : {"  line: {type: edge, set: x_max, force: [0, 0, 1]}\n",
+                           "  turn: {type: edge, set: x_max, follower_moment: 2}\n",
+                           "  bend: {type: edge, set: x_max, moment: [0, 3, 0], constant: true}\n",
+                           "  push: {type: edge, set: x_min, follower_force: [0, -1, 0], constant: true}\n",
+                           "  pull: {type: edge, set: x_max, total: [3, 0, 0], constant: true}\n"})
+    faces = changed(line, "", faces);
+  EXPECT_EQ(
+      errorOf(faces, &mesh),
+      "shell.yaml: loads/wind/at: the side set 'top' has faces of solids; top and bottom are for shells");
+  faces = changed(", at: top", "", faces);
+  EXPECT_EQ(errorOf(faces, &mesh),
+            "shell.yaml: contact/below/at: the side set 'bottom' has faces of solids; top and bottom are for "
+            "shells");
+}

@@ -1,0 +1,46 @@
+#pragma once
+
+#include "Inputs.hpp"
+#include "Laws.hpp"
+#include "atrapos/contact/ContactLaw.hpp"
+#include "atrapos/solid/SaintVenantKirchhoff.hpp"
+
+namespace atrapos::bench {
+
+/// Calls f(name, law, peerLaw, domain) for every law of the benchmark. peerLaw is what the peers run: the
+/// same where they can, for contact its closed form (they have no implicit functions).
+template <class F>
+void forEachCase(const F& f) {
+  const Domain gradient{std::vector<double>(9, 0.0), std::vector<double>(9, 0.1), std::vector<double>(9, 0.1),
+                        0.0};
+  const solid::SaintVenantKirchhoff linear{1.2, 0.8};
+  f("saint_venant_kirchhoff", linear, linear, gradient);
+  const NeoHookean hyperelastic{1.2, 0.8};
+  f("neo_hookean", hyperelastic, hyperelastic, gradient);
+
+  // Millimetres: a roll of radius 50 under points 2 to 5 mm away, stiffness and regularisation of paper 4.1.
+  const double axis[3] = {0, 0, -54}, radius = 50;
+  const contact::RegularisedPressure pressure{1e-3, 0.1};
+  const auto onRoll = [&](double y, double spread) {
+    return Domain{{0, y, -0.5}, {5, spread, 1}, {0.5, spread, 0.5}, 4.0};
+  };
+  {
+    contact::ContactLaw<contact::Cylinder> law;
+    ContactClosedForm<CylinderProfile> closed;
+    for (int i = 0; i < 3; ++i) law.tool.center[i] = closed.center[i] = axis[i];
+    law.tool.radius = closed.profile.radius = radius;
+    law.pressure = closed.pressure = pressure;
+    f("contact_cylinder", law, closed, onRoll(0, 5));
+  }
+  {
+    contact::ContactLaw<TaperedRoll> law;
+    ContactClosedForm<TaperedProfile> closed;
+    for (int i = 0; i < 3; ++i) law.tool.center[i] = closed.center[i] = axis[i];
+    law.tool.profile = closed.profile = {radius, 15, 0.1, 23};
+    law.pressure = closed.pressure = pressure;
+    // Near the edge of the taper, in steps below 1/sharpness: further away tanh is a constant.
+    f("contact_tapered_roll", law, closed, onRoll(15, 0.03));
+  }
+}
+
+}  // namespace atrapos::bench
