@@ -41,6 +41,19 @@ struct UnsymmetricMaterial : ExponentialMaterial {
   }
 };
 
+/// A value but no series without shear; the shear stress does no work on the thickness strain of flat shells.
+struct KinkedMaterial : SaintVenantKirchhoff {
+  template <class T>
+  KOKKOS_INLINE_FUNCTION taylor::Symmetric3<T> secondPiola(const taylor::Symmetric3<T>& E) const {
+    using std::abs;
+    taylor::Symmetric3<T> S = SaintVenantKirchhoff::secondPiola(E);
+    const T shear = E(0, 1);
+    const T more = S(0, 1) + 0.1 * abs(shear);
+    S.set(0, 1, more);
+    return S;
+  }
+};
+
 constexpr double thickness = 0.2;
 
 /// Five curved elements: no multiple of the lanes.
@@ -101,6 +114,55 @@ TYPED_TEST(ShellOrders, ResidualHasNoMemory) {
   const Numbers before = residual(problem, u, 0).r;
   residual(problem, sum(u, 0.7, u), 0);
   EXPECT_EQ(residual(problem, u, 0).r, before);
+}
+
+// A second series of another order in the same problem: neither histories nor g_k of the first shine through.
+TYPED_TEST(ShellOrders, HistoriesStartAfresh) {
+  const auto curvedProblem = [] { return fem::FeProblem(curvedModel(make<TypeParam>())); };
+  fem::FeProblem used = curvedProblem(), fresh = curvedProblem();
+  const fem::FeModel model = curvedModel(make<TypeParam>());
+  const Numbers u1 = randomState(model.supports, 0.02, 1), u2 = randomState(model.supports, 0.02, 2);
+  const auto orderThree = [&](fem::FeProblem& problem, const Numbers& u, int maxOrder) {
+    problem.beginSeries(*vectorOf(problem, u), 0, maxOrder);
+    auto F = zeroVector(problem);
+    for (int k = 1; k <= 3; ++k) {
+      problem.orderRhs(k, *F);
+      problem.completeOrder(k, *vectorOf(problem, randomState(model.supports, 0.1, 50 + k)), 0);
+    }
+    return fem::FeProblem::values(*F);
+  };
+  orderThree(used, u1, 8);
+  EXPECT_EQ(orderThree(used, u2, 3), orderThree(fresh, u2, 3));
+  orderThree(used, u1, 3);
+  EXPECT_EQ(orderThree(used, u2, 3), orderThree(fresh, u2, 3));
+  EXPECT_GT(norm(orderThree(fresh, u2, 3)), 1e-6);
+}
+
+// H, S and e; 16 are raised by one (taylor::historyShape). Sums: H^T H and H S.
+TEST(ShellLawHistories, SaintVenantKirchhoff) {
+  const auto shape = taylor::historyShape(ShellLaw<SaintVenantKirchhoff>{make<SaintVenantKirchhoff>()});
+  EXPECT_EQ(shape.slots, 17);
+  EXPECT_EQ(shape.constants, 0);
+  EXPECT_EQ(shape.sums, 15);
+}
+
+TEST(ShellOrdersFailure, APointWithoutSeriesIsNamed) {
+  const KinkedMaterial material{SaintVenantKirchhoff::fromYoung(1, 0.3)};
+  const ShellGrid grid = shellGrid(2, 1, thickness, flat(1, 1));
+  fem::FeModel model;
+  model.numNodes = 2 * grid.numNodes();
+  model.terms.push_back(std::make_unique<ShellTerm<KinkedMaterial>>(ShellLaw<KinkedMaterial>{material},
+                                                                    shellPoints(grid.elements())));
+  model.supports = fem::Supports(model.numNodes);
+  fem::FeProblem problem(std::move(model));
+  const Numbers u(3 * 2 * grid.numNodes(), 0.0);
+  EXPECT_EQ(residual(problem, u, 0).norm.norm, 0.0);
+  try {
+    problem.beginSeries(*vectorOf(problem, u), 0, 3);
+    FAIL() << "a series of |x| at 0";
+  } catch (const taylor::DomainError& error) {
+    EXPECT_STREQ(error.what(), "entity 1, point 1: abs of 0: its argument must not vanish");
+  }
 }
 
 TEST(ShellOrdersFailure, AStateOutsideTheLawsDomainIsNamed) {
