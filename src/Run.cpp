@@ -175,6 +175,8 @@ nlohmann::ordered_json summary(const Scene& scene, const path::Outcome& outcome,
   json["corrections"] = outcome.corrections;
   json["start_iterations"] = outcome.startIterations;
   json["restarts"] = outcome.restarts;
+  json["retreats"] = outcome.retreats;
+  json["closings"] = outcome.closings;
   json["cut_backs"] = outcome.cutBacks;
   json["residual_bound"] = scene.deck().path.residual;
   json["worst_residual"] = recorder.worstResidual();

@@ -20,6 +20,8 @@ const char* toString(EndReason reason) {
       return "loadWithoutEffect";
     case EndReason::notFinite:
       return "notFinite";
+    case EndReason::directionLost:
+      return "directionLost";
     case EndReason::stepTooSmall:
       return "stepTooSmall";
     case EndReason::problemFailed:

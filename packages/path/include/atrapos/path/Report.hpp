@@ -17,6 +17,18 @@ struct LimitPoint {
   bool maximum = false;
 };
 
+/// Where and how a path starts. The state alone starts a new one; the other entries go on with one that was
+/// interrupted, and are taken from StepReport::next as they are.
+struct Start {
+  State state;
+  std::optional<PathTangent> tangent;  ///< of the path that led here: the sense is kept
+  int steps = 0;                       ///< taken before, counted against Options::maxSteps
+  double pathLength = 0;               ///< gone before
+  std::optional<double> weight;        ///< w of the path; empty: by Options::weight
+  double length = 0;                   ///< of the step that led here; 0: none
+  int padeFailures = 0, padeWait = 0;  ///< when the rational form is tried again
+};
+
 /// What happened in one step.
 struct StepReport {
   int step = 0;       ///< from 1
@@ -28,11 +40,16 @@ struct StepReport {
   double residual = 0;          ///< relative, at the end, after corrections
   double residualOfSeries = 0;  ///< the same before corrections
   int corrections = 0;          ///< Newton iterations at the end, one factorization each
-  int restarts = 0;  ///< singular tangents at the start, each stepped over along the previous series
-  std::optional<linear::Inertia> inertia;  ///< of the tangent at the step's start
+  int restarts = 0;      ///< singular tangents at the start, each stepped over along the previous series
+  int retreats = 0;      ///< times the step was halved because the direction at its end was another one
+  double padeRange = 0;  ///< range of the rational form; 0 where none was tried or none is good
+  bool pade = false;     ///< the step follows the rational form
+  std::optional<linear::Inertia> inertia;     ///< of the tangent at the step's start
+  std::optional<linear::Inertia> inertiaEnd;  ///< and at its end, i.e. the next step's start
   std::vector<LimitPoint> limitPoints;
   double pathLengthStart = 0, pathLengthEnd = 0;  ///< sums of the lengths
   State end;                                      ///< the accepted state, after corrections
+  Start next;                                     ///< a path that starts from it goes on with the same bits
 };
 
 /// Watches a path as it is followed.
@@ -40,7 +57,8 @@ class Observer {
  public:
   virtual ~Observer() = default;
 
-  /// After every accepted step; valid for a in [0, report.length]. Return false to end the path.
+  /// After every accepted step, as soon as the tangent at its end is known; the series is valid for a in
+  /// [0, report.length]. Return false to end the path.
   virtual bool onStep(const StepReport& report, const Series& series) = 0;
 };
 
@@ -53,6 +71,7 @@ enum class EndReason {
   solverFailed,           ///< the tangent solver failed for another reason than singularity
   loadWithoutEffect,      ///< Uhat = 0: the load parameter does not move the unknowns
   notFinite,              ///< the Problem or the solver gave a value that is not a number
+  directionLost,          ///< the tangent at a step's end is not its series' derivative, however short
   stepTooSmall,           ///< the residual bound cannot be met by a step of sensible length
   problemFailed           ///< the Problem threw; its message is in the text
 };
@@ -88,8 +107,8 @@ struct Work {
   Timings seconds;
 };
 
-/// How a path ended, and what it cost. factorizations = steps + startIterations + corrections + restarts,
-/// plus 1 where the last series did not become a step.
+/// How a path ended, and what it cost. factorizations = steps + startIterations + corrections + restarts +
+/// retreats + closings, plus 1 where the last series did not become a step.
 struct Outcome : Work {
   EndReason reason = EndReason::problemFailed;
   std::string text;  ///< one line
@@ -97,6 +116,8 @@ struct Outcome : Work {
   int startIterations = 0;  ///< Newton iterations before the first step
   int corrections = 0;      ///< Newton iterations at the ends of steps
   int restarts = 0;         ///< singular tangents met at the start of a step
+  int retreats = 0;         ///< steps halved because the direction at their end was another one
+  int closings = 0;         ///< factorizations at the path's end, for its inertia
   int cutBacks = 0;
   double worstResidual = 0;  ///< largest relative residual at the end of a step
   double weight = 0;         ///< w of the path parameter; 0 where no step was started

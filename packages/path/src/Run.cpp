@@ -1,0 +1,117 @@
+#include "Run.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Tpetra_Vector.hpp>
+
+namespace atrapos::path {
+
+RCP<Vector> copy(const Vector& v) { return Teuchos::rcp(new Vector(v, Teuchos::Copy)); }
+
+double rounded(double length) {
+  int exponent = 0;
+  const double mantissa = std::frexp(length, &exponent);
+  return std::ldexp(std::floor(mantissa * 128) / 128, exponent);
+}
+
+bool Run::end(EndReason reason, std::string text) {
+  outcome_.reason = reason;
+  outcome_.text = std::move(text);
+  return false;
+}
+
+void Run::follow(const Start& start) {
+  outcome_.final = {copy(*start.state.u), start.state.lambda};
+  outcome_.steps = start.steps;
+  outcome_.pathLength = start.pathLength;
+  r_ = calls_.newVector();
+  weight_ = start.weight ? start.weight : options_.weight;
+  tangent_ = start.tangent;
+  lastLength_ = start.length;
+  padeFailures_ = start.padeFailures;
+  padeWait_ = start.padeWait;
+  try {
+    equilibrate();
+    while (step()) {
+    }
+  } catch (const PathError& error) {
+    end(error.reason(), error.what());
+  }
+  finish();
+}
+
+bool Run::step() {
+  if (outcome_.steps == options_.maxSteps)
+    return end(EndReason::stepLimit, line("the limit of ", options_.maxSteps, " steps is reached"));
+  StepReport report;
+  report.order = options_.order;
+  Series series = nextSeries(report);
+  if (pending_ && !settle(true)) return end(EndReason::observerStopped, "ended by the observer");
+  report.step = outcome_.steps + 1;
+  report.lambdaStart = outcome_.final.lambda;
+  report.pathLengthStart = outcome_.pathLength;
+  report.inertia = calls_.solver().inertia();
+  report.radius = series.radius(options_.delta);
+  weight_ = outcome_.weight = series.weight();
+
+  Trial trial;
+  try {
+    trial = acceptedTrial(series, report);
+  } catch (...) {
+    outcome_.cutBacks += report.cutBacks;
+    throw;
+  }
+  report.residualOfSeries = trial.residual;
+  correct(series, trial, report);
+  const auto stop = trial.stop;
+  accept(std::move(trial), std::move(report), std::move(series));
+  if (stop) return end(EndReason::stopReached, stop->text);
+  return true;
+}
+
+/// The step's end becomes the state; the observer sees it later.
+void Run::accept(Trial trial, StepReport report, Series series) {
+  report.length = trial.a;
+  report.residual = trial.residual;
+  report.lambdaEnd = trial.state.lambda;
+  report.end = trial.state;
+  report.pathLengthEnd = report.pathLengthStart + trial.a;
+
+  ++outcome_.steps;
+  outcome_.corrections += report.corrections;
+  outcome_.cutBacks += report.cutBacks;
+  outcome_.pathLength = report.pathLengthEnd;
+  outcome_.final = trial.state;
+  r_ = trial.r;
+  residual_ = trial.residual;
+  lastLength_ = lastEnd_ = trial.a;
+  last_ = std::move(series);
+  tangent_ = last_->tangent(trial.a);
+  pending_ = std::move(report);
+}
+
+/// The pending step is final: what lies inside it is read off its series, and the observer sees it.
+bool Run::settle(bool tangentKnown) {
+  StepReport report = std::move(*pending_);
+  pending_.reset();
+  if (tangentKnown) report.inertiaEnd = calls_.solver().inertia();
+  const auto slope = last_->lambdaFunction().derivative();
+  const auto curvature = slope.numerator().derivative();  // of the sign of lambda'' where lambda' = 0
+  for (const double a : slope.roots(report.length))
+    report.limitPoints.push_back({a, last_->lambda(a), curvature(a) < 0});
+  outcome_.worstResidual = std::max(outcome_.worstResidual, report.residual);
+  report.next = {outcome_.final,  tangent_,    outcome_.steps, outcome_.pathLength,
+                 last_->weight(), lastLength_, padeFailures_,  padeWait_};
+  return observer_.onStep(report, *last_);
+}
+
+void Run::finish() {
+  if (!pending_) return;
+  const bool ended = outcome_.reason == EndReason::stopReached || outcome_.reason == EndReason::stepLimit;
+  const bool close = ended && options_.closeEnd && calls_.solver().inertia();
+  if (close) closeEnd();
+  settle(close);
+}
+
+}  // namespace atrapos::path
