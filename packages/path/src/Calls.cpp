@@ -38,12 +38,13 @@ ResidualNorm Calls::residual(const State& state, Vector& r) {
   return problemCall([&] { return problem_.residual(*state.u, state.lambda, r); });
 }
 
+RCP<const CrsMatrix> Calls::tangent(const State& state, Vector& F) {
+  Stopwatch watch(work_.seconds.tangent);
+  return problemCall([&] { return problem_.tangent(*state.u, state.lambda, F); });
+}
+
 void Calls::factor(const State& state, Vector& F) {
-  RCP<const CrsMatrix> K;
-  {
-    Stopwatch watch(work_.seconds.tangent);
-    K = problemCall([&] { return problem_.tangent(*state.u, state.lambda, F); });
-  }
+  const auto K = tangent(state, F);
   Stopwatch watch(work_.seconds.factor);
   ++work_.factorizations;
   solverCall([&] {
@@ -57,6 +58,13 @@ void Calls::solve(const Vector& b, Vector& x) {
   Stopwatch watch(work_.seconds.solve);
   ++work_.solves;
   solverCall([&] { solver_.solve(b, x); });
+}
+
+void Calls::solveTransposed(const Vector& b, Vector& x) {
+  if (problem_.symmetric()) return solve(b, x);
+  Stopwatch watch(work_.seconds.solve);
+  ++work_.solves;
+  solverCall([&] { solver_.solveTransposed(b, x); });
 }
 
 void Calls::beginSeries(const State& state, int maxOrder) {

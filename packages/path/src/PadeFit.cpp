@@ -17,11 +17,9 @@ struct Coordinates {
   std::vector<std::vector<double>> x;  ///< x[i]: coordinates of unit^i X_i, i >= 1
 };
 
-/// A coefficient adds a direction of its own where more than this part of it lies outside the ones before:
-/// what rounding leaves after 20 orders is below it.
-constexpr double newDirection = 1e-11;
-
-Coordinates coordinates(const Problem& problem, const Series& series) {
+/// A coefficient adds a direction of its own where more than the part `newDirection` of it lies outside the
+/// ones before.
+Coordinates coordinates(const Problem& problem, const Series& series, double newDirection) {
   Coordinates c;
   const int N = series.order();
   const double w = series.weight();
@@ -66,10 +64,10 @@ Coordinates coordinates(const Problem& problem, const Series& series) {
   return c;
 }
 
-/// Minimum-norm least squares A d = b by singular values, A column by column. Singular values below 1e-13 of
-/// the largest are rounding noise of the coefficients: dropping them is what keeps spurious poles out.
-std::vector<double> leastSquares(std::vector<double> A, std::vector<double> b, int rows, int columns) {
-  constexpr double noise = 1e-13;
+/// Minimum-norm least squares A d = b by singular values, A column by column. Singular values below `noise`
+/// of the largest are noise of the coefficients: dropping them keeps spurious poles out.
+std::vector<double> leastSquares(std::vector<double> A, std::vector<double> b, int rows, int columns,
+                                 double noise) {
   Teuchos::LAPACK<int, double> lapack;
   std::vector<double> singular(std::min(rows, columns));
   b.resize(std::max(rows, columns), 0.0);
@@ -86,7 +84,7 @@ std::vector<double> leastSquares(std::vector<double> A, std::vector<double> b, i
 }
 
 /// P_N in t from the first N orders; null where there are too few.
-std::shared_ptr<const Pade> fit(const Coordinates& c, int N) {
+std::shared_ptr<const Pade> fit(const Coordinates& c, int N, double noise) {
   const int M = std::min(N - 1, N * c.rank / (c.rank + 1));
   const int L = std::min(N - 1, std::max(M, N - (M + c.rank - 1) / c.rank));
   if (M < 1 || L < 1) return nullptr;
@@ -98,7 +96,7 @@ std::shared_ptr<const Pade> fit(const Coordinates& c, int N) {
       b[row] = -c.x[k][q];
       for (int j = 1; j <= M; ++j) A[(j - 1) * rows + row] = k - j >= 1 ? c.x[k - j][q] : 0;
     }
-  auto d = leastSquares(std::move(A), std::move(b), rows, M);
+  auto d = leastSquares(std::move(A), std::move(b), rows, M, noise);
   if (d.empty() || !std::all_of(d.begin(), d.end(), [](double x) { return std::isfinite(x); }))
     return nullptr;
   d.insert(d.begin(), 1.0);
@@ -135,8 +133,11 @@ PadeFit fitPade(const Problem& problem, const Series& series, double delta, doub
   PadeFit result;
   const int N = series.order();
   if (N < 4 || !std::isfinite(series.convergenceRadius())) return result;
-  const auto c = coordinates(problem, series);
-  const auto P = fit(c, N), Q = fit(c, N - 1);
+  // What rounding leaves of a path's series after 20 orders is below the first, what it leaves of a fit below
+  // the second.
+  constexpr double newDirection = 1e-11, noise = 1e-13;
+  const auto c = coordinates(problem, series, newDirection);
+  const auto P = fit(c, N, noise), Q = fit(c, N - 1, noise);
   if (!P || !Q) return result;
   // Beyond some radii of convergence no finite series has anything to say.
   constexpr double radii = 8, margin = 0.95;
@@ -166,12 +167,12 @@ PadeFit fitPade(const Problem& problem, const Series& series, double delta, doub
 }
 
 std::vector<double> realPoles(const Problem& problem, const Series& series, double behind, double ahead,
-                              double agreement) {
+                              double noise, double agreement) {
   std::vector<double> poles;
   const int N = series.order();
   if (N < 4 || !std::isfinite(series.convergenceRadius())) return poles;
-  const auto c = coordinates(problem, series);
-  const auto P = fit(c, N), Q = fit(c, N - 1);
+  const auto c = coordinates(problem, series, noise);
+  const auto P = fit(c, N, noise), Q = fit(c, N - 1, noise);
   if (!P || !Q) return poles;
   const auto roots = [](const Polynomial& p, double end, double sense) {
     auto d = p.coefficients();

@@ -25,6 +25,6 @@ PadeFit fitPade(const Problem& problem, const Series& series, double delta, doub
 /// Real poles of a series: roots of its denominators of both orders N and N-1 in [-behind, ahead] that agree
 /// to `agreement` of their size, nearest to 0 first.
 std::vector<double> realPoles(const Problem& problem, const Series& series, double behind, double ahead,
-                              double agreement);
+                              double noise, double agreement);
 
 }  // namespace atrapos::path

@@ -2,6 +2,18 @@
 
 namespace atrapos::path {
 
+const char* toString(CriticalKind kind) {
+  switch (kind) {
+    case CriticalKind::transcritical:
+      return "transcritical";
+    case CriticalKind::pitchfork:
+      return "pitchfork";
+    case CriticalKind::multiple:
+      return "multiple";
+  }
+  return "unknown";
+}
+
 const char* toString(EndReason reason) {
   switch (reason) {
     case EndReason::stopReached:

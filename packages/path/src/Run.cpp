@@ -47,11 +47,12 @@ bool Run::step() {
   StepReport report;
   report.order = options_.order;
   Series series = nextSeries(report);
-  if (pending_ && !settle(true)) return end(EndReason::observerStopped, "ended by the observer");
+  const EndTangent tangent{calls_.solver().inertia(), series.lambdaCoefficient(1)};
+  if (pending_ && !settle(&tangent)) return end(EndReason::observerStopped, "ended by the observer");
   report.step = outcome_.steps + 1;
   report.lambdaStart = outcome_.final.lambda;
   report.pathLengthStart = outcome_.pathLength;
-  report.inertia = calls_.solver().inertia();
+  report.inertia = tangent.inertia;
   report.radius = series.radius(options_.delta);
   weight_ = outcome_.weight = series.weight();
 
@@ -92,14 +93,17 @@ void Run::accept(Trial trial, StepReport report, Series series) {
 }
 
 /// The pending step is final: what lies inside it is read off its series, and the observer sees it.
-bool Run::settle(bool tangentKnown) {
+bool Run::settle(const EndTangent* end) {
   StepReport report = std::move(*pending_);
   pending_.reset();
-  if (tangentKnown) report.inertiaEnd = calls_.solver().inertia();
   const auto slope = last_->lambdaFunction().derivative();
   const auto curvature = slope.numerator().derivative();  // of the sign of lambda'' where lambda' = 0
   for (const double a : slope.roots(report.length))
     report.limitPoints.push_back({a, last_->lambda(a), curvature(a) < 0});
+  if (end) {
+    report.inertiaEnd = end->inertia;
+    explainStability(report, end->lambda1);
+  }
   outcome_.worstResidual = std::max(outcome_.worstResidual, report.residual);
   report.next = {outcome_.final,  tangent_,    outcome_.steps, outcome_.pathLength,
                  last_->weight(), lastLength_, padeFailures_,  padeWait_};
@@ -110,8 +114,12 @@ void Run::finish() {
   if (!pending_) return;
   const bool ended = outcome_.reason == EndReason::stopReached || outcome_.reason == EndReason::stepLimit;
   const bool close = ended && options_.closeEnd && calls_.solver().inertia();
-  if (close) closeEnd();
-  settle(close);
+  if (!close) {
+    settle(nullptr);
+    return;
+  }
+  const EndTangent tangent = closeEnd();
+  settle(&tangent);
 }
 
 }  // namespace atrapos::path

@@ -44,10 +44,16 @@ class Run {
     std::optional<StopHit> stop;
   };
 
+  /// What the tangent at a step's end tells.
+  struct EndTangent {
+    std::optional<linear::Inertia> inertia;
+    double lambda1 = 0;  ///< its load part, of which the sign counts
+  };
+
   // Run.cpp: the loop.
   bool step();
   void accept(Trial trial, StepReport report, Series series);
-  bool settle(bool nextTangentKnown);
+  bool settle(const EndTangent* end);
   void finish();
   bool end(EndReason reason, std::string text);
 
@@ -57,7 +63,10 @@ class Run {
   void stepOverSingularity(const PathError& cause, int attempt);
   bool directionAgrees(const Series& series, const PathTangent& previous) const;
   bool retreat();
-  void closeEnd();
+  EndTangent closeEnd();
+
+  // RunCritical.cpp: what the step passed.
+  void explainStability(StepReport& report, double lambda1);
 
   // RunTrial.cpp: how far it goes.
   double longestLength() const;

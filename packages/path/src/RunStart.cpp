@@ -116,15 +116,21 @@ Series Run::nextSeries(StepReport& report) {
   }
 }
 
-/// The tangent at the path's end, for its inertia.
-void Run::closeEnd() {
-  auto F = calls_.newVector();
+/// The tangent at the path's end: its inertia, and the sense in which lambda goes on.
+Run::EndTangent Run::closeEnd() {
+  EndTangent tangent;
+  auto F = calls_.newVector(), Uhat = calls_.newVector();
   ++outcome_.closings;
   try {
     calls_.factor(outcome_.final, *F);
+    tangent.inertia = calls_.solver().inertia();
+    calls_.solve(*F, *Uhat);
+    const Increment hat{Uhat, std::vector<double>(tangent_->x.internal.size(), 0.0)};
+    tangent.lambda1 = *weight_ * calls_.problem().inner(hat, tangent_->x) + tangent_->lambda;
   } catch (const PathError&) {
-    // Singular at the very end: the solver still tells the inertia where it can.
+    tangent.inertia.reset();  // singular at the very end: signs are not known there
   }
+  return tangent;
 }
 
 }  // namespace atrapos::path

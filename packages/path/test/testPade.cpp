@@ -50,7 +50,7 @@ TEST(Pade, ReproducesARationalFunctionAlsoBeyondItsPoles) {
       EXPECT_NEAR(u->getData()[i], exact, 1e-9 * (1 + std::abs(exact))) << a;
     }
   }
-  const auto found = realPoles(space, s, 1, 2, 1e-6);
+  const auto found = realPoles(space, s, 1, 2, 1e-13, 1e-6);
   ASSERT_EQ(found.size(), 3u);
   EXPECT_NEAR(found[0], 0.7, 1e-9);
   EXPECT_NEAR(found[1], -0.9, 1e-9);

@@ -22,6 +22,11 @@ class Calls {
 
   /// x = K_T^-1 b with the last factorization.
   void solve(const Vector& b, Vector& x);
+  /// x = K_T^-T b with the last factorization.
+  void solveTransposed(const Vector& b, Vector& x);
+
+  /// K_T(state) without factoring it, and F.
+  RCP<const CrsMatrix> tangent(const State& state, Vector& F);
 
   void beginSeries(const State& state, int maxOrder);
   void orderRhs(int k, Vector& Fk);

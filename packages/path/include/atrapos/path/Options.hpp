@@ -43,6 +43,10 @@ struct Options {
   /// the angle between the two (in w <X, X> + lambda^2), in [0, 1).
   double minCosine = 0.9;
 
+  /// Bifurcation points are located where the number of negative eigenvalues says that there is one (needs a
+  /// tangent solver that tells it). At most two factorizations each.
+  bool criticalPoints = true;
+
   /// One factorization at the path's end, where the solver tells the inertia: without it the stability there,
   /// and what the last step passed, are not known.
   bool closeEnd = true;

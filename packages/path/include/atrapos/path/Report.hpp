@@ -17,6 +17,31 @@ struct LimitPoint {
   bool maximum = false;
 };
 
+enum class CriticalKind {
+  transcritical,  ///< two branches cross, lambda goes on along both
+  pitchfork,      ///< lambda turns along one of the two branches
+  multiple        ///< at least two eigenvalues of the tangent vanish together: more than two branches
+};
+
+/// "transcritical" and so on.
+const char* toString(CriticalKind kind);
+
+/// A bifurcation point on the path (docs/theory/path.md).
+struct CriticalPoint {
+  double a = 0;  ///< on the step's series
+  CriticalKind kind = CriticalKind::transcritical;
+  State state;          ///< corrected: exact to rounding at a simple point
+  double residual = 0;  ///< relative, at `state`
+  /// The last correction of its location, as a part of the step's length.
+  double uncertainty = 0;
+  /// Number of null vectors found: 1, or more where `kind` is multiple.
+  int nullity = 1;
+  /// Unit directions (w <X, X> + lambda^2 = 1) of the branches through it, that of the path first and with
+  /// its sense; empty at a multiple point.
+  std::vector<PathTangent> tangents;
+  std::vector<RCP<Vector>> nullVectors;  ///< of K_T there, Euclidean norm 1
+};
+
 /// Where and how a path starts. The state alone starts a new one; the other entries go on with one that was
 /// interrupted, and are taken from StepReport::next as they are.
 struct Start {
@@ -47,6 +72,10 @@ struct StepReport {
   std::optional<linear::Inertia> inertia;     ///< of the tangent at the step's start
   std::optional<linear::Inertia> inertiaEnd;  ///< and at its end, i.e. the next step's start
   std::vector<LimitPoint> limitPoints;
+  std::vector<CriticalPoint> criticalPoints;  ///< bifurcation points inside the step, ascending
+  /// Eigenvalues that changed sign inside the step and are explained by no point found: the tangent says that
+  /// there is a bifurcation, its place is not known.
+  int unexplained = 0;
   double pathLengthStart = 0, pathLengthEnd = 0;  ///< sums of the lengths
   State end;                                      ///< the accepted state, after corrections
   Start next;                                     ///< a path that starts from it goes on with the same bits
@@ -108,16 +137,17 @@ struct Work {
 };
 
 /// How a path ended, and what it cost. factorizations = steps + startIterations + corrections + restarts +
-/// retreats + closings, plus 1 where the last series did not become a step.
+/// retreats + closings + criticalFactorizations, plus 1 where the last series did not become a step.
 struct Outcome : Work {
   EndReason reason = EndReason::problemFailed;
   std::string text;  ///< one line
   int steps = 0;
-  int startIterations = 0;  ///< Newton iterations before the first step
-  int corrections = 0;      ///< Newton iterations at the ends of steps
-  int restarts = 0;         ///< singular tangents met at the start of a step
-  int retreats = 0;         ///< steps halved because the direction at their end was another one
-  int closings = 0;         ///< factorizations at the path's end, for its inertia
+  int startIterations = 0;         ///< Newton iterations before the first step
+  int corrections = 0;             ///< Newton iterations at the ends of steps
+  int restarts = 0;                ///< singular tangents met at the start of a step
+  int retreats = 0;                ///< steps halved because the direction at their end was another one
+  int criticalFactorizations = 0;  ///< spent on locating critical points
+  int closings = 0;                ///< factorizations at the path's end, for its inertia
   int cutBacks = 0;
   double worstResidual = 0;  ///< largest relative residual at the end of a step
   double weight = 0;         ///< w of the path parameter; 0 where no step was started
