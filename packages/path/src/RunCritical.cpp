@@ -36,6 +36,7 @@ void Run::explainStability(StepReport& report, double lambda1) {
   for (const auto& point : found.points) report.unexplained -= point.nullity;
   report.unexplained = std::max(report.unexplained, 0);
   report.criticalPoints = std::move(found.points);
+  for (auto& point : report.criticalPoints) point.stepLength = report.length;
 }
 
 }  // namespace atrapos::path

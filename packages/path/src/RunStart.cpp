@@ -55,6 +55,7 @@ void Run::stepOverSingularity(const PathError& cause, int attempt) {
 /// found there, is the same to the accuracy of that derivative, unless the two lie on different branches.
 bool Run::directionAgrees(const Series& series, const PathTangent& previous) const {
   if (options_.order < 3) return true;  // a straight or parabolic step may turn by any angle
+  if (!last_) return true;              // a direction given at the start says the sense only
   const auto& problem = calls_.problem();
   const double w = series.weight();
   const auto& x = series.coefficient(1);

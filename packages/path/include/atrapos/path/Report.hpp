@@ -28,7 +28,8 @@ const char* toString(CriticalKind kind);
 
 /// A bifurcation point on the path (docs/theory/path.md).
 struct CriticalPoint {
-  double a = 0;  ///< on the step's series
+  double a = 0;           ///< on the step's series
+  double stepLength = 0;  ///< of the step: what is near and far here
   CriticalKind kind = CriticalKind::transcritical;
   State state;          ///< corrected: exact to rounding at a simple point
   double residual = 0;  ///< relative, at `state`
