@@ -90,6 +90,23 @@ void Calls::completeOrder(int k, const Vector& Uk, double lambdaK) {
   problemCall([&] { problem_.completeOrder(k, Uk, lambdaK); });
 }
 
+std::vector<double> Calls::eventOrder(int k) {
+  Stopwatch watch(work_.seconds.orderRhs);
+  std::vector<double> g(problem_.eventCount(), 0.0);
+  if (!g.empty()) problemCall([&] { problem_.eventOrder(k, g); });
+  return g;
+}
+
+void Calls::applyEvent(const std::vector<int>& indices, const State& state) {
+  problemCall([&] { problem_.applyEvent(indices, *state.u, state.lambda); });
+}
+
+std::optional<linear::Inertia> Calls::inertia() const {
+  auto inertia = solver_.inertia();
+  if (inertia) inertia->negative -= problem_.constraintPivots();
+  return inertia;
+}
+
 RCP<Vector> Calls::newVector() const { return Teuchos::rcp(new Vector(problem_.map())); }
 
 }  // namespace atrapos::path

@@ -32,6 +32,10 @@ const char* toString(EndReason reason) {
       return "loadWithoutEffect";
     case EndReason::notFinite:
       return "notFinite";
+    case EndReason::noAdmissibleDirection:
+      return "noAdmissibleDirection";
+    case EndReason::eventsCycle:
+      return "eventsCycle";
     case EndReason::directionLost:
       return "directionLost";
     case EndReason::stepTooSmall:

@@ -28,6 +28,7 @@ void Run::follow(const Start& start) {
   r_ = calls_.newVector();
   weight_ = start.weight ? start.weight : options_.weight;
   tangent_ = start.tangent;
+  applied_ = start.events;
   lastLength_ = start.length;
   padeFailures_ = start.padeFailures;
   padeWait_ = start.padeWait;
@@ -47,8 +48,10 @@ bool Run::step() {
   StepReport report;
   report.order = options_.order;
   Series series = nextSeries(report);
-  const EndTangent tangent{calls_.solver().inertia(), series.lambdaCoefficient(1)};
-  if (pending_ && !settle(&tangent)) return end(EndReason::observerStopped, "ended by the observer");
+  const EndTangent tangent{calls_.inertia(), series.lambdaCoefficient(1)};
+  // After an event the tangent is that of the changed problem and says nothing about the step before.
+  if (pending_ && !settle(pending_->events.empty() ? &tangent : nullptr))
+    return end(EndReason::observerStopped, "ended by the observer");
   report.step = outcome_.steps + 1;
   report.lambdaStart = outcome_.final.lambda;
   report.pathLengthStart = outcome_.pathLength;
@@ -66,6 +69,7 @@ bool Run::step() {
   report.residualOfSeries = trial.residual;
   correct(series, trial, report);
   const auto stop = trial.stop;
+  due_ = trial.events;
   accept(std::move(trial), std::move(report), std::move(series));
   if (stop) return end(EndReason::stopReached, stop->text);
   return true;
@@ -88,6 +92,7 @@ void Run::accept(Trial trial, StepReport report, Series series) {
   residual_ = trial.residual;
   lastLength_ = lastEnd_ = trial.a;
   last_ = std::move(series);
+  applied_.clear();
   tangent_ = last_->tangent(trial.a);
   pending_ = std::move(report);
 }
@@ -99,14 +104,17 @@ bool Run::settle(const EndTangent* end) {
   const auto slope = last_->lambdaFunction().derivative();
   const auto curvature = slope.numerator().derivative();  // of the sign of lambda'' where lambda' = 0
   for (const double a : slope.roots(report.length))
-    report.limitPoints.push_back({a, last_->lambda(a), curvature(a) < 0});
+    report.limitPoints.push_back({a, last_->lambda(a), curvature(a) < 0, true});
+  if (turned_) report.limitPoints.push_back({report.length, report.lambdaEnd, tangent_->lambda > 0, false});
+  turned_ = false;
   if (end) {
     report.inertiaEnd = end->inertia;
     explainStability(report, end->lambda1);
   }
   outcome_.worstResidual = std::max(outcome_.worstResidual, report.residual);
   report.next = {outcome_.final,  tangent_,    outcome_.steps, outcome_.pathLength,
-                 last_->weight(), lastLength_, padeFailures_,  padeWait_};
+                 last_->weight(), lastLength_, applied_,       padeFailures_,
+                 padeWait_};
   return observer_.onStep(report, *last_);
 }
 

@@ -42,6 +42,7 @@ class Run {
     RCP<Vector> r;        ///< R there
     double residual = 0;  ///< its relative norm
     std::optional<StopHit> stop;
+    std::vector<int> events;  ///< event functions that are zero there
   };
 
   /// What the tangent at a step's end tells.
@@ -67,6 +68,10 @@ class Run {
 
   // RunCritical.cpp: what the step passed.
   void explainStability(StepReport& report, double lambda1);
+
+  // RunEvents.cpp: where the Problem changes.
+  void limit(const Series& series, Trial& trial) const;
+  Series seriesAfterEvents(StepReport& report);
 
   // RunTrial.cpp: how far it goes.
   double longestLength() const;
@@ -97,8 +102,12 @@ class Run {
   std::optional<Series> last_;          ///< the last accepted series
   std::optional<StepReport> pending_;   ///< its step, not yet seen by the observer
   std::optional<PathTangent> tangent_;  ///< at the current state, of what led there
-  int padeFailures_ = 0;                ///< steps in a row that the rational form did not lengthen
-  int padeWait_ = 0;                    ///< steps until it is tried again
+  std::vector<int> due_;      ///< event functions that fell to zero at the state and are not applied yet
+  std::vector<int> applied_;  ///< applied at the state: their functions start at zero
+  bool turned_ = false;       ///< lambda goes the other way after the events
+  int standing_ = 0;          ///< events in a row without a step of sensible length
+  int padeFailures_ = 0;      ///< steps in a row that the rational form did not lengthen
+  int padeWait_ = 0;          ///< steps until it is tried again
 };
 
 /// A length with the first 7 bits of its mantissa. Step lengths come from the highest orders, whose last

@@ -88,6 +88,7 @@ bool Run::retreat() {
 }
 
 Series Run::nextSeries(StepReport& report) {
+  if (!due_.empty()) return seriesAfterEvents(report);
   for (int attempt = 1;;) {
     SeriesRequest request;
     request.order = options_.order;
@@ -124,7 +125,7 @@ Run::EndTangent Run::closeEnd() {
   ++outcome_.closings;
   try {
     calls_.factor(outcome_.final, *F);
-    tangent.inertia = calls_.solver().inertia();
+    tangent.inertia = calls_.inertia();
     calls_.solve(*F, *Uhat);
     const Increment hat{Uhat, std::vector<double>(tangent_->x.internal.size(), 0.0)};
     tangent.lambda1 = *weight_ * calls_.problem().inner(hat, tangent_->x) + tangent_->lambda;

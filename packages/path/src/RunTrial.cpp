@@ -61,8 +61,11 @@ std::optional<Run::Trial> Run::padeTrial(Series& series, StepReport& report) {
   const double polynomial = firstLength(report.radius);
   // Shorter gains do not pay for the fit, which costs about as much as one order.
   const double least = (automatic ? 1.1 : 1.0) * polynomial;
-  // A stop that the polynomial reaches needs nothing longer.
-  if (firstStop(stops_, series, outcome_.pathLength, polynomial, !tangent_)) return std::nullopt;
+  // A stop or an event that the polynomial reaches needs nothing longer.
+  Trial near;
+  near.a = polynomial;
+  limit(series, near);
+  if (near.stop || !near.events.empty()) return std::nullopt;
   const PadeFit fit = fitPade(calls_.problem(), series, options_.delta, longestLength());
   report.padeRange = fit.range;
   if (fit.usable() && fit.range > least) {
@@ -71,8 +74,7 @@ std::optional<Run::Trial> Run::padeTrial(Series& series, StepReport& report) {
     Trial trial, inside;
     trial.a = rounded(fit.range);
     for (int i = 0; i < maxTrials && trial.a > least; ++i) {
-      trial.stop = firstStop(stops_, series, outcome_.pathLength, 1.001 * trial.a, !tangent_);
-      if (trial.stop) trial.a = trial.stop->a;
+      limit(series, trial);
       evaluate(series, trial);
       inside.a = 0.7 * trial.a;
       if (trial.residual <= correctAbove()) evaluate(series, inside);
@@ -95,9 +97,7 @@ std::optional<Run::Trial> Run::padeTrial(Series& series, StepReport& report) {
 Run::Trial Run::polynomialTrial(const Series& series, StepReport& report) {
   Trial trial;
   trial.a = firstLength(report.radius);
-  // Looks a little further than the step: a stop just behind its end is taken now, not by a tiny next step.
-  trial.stop = firstStop(stops_, series, outcome_.pathLength, 1.001 * trial.a, !tangent_);
-  if (trial.stop) trial.a = trial.stop->a;
+  limit(series, trial);
   // Shortening the step a little is cheaper than a correction, which costs a factorization; tried once.
   constexpr double worthKeeping = 0.7;
   bool shortened = false;
@@ -108,8 +108,8 @@ Run::Trial Run::polynomialTrial(const Series& series, StepReport& report) {
     if (trial.residual <= correctAbove()) return trial;
     const double factor = shorterBy(trial);
     if (trial.residual <= bound()) {
-      const bool shorten =
-          !shortened && !trial.stop && factor >= worthKeeping && startPart(factor * trial.a) < correctAbove();
+      const bool shorten = !shortened && !trial.stop && trial.events.empty() && factor >= worthKeeping &&
+                           startPart(factor * trial.a) < correctAbove();
       if (!shorten || trials == options_.maxCutBacks) return trial;
       shortened = true;
     }
@@ -130,6 +130,7 @@ Run::Trial Run::polynomialTrial(const Series& series, StepReport& report) {
     previous = trial.residual;
     trial.a = rounded(factor * trial.a);
     trial.stop.reset();
+    trial.events.clear();
   }
 }
 

@@ -24,6 +24,24 @@ void Series::append(Increment x, double lambda, double norm) {
   norm_.push_back(norm);
 }
 
+void Series::appendEvents(const std::vector<double>& g) {
+  events_.resize(g.size());
+  for (std::size_t i = 0; i < g.size(); ++i) events_[i].push_back(g[i]);
+}
+
+Series Series::reversed() const {
+  Series s = *this;
+  s.form_ = nullptr;
+  for (int k = 1; k <= order(); k += 2) {
+    s.x_[k].u = Teuchos::rcp(new Vector(*x_[k].u, Teuchos::Copy));
+    s.x_[k].u->scale(-1);
+    for (double& y : s.x_[k].internal) y = -y;
+    s.lambda_[k] = -lambda_[k];
+    for (auto& g : s.events_) g[k] = -g[k];
+  }
+  return s;
+}
+
 double Series::evaluate(double a, Vector& u) const {
   u.putScalar(0);
   if (form_) {

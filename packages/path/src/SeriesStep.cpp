@@ -65,6 +65,7 @@ Series buildSeries(Calls& calls, const State& start, const SeriesRequest& reques
   }
 
   Series series(start, w);
+  series.appendEvents(calls.eventOrder(0));
   for (int k = 1; k <= request.order; ++k) {
     auto V = calls.newVector();
     // Order 1 of an exact solution has no right-hand side.
@@ -86,6 +87,7 @@ Series buildSeries(Calls& calls, const State& start, const SeriesRequest& reques
     if (!std::isfinite(norm)) notFinite("the coefficient", k, start);
     calls.completeOrder(k, *Xk.u, lambdaK);
     series.append(std::move(Xk), lambdaK, norm);
+    series.appendEvents(calls.eventOrder(k));
   }
   return series;
 }

@@ -34,6 +34,13 @@ class Calls {
   Increment internalOrder(int k, RCP<Vector> v, double mu);
   void completeOrder(int k, const Vector& Uk, double lambdaK);
 
+  /// Coefficient k of the Problem's event functions.
+  std::vector<double> eventOrder(int k);
+  void applyEvent(const std::vector<int>& indices, const State& state);
+
+  /// Of the last factorization, without the pivots owed to constraints.
+  std::optional<linear::Inertia> inertia() const;
+
   /// A new zero vector on the Problem's map.
   RCP<Vector> newVector() const;
 

@@ -15,6 +15,7 @@ struct LimitPoint {
   double a = 0;       ///< on the step's series
   double lambda = 0;  ///< load factor there
   bool maximum = false;
+  bool smooth = true;  ///< false: lambda turns because an event changed the Problem
 };
 
 enum class CriticalKind {
@@ -52,6 +53,7 @@ struct Start {
   double pathLength = 0;               ///< gone before
   std::optional<double> weight;        ///< w of the path; empty: by Options::weight
   double length = 0;                   ///< of the step that led here; 0: none
+  std::vector<int> events;             ///< applied at this state: their functions are zero here
   int padeFailures = 0, padeWait = 0;  ///< when the rational form is tried again
 };
 
@@ -73,6 +75,7 @@ struct StepReport {
   std::optional<linear::Inertia> inertia;     ///< of the tangent at the step's start
   std::optional<linear::Inertia> inertiaEnd;  ///< and at its end, i.e. the next step's start
   std::vector<LimitPoint> limitPoints;
+  std::vector<int> events;  ///< event functions that fell to zero at the step's end and were applied
   std::vector<CriticalPoint> criticalPoints;  ///< bifurcation points inside the step, ascending
   /// Eigenvalues that changed sign inside the step and are explained by no point found: the tangent says that
   /// there is a bifurcation, its place is not known.
@@ -101,6 +104,8 @@ enum class EndReason {
   solverFailed,           ///< the tangent solver failed for another reason than singularity
   loadWithoutEffect,      ///< Uhat = 0: the load parameter does not move the unknowns
   notFinite,              ///< the Problem or the solver gave a value that is not a number
+  noAdmissibleDirection,  ///< after an event no change of the Problem lets the path go on
+  eventsCycle,            ///< events follow one another without the path going on
   directionLost,          ///< the tangent at a step's end is not its series' derivative, however short
   stepTooSmall,           ///< the residual bound cannot be met by a step of sensible length
   problemFailed           ///< the Problem threw; its message is in the text
@@ -138,7 +143,8 @@ struct Work {
 };
 
 /// How a path ended, and what it cost. factorizations = steps + startIterations + corrections + restarts +
-/// retreats + closings + criticalFactorizations, plus 1 where the last series did not become a step.
+/// retreats + closings + criticalFactorizations + eventTrials, plus 1 where the last series did not become a
+/// step.
 struct Outcome : Work {
   EndReason reason = EndReason::problemFailed;
   std::string text;  ///< one line
@@ -148,6 +154,8 @@ struct Outcome : Work {
   int restarts = 0;                ///< singular tangents met at the start of a step
   int retreats = 0;                ///< steps halved because the direction at their end was another one
   int criticalFactorizations = 0;  ///< spent on locating critical points
+  int events = 0;                  ///< applied
+  int eventTrials = 0;             ///< factorizations of changes that turned out not to be admissible
   int closings = 0;                ///< factorizations at the path's end, for its inertia
   int cutBacks = 0;
   double worstResidual = 0;  ///< largest relative residual at the end of a step

@@ -62,6 +62,14 @@ class Series {
   /// vanish (the series terminates) and for K = 1 (nothing to estimate from).
   double radius(double delta) const;
 
+  /// Coefficient k of the Problem's event functions, k = 0, 1, ... in turn.
+  void appendEvents(const std::vector<double>& g);
+  int eventCount() const { return static_cast<int>(events_.size()); }
+  const std::vector<double>& eventCoefficients(int i) const { return events_.at(i); }
+
+  /// The same path with a replaced by -a.
+  Series reversed() const;
+
   /// Appends order K+1; `norm` is ||x|| in the Problem's inner product.
   void append(Increment x, double lambda, double norm);
 
@@ -79,6 +87,7 @@ class Series {
   std::vector<Increment> x_;
   std::vector<double> lambda_;
   std::vector<double> norm_;
+  std::vector<std::vector<double>> events_;  ///< coefficients of each event function
 };
 
 }  // namespace atrapos::path
