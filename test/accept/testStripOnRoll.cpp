@@ -99,7 +99,8 @@ TEST_F(StripOnRoll, PaysOneFactorizationAStep) {
   const auto& s = run_->summary;
   const int expected = s.at("steps").get<int>() + s.at("corrections").get<int>() +
                        s.at("start_iterations").get<int>() + s.at("restarts").get<int>() +
-                       s.at("retreats").get<int>() + s.at("closings").get<int>();
+                       s.at("retreats").get<int>() + s.at("closings").get<int>() +
+                       s.at("critical_factorizations").get<int>();
   EXPECT_EQ(s.at("factorizations"), expected);
   EXPECT_EQ(s.at("orders_computed"), 20 * steps());
   EXPECT_TRUE(s.at("reached_stop"));

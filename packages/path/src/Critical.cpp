@@ -12,13 +12,13 @@ namespace {
 class Search {
  public:
   Search(Calls& calls, const CriticalSearch& search)
-      : calls_(calls), search_(search), left_(search.signChanges) {}
+      : calls_(calls), search_(search), left_(search.signChanges > 0 ? search.signChanges : 2) {}
 
   CriticalFound run() {
     // A few per cent beyond the step: its ends are where eigenvalues were counted.
     const double L = search_.length, beyond = 0.03 * L;
     look(responsePoles(calls_, search_, search_.end, search_.along, L + beyond, beyond), L);
-    if (left_ > 0) {
+    if (left_ > 0 && search_.signChanges > 0) {
       // The series at the step's end does not see the whole step; that in its middle reaches both ends.
       State middle{calls_.newVector(), 0};
       middle.lambda = search_.series.evaluate(0.5 * L, *middle.u);
@@ -28,7 +28,7 @@ class Search {
       const double reach = 0.5 * L + beyond;
       look(responsePoles(calls_, search_, middle, search_.series.tangent(0.5 * L), reach, reach), 0.5 * L);
     }
-    if (left_ > 0) lookAgain();
+    if (left_ > 0 && search_.signChanges > 0) lookAgain();
     std::sort(found_.points.begin(), found_.points.end(),
               [](const CriticalPoint& x, const CriticalPoint& y) { return x.a < y.a; });
     return std::move(found_);

@@ -15,7 +15,9 @@ struct CriticalSearch {
   const State& end;          ///< the state there; the solver holds its tangent
   const PathTangent& along;  ///< the direction there
   int order = 20;
-  int signChanges = 1;  ///< eigenvalues that changed sign and are not those of limit points (at least)
+  /// Eigenvalues that changed sign and are not those of limit points (at least). 0: none is known, points
+  /// whose changes cancel are looked for.
+  int signChanges = 1;
   double residualBound = 1e-6;
 };
 
@@ -28,6 +30,10 @@ struct CriticalFound {
 /// system (docs/theory/path.md). What cannot be confirmed is left out. The solver's factorization is another
 /// one afterwards.
 CriticalFound findCriticalPoints(Calls& calls, const CriticalSearch& search);
+
+/// The response of the path to a small force a f, as a series seen from a state whose tangent the solver
+/// holds: difference of the path's series with the force and without. Its poles are the critical points.
+Series pathResponse(Calls& calls, const State& from, const PathTangent& along, double weight, int order);
 
 /// Real poles of the response to a small force, seen from a state whose tangent the solver holds: positions
 /// relative to it in [-behind, ahead], nearest first, and the response's highest order, which is dominated by

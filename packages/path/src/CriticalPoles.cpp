@@ -8,11 +8,10 @@
 
 namespace atrapos::path {
 
-ResponsePoles responsePoles(Calls& calls, const CriticalSearch& search, const State& from,
-                            const PathTangent& along, double behind, double ahead) {
+Series pathResponse(Calls& calls, const State& from, const PathTangent& along, double weight, int order) {
   SeriesRequest request;
-  request.order = std::max(search.order, 16);
-  request.weight = search.series.weight();
+  request.order = order;
+  request.weight = weight;
   request.previous = &along;
   request.factored = true;
   const Series plain = buildSeries(calls, from, request);
@@ -37,6 +36,13 @@ ResponsePoles responsePoles(Calls& calls, const CriticalSearch& search, const St
     const double norm = std::sqrt(calls.problem().inner(d, d));
     response.append(std::move(d), moved.lambdaCoefficient(k) - plain.lambdaCoefficient(k), norm);
   }
+  return response;
+}
+
+ResponsePoles responsePoles(Calls& calls, const CriticalSearch& search, const State& from,
+                            const PathTangent& along, double behind, double ahead) {
+  const Series response =
+      pathResponse(calls, from, along, search.series.weight(), std::max(search.order, 16));
   constexpr double agreement = 0.05;
   ResponsePoles poles;
   poles.direction = response.coefficient(response.order()).u;

@@ -5,6 +5,8 @@
 
 #include <Tpetra_Vector.hpp>
 
+#include "BestOrder.hpp"
+
 namespace atrapos::path {
 
 RCP<Vector> copy(const Vector& v) { return Teuchos::rcp(new Vector(v, Teuchos::Copy)); }
@@ -30,6 +32,7 @@ void Run::follow(const Start& start) {
   tangent_ = start.tangent;
   applied_ = start.events;
   lastLength_ = start.length;
+  order_ = start.order > 0 ? start.order : options_.order;
   padeFailures_ = start.padeFailures;
   padeWait_ = start.padeWait;
   try {
@@ -46,12 +49,13 @@ bool Run::step() {
   if (outcome_.steps == options_.maxSteps)
     return end(EndReason::stepLimit, line("the limit of ", options_.maxSteps, " steps is reached"));
   StepReport report;
-  report.order = options_.order;
   Series series = nextSeries(report);
   const EndTangent tangent{calls_.inertia(), series.lambdaCoefficient(1)};
   // After an event the tangent is that of the changed problem and says nothing about the step before.
   if (pending_ && !settle(pending_->events.empty() ? &tangent : nullptr))
     return end(EndReason::observerStopped, "ended by the observer");
+  clean(series);
+  report.order = series.order();
   report.step = outcome_.steps + 1;
   report.lambdaStart = outcome_.final.lambda;
   report.pathLengthStart = outcome_.pathLength;
@@ -94,6 +98,7 @@ void Run::accept(Trial trial, StepReport report, Series series) {
   last_ = std::move(series);
   applied_.clear();
   tangent_ = last_->tangent(trial.a);
+  if (options_.autoOrder) chooseOrder();
   pending_ = std::move(report);
 }
 
@@ -112,10 +117,17 @@ bool Run::settle(const EndTangent* end) {
     explainStability(report, end->lambda1);
   }
   outcome_.worstResidual = std::max(outcome_.worstResidual, report.residual);
-  report.next = {outcome_.final,  tangent_,    outcome_.steps, outcome_.pathLength,
-                 last_->weight(), lastLength_, applied_,       padeFailures_,
-                 padeWait_};
+  report.next = {outcome_.final, tangent_, outcome_.steps, outcome_.pathLength, last_->weight(),
+                 lastLength_,    applied_, order_,         padeFailures_,       padeWait_};
   return observer_.onStep(report, *last_);
+}
+
+void Run::chooseOrder() {
+  const Work& work = calls_.work();
+  if (work.factorizations == 0 || work.orders == 0) return;
+  const auto& s = work.seconds;
+  order_ = bestOrder((s.tangent + s.factor) / work.factorizations, (s.solve + s.orderRhs) / work.orders,
+                     options_.delta);
 }
 
 void Run::finish() {

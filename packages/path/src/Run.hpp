@@ -56,6 +56,7 @@ class Run {
   void accept(Trial trial, StepReport report, Series series);
   bool settle(const EndTangent* end);
   void finish();
+  void chooseOrder();
   bool end(EndReason reason, std::string text);
 
   // RunStart.cpp: how a step begins.
@@ -67,6 +68,7 @@ class Run {
   EndTangent closeEnd();
 
   // RunCritical.cpp: what the step passed.
+  void clean(Series& series);
   void explainStability(StepReport& report, double lambda1);
 
   // RunEvents.cpp: where the Problem changes.
@@ -98,6 +100,7 @@ class Run {
   double relaxOver_ = 0;   ///< length over which the series under way takes R0 to zero; 0: it keeps R0
   double lastLength_ = 0;  ///< of the last accepted step; 0 before the first
   double lastEnd_ = 0;     ///< where the state is on the last series; > lastLength_ after a singularity
+  int order_ = 0;          ///< of the next series
   std::optional<double> weight_;
   std::optional<Series> last_;          ///< the last accepted series
   std::optional<StepReport> pending_;   ///< its step, not yet seen by the observer

@@ -87,7 +87,7 @@ Series Run::seriesAfterEvents(StepReport& report) {
                                                  " events in a row without a step between them"));
   relaxOver_ = 0;
   SeriesRequest request;
-  request.order = options_.order;
+  request.order = order_;
   request.weight = weight_;
   const unsigned choices = count <= mostTogether ? (1u << count) : 2u;
   for (unsigned left = 0; left + 1 < choices; ++left) {  // bits of `left`: candidates not applied

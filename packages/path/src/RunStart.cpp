@@ -54,8 +54,8 @@ void Run::stepOverSingularity(const PathError& cause, int attempt) {
 /// The direction at a step's end, once by the derivative of the series that led there and once by the tangent
 /// found there, is the same to the accuracy of that derivative, unless the two lie on different branches.
 bool Run::directionAgrees(const Series& series, const PathTangent& previous) const {
-  if (options_.order < 3) return true;  // a straight or parabolic step may turn by any angle
-  if (!last_) return true;              // a direction given at the start says the sense only
+  if (order_ < 3) return true;  // a straight or parabolic step may turn by any angle
+  if (!last_) return true;      // a direction given at the start says the sense only
   const auto& problem = calls_.problem();
   const double w = series.weight();
   const auto& x = series.coefficient(1);
@@ -91,7 +91,7 @@ Series Run::nextSeries(StepReport& report) {
   if (!due_.empty()) return seriesAfterEvents(report);
   for (int attempt = 1;;) {
     SeriesRequest request;
-    request.order = options_.order;
+    request.order = order_;
     request.weight = weight_;
     request.direction = options_.direction;
     request.previous = tangent_ ? &*tangent_ : nullptr;

@@ -22,7 +22,7 @@ double Run::longestLength() const {
 }
 
 double Run::firstLength(double radius) const {
-  if (options_.order == 1)  // no estimate, nothing to round
+  if (order_ == 1)  // no estimate, nothing to round
     return lastLength_ > 0 ? std::min(2 * lastLength_, options_.maxStep) : options_.firstStep;
   return rounded(std::min(radius, longestLength()));
 }
@@ -41,7 +41,7 @@ double Run::shorterBy(const Trial& trial) const {
   const double truncation = trial.residual - start;
   const double room = 0.5 * (correctAbove() - start);
   if (truncation <= 0 || room <= 0) return 0.5;
-  return std::clamp(std::pow(room / truncation, 1.0 / (options_.order + 1)), 0.1, 0.9);
+  return std::clamp(std::pow(room / truncation, 1.0 / (order_ + 1)), 0.1, 0.9);
 }
 
 Run::Trial Run::acceptedTrial(Series& series, StepReport& report) {
@@ -52,7 +52,7 @@ Run::Trial Run::acceptedTrial(Series& series, StepReport& report) {
 /// The end of the step by the rational form, where that goes further than the polynomial and its residual
 /// passes, at the end and inside.
 std::optional<Run::Trial> Run::padeTrial(Series& series, StepReport& report) {
-  if (options_.pade == PadeUse::off || options_.order < 4) return std::nullopt;
+  if (options_.pade == PadeUse::off || order_ < 4) return std::nullopt;
   const bool automatic = options_.pade == PadeUse::automatic;
   if (automatic && padeWait_ > 0) {
     --padeWait_;

@@ -15,7 +15,10 @@ enum class PadeUse {
 /// The knobs of path following. Lengths are lengths of the path parameter a, which at the start of the path
 /// changes by sqrt(2) times the change of lambda unless `weight` is given.
 struct Options {
-  int order = 20;        ///< K, the order of the series, >= 1
+  int order = 20;  ///< K, the order of the series, >= 1
+  /// K is chosen while running, in [5, 40], from the measured seconds of a factorization and of an order;
+  /// `order` is that of the first step. Paths then depend on the machine and its load.
+  bool autoOrder = false;
   double delta = 1e-6;   ///< accuracy asked of the series, eq. (36), in (0, 1)
   double direction = 1;  ///< +1: lambda grows at the start of the path; -1: it falls
 
@@ -46,6 +49,10 @@ struct Options {
   /// Bifurcation points are located where the number of negative eigenvalues says that there is one (needs a
   /// tangent solver that tells it). At most two factorizations each.
   bool criticalPoints = true;
+
+  /// Looks for bifurcation points at every step: K more right-hand sides and solves each, no factorization.
+  /// Without it two points in one step whose eigenvalues cancel in the count are not seen.
+  bool searchEveryStep = false;
 
   /// One factorization at the path's end, where the solver tells the inertia: without it the stability there,
   /// and what the last step passed, are not known.
