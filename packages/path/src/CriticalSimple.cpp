@@ -263,6 +263,16 @@ bool refineSimple(Calls& calls, const CriticalSearch& search, double guess, cons
   const bool pitchfork = std::min(std::abs(tangents[0].lambda), std::abs(tangents[1].lambda)) < turns;
   point.kind = pitchfork ? CriticalKind::pitchfork : CriticalKind::transcritical;
   point.nullVectors = {refinement.phi()};
+  // The eigenvalue that vanishes moves at the rate psi . D^2R(X', phi) along the path; it does not cross zero
+  // on a branch that leaves a pitchfork.
+  SecondOrder second(calls, state, refinement.psi());
+  const double size =
+      std::abs(refinement.H(0, 0)) + std::abs(refinement.H(0, 1)) + std::abs(refinement.H(1, 1));
+  const double rate =
+      second(tangents[0], {refinement.phi(), 0}) * linear::dot(*refinement.psi(), *refinement.phi());
+  constexpr double crosses = 1e-6;
+  const double phiSize = std::sqrt(dot({refinement.phi(), 0}, {refinement.phi(), 0}, w));
+  point.negativeChange = std::abs(rate) < crosses * size * phiSize ? 0 : rate < 0 ? 1 : -1;
   return true;
 }
 

@@ -63,6 +63,7 @@ class Run {
   void equilibrate();
   Series nextSeries(StepReport& report);
   void stepOverSingularity(const PathError& cause, int attempt);
+  std::string nullVectorText();
   bool directionAgrees(const Series& series, const PathTangent& previous) const;
   bool retreat();
   EndTangent closeEnd();

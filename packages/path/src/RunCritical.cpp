@@ -82,7 +82,11 @@ void Run::explainStability(StepReport& report, double lambda1) {
   for (const auto& point : found.points) report.unexplained -= point.nullity;
   report.unexplained = std::max(report.unexplained, 0);
   report.criticalPoints = std::move(found.points);
-  for (auto& point : report.criticalPoints) point.stepLength = report.length;
+  for (auto& point : report.criticalPoints) {
+    point.stepLength = report.length;
+    if (point.kind == CriticalKind::multiple)
+      point.negativeChange = after.negative > before.negative ? point.nullity : -point.nullity;
+  }
 }
 
 }  // namespace atrapos::path

@@ -180,4 +180,32 @@ TEST(Critical, BucklingLoadsOfAColumn) {
   }
 }
 
+/// The count inside the steps against the eigenvalues of the 2 x 2 tangent of the perfect truss, which is
+/// diagonal: (1 - x)(2 - x) - x (2 - x) - x (1 - x) and x^2 - 2x + 2b^2.
+TEST(Stability, CountsInsideStepsAreThoseOfTheTangent) {
+  for (const auto use : {PadeUse::off, PadeUse::automatic}) {
+    Options options;
+    options.pade = use;
+    SwayTruss law;
+    Watched<SwayTruss> f(law, {0, 0}, 0, options, unknown(law, 0, 2.2));
+    auto u = f.problem.vector({});
+    int known = 0, asked = 0;
+    for (std::size_t s = 0; s < f.record.steps.size(); ++s)
+      for (int i = 0; i <= 50; ++i) {
+        const double a = f.record.steps[s].length * i / 50;
+        f.record.series[s].evaluate(a, *u);
+        const double x = u->getData()[0];
+        const double sink = 3 * x * x - 6 * x + 2, sway = x * x - 2 * x + 2 * law.b * law.b;
+        if (std::abs(sink) < 1e-5 || std::abs(sway) < 1e-5)
+          continue;  // within the path's accuracy of the change
+        ++asked;
+        const auto n = f.record.steps[s].negativeAt(a);
+        if (!n) continue;
+        ++known;
+        EXPECT_EQ(*n, (sink < 0) + (sway < 0)) << "x = " << x;
+      }
+    EXPECT_EQ(known, asked);
+  }
+}
+
 }  // namespace

@@ -36,6 +36,7 @@ struct CriticalPoint {
   double residual = 0;  ///< relative, at `state`
   /// The last correction of its location, as a part of the step's length.
   double uncertainty = 0;
+  int negativeChange = 0;  ///< of the number of negative eigenvalues from before to behind it
   /// Number of null vectors found: 1, or more where `kind` is multiple.
   int nullity = 1;
   /// Unit directions (w <X, X> + lambda^2 = 1) of the branches through it, that of the path first and with
@@ -83,7 +84,11 @@ struct StepReport {
   int unexplained = 0;
   double pathLengthStart = 0, pathLengthEnd = 0;  ///< sums of the lengths
   State end;                                      ///< the accepted state, after corrections
-  Start next;                                     ///< a path that starts from it goes on with the same bits
+  /// Number of negative eigenvalues of the tangent at a in [0, length]; empty where it is not known (a solver
+  /// that does not tell, two limit points of which only the sum of the changes is known).
+  std::optional<long long> negativeAt(double a) const;
+
+  Start next;  ///< a path that starts from it goes on with the same bits
 };
 
 /// Watches a path as it is followed.
