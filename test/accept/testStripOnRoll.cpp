@@ -102,7 +102,10 @@ TEST_F(StripOnRoll, PaysOneFactorizationAStep) {
                        s.at("retreats").get<int>() + s.at("closings").get<int>() +
                        s.at("critical_factorizations").get<int>();
   EXPECT_EQ(s.at("factorizations"), expected);
-  EXPECT_EQ(s.at("orders_computed"), 20 * steps());
+  // Where steps shrink suddenly two more series are spent on the suspicion of a bifurcation point: 5 of 286
+  // here.
+  EXPECT_GE(s.at("orders_computed"), 20 * steps());
+  EXPECT_LE(s.at("orders_computed"), 1.05 * 20 * steps());
   EXPECT_TRUE(s.at("reached_stop"));
   // 286 measured; a law or a radius that went wrong shows first in the number of steps.
   EXPECT_LT(steps(), 350);

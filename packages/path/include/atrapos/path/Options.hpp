@@ -27,7 +27,7 @@ struct Options {
   /// value so large that |lambda_1| < 1e-8 reads as a singular tangent.
   std::optional<double> weight;
 
-  PadeUse pade = PadeUse::automatic;
+  PadeUse pade = PadeUse::off;  ///< saves a third of the steps; see docs/theory/path.md for where it jumps
 
   double residualBound = 1e-6;  ///< largest relative residual accepted at the end of a step
 
@@ -47,7 +47,7 @@ struct Options {
   double minCosine = 0.9;
 
   /// Bifurcation points are located where the number of negative eigenvalues says that there is one (needs a
-  /// tangent solver that tells it). At most two factorizations each.
+  /// tangent solver that tells it). One or two factorizations each, more where several lie close together.
   bool criticalPoints = true;
 
   /// Looks for bifurcation points at every step: K more right-hand sides and solves each, no factorization.
