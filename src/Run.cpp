@@ -87,7 +87,7 @@ class Recorder final : public path::Observer {
     const int active = activeContacts(*report.end.u);
     writeFields(*report.end.u, report.end.lambda, report.pathLengthEnd,
                 {report.lambdaEnd, report.pathLengthEnd, report.radius, double(report.order),
-                 report.inertia ? double(report.inertia->negative) : -1.0, double(active), report.residual});
+                 negativePivots(report), double(active), report.residual});
     printStep(report, active);
     outputSeconds_ += seconds() - before;
     return !interrupted;
@@ -125,6 +125,13 @@ class Recorder final : public path::Observer {
     results_.writeStep(time, flat(scene_.nodalValues(u, lambda)), flat(scene_.elementValues(u)), globals);
   }
 
+  /// Negative eigenvalues of the tangent at the step's end; at its start where the end is not known; -1:
+  /// unknown.
+  static double negativePivots(const path::StepReport& report) {
+    const auto& inertia = report.inertiaEnd ? report.inertiaEnd : report.inertia;
+    return inertia ? double(inertia->negative) : -1.0;
+  }
+
   int activeContacts(const path::Vector& u) const {
     int active = 0;
     for (const ContactPoints& contact : scene_.contacts()) active += scene_.contactState(contact, u).active;
@@ -137,6 +144,11 @@ class Recorder final : public path::Observer {
     for (const path::LimitPoint& p : r.limitPoints)
       events += fmt::format("limit point ({}) at load factor {:.8g}; ", p.maximum ? "maximum" : "minimum",
                             p.lambda);
+    for (const path::CriticalPoint& p : r.criticalPoints)
+      events += fmt::format("bifurcation point ({}) at load factor {:.10g}; ", path::toString(p.kind),
+                            p.state.lambda);
+    if (r.unexplained > 0)
+      events += fmt::format("{} eigenvalue(s) changed sign at a place not found; ", r.unexplained);
     if (!events.empty()) events.resize(events.size() - 2);
     *options_.progress
         << fmt::format("{:>5} {:>5} {:>10.3e} {:>13.6g} {:>10.3e} {:>10.2e} {:>4} {:>4} {:>8} {:>8.2f}  {}",
@@ -175,6 +187,9 @@ nlohmann::ordered_json summary(const Scene& scene, const path::Outcome& outcome,
   json["corrections"] = outcome.corrections;
   json["start_iterations"] = outcome.startIterations;
   json["restarts"] = outcome.restarts;
+  json["retreats"] = outcome.retreats;
+  json["critical_factorizations"] = outcome.criticalFactorizations;
+  json["closings"] = outcome.closings;
   json["cut_backs"] = outcome.cutBacks;
   json["residual_bound"] = scene.deck().path.residual;
   json["worst_residual"] = recorder.worstResidual();

@@ -98,9 +98,14 @@ TEST_F(StripOnRoll, KeepsTheResidualUnderItsBoundAlsoInsideSteps) {
 TEST_F(StripOnRoll, PaysOneFactorizationAStep) {
   const auto& s = run_->summary;
   const int expected = s.at("steps").get<int>() + s.at("corrections").get<int>() +
-                       s.at("start_iterations").get<int>() + s.at("restarts").get<int>();
+                       s.at("start_iterations").get<int>() + s.at("restarts").get<int>() +
+                       s.at("retreats").get<int>() + s.at("closings").get<int>() +
+                       s.at("critical_factorizations").get<int>();
   EXPECT_EQ(s.at("factorizations"), expected);
-  EXPECT_EQ(s.at("orders_computed"), 20 * steps());
+  // Where steps shrink suddenly two more series are spent on the suspicion of a bifurcation point: 5 of 286
+  // here.
+  EXPECT_GE(s.at("orders_computed"), 20 * steps());
+  EXPECT_LE(s.at("orders_computed"), 1.05 * 20 * steps());
   EXPECT_TRUE(s.at("reached_stop"));
   // 286 measured; a law or a radius that went wrong shows first in the number of steps.
   EXPECT_LT(steps(), 350);

@@ -4,6 +4,7 @@
 
 #include "atrapos/contact/RegularisedPressure.hpp"
 #include "atrapos/taylor/Law.hpp"
+#include "atrapos/taylor/Tensor.hpp"
 
 /// Laws that the benchmark needs and the packages do not have. One source for all scalars: double, Sacado's
 /// Fad and Taylor types, ADOL-C's adouble and the project's own.
@@ -14,6 +15,7 @@ namespace atrapos::bench {
 ///     S = mu (I - C^-1) + lambda ln J C^-1,   P = F S = mu F + (lambda ln J - mu) / J cof F
 ///
 /// (F^-T = cof F / J). in: H = F - I, row-major, dimensionless; out: P, row-major, force per reference area.
+/// cof(I + H) = cof H - H^T + (1 + tr H) I: H alone needs a history, F does not.
 struct NeoHookean {
   static constexpr int numInputs = 9, numOutputs = 9, numData = 0;
 
@@ -21,24 +23,15 @@ struct NeoHookean {
   double mu = 0;      ///< stress units
 
   template <class T>
-  KOKKOS_INLINE_FUNCTION void operator()(const T* H, const taylor::Passive<T>*, T* P) const {
+  KOKKOS_INLINE_FUNCTION void operator()(const T* in, const taylor::Passive<T>*, T* out) const {
     using std::log;
-    const T xx = H[0] + 1.0, yy = H[4] + 1.0, zz = H[8] + 1.0;
-    const T &xy = H[1], &xz = H[2], &yx = H[3], &yz = H[5], &zx = H[6], &zy = H[7];
-    const T cxx = yy * zz - yz * zy, cxy = yz * zx - yx * zz, cxz = yx * zy - yy * zx;
-    const T cyx = xz * zy - xy * zz, cyy = xx * zz - xz * zx, cyz = xy * zx - xx * zy;
-    const T czx = xy * yz - xz * yy, czy = xz * yx - xx * yz, czz = xx * yy - xy * yx;
-    const T J = xx * cxx + xy * cxy + xz * cxz;
+    const taylor::Matrix3<T> H(in);
+    const T diagonal = trace(H) + 1.0;
+    const taylor::Matrix3<T> cof = plusIdentity(cofactor(H) - transpose(H), diagonal);
+    const T J = cof(0, 0) + determinant(H, cof);  // the first row of F times that of its cofactor
     const T q = (lambda * log(J) - mu) / J;
-    P[0] = mu * xx + q * cxx;
-    P[1] = mu * xy + q * cxy;
-    P[2] = mu * xz + q * cxz;
-    P[3] = mu * yx + q * cyx;
-    P[4] = mu * yy + q * cyy;
-    P[5] = mu * yz + q * cyz;
-    P[6] = mu * zx + q * czx;
-    P[7] = mu * zy + q * czy;
-    P[8] = mu * zz + q * czz;
+    const taylor::Matrix3<T> P = plusIdentity(scaled(cof, q) + mu * H, T(mu));
+    P.store(out);
   }
 };
 

@@ -26,6 +26,7 @@ class Counted {
   friend Counted operator-(const Counted& a, const Counted& b) { return linear(a, b); }
   friend Counted operator-(const Counted& a) { return linear(a, a); }
   Counted& operator+=(const Counted& b) { return *this = linear(*this, b); }
+  Counted& operator-=(const Counted& b) { return *this = linear(*this, b); }
   friend Counted operator*(const Counted& a, const Counted& b) {
     if (!a.tally_ || !b.tally_) return linear(a, b);
     return a.id_ == b.id_ ? a.result(1, 1) : a.result(2, 2);  // k+1 pairs, each twice in a square

@@ -39,7 +39,7 @@ Coefficients runSweep(const S& sweep, const Inputs& inputs) {
   constexpr std::size_t batches = kPoints / kLanes;
   std::vector<taylor::Lanes<kLanes>> history(sweep.historyDoubles(batches) / kLanes);
   std::vector<taylor::Lanes<kLanes>> out((kOrder + 1) * batches * O);
-  sweep.run(history.data()->v, batches, inputs,
+  sweep.run(reinterpret_cast<double*>(history.data()), batches, inputs,
             [&](int k, std::size_t b) { return &out[(k * batches + b) * O]; });
   Coefficients result(O);
   for (int k = 0; k <= kOrder; ++k)

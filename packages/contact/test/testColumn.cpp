@@ -103,7 +103,7 @@ class Unloaded : public path::Observer {
   explicit Unloaded(const Column& column) : column_(column) {}
   bool onStep(const path::StepReport& report, const path::Series& series) override {
     auto u = fem::test::zeroVector(*column_.problem);
-    for (const double a : series.lambdaPolynomial().roots(report.length)) {
+    for (const double a : series.lambdaFunction().roots(report.length)) {
       series.evaluate(a, *u);
       EXPECT_NEAR(column_.w(*u), 0.0, 1e-9);
       EXPECT_NEAR(column_.assembledForce(*u), 0.0, 1e-9);

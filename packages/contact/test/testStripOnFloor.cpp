@@ -82,7 +82,7 @@ class Watch : public path::Observer {
   Watch(const Strip& strip, const std::vector<Row>& rows) : strip_(strip), rows_(rows), seen(rows.size()) {}
   bool onStep(const path::StepReport& report, const path::Series& series) override {
     for (std::size_t i = 0; i < rows_.size(); ++i)
-      for (const double a : series.lambdaPolynomial().minus(rows_[i].Q).roots(report.length))
+      for (const double a : series.lambdaFunction().minus(rows_[i].Q).roots(report.length))
         look(rows_[i], series, a, seen[i]);
     return true;
   }

@@ -38,12 +38,13 @@ ResidualNorm Calls::residual(const State& state, Vector& r) {
   return problemCall([&] { return problem_.residual(*state.u, state.lambda, r); });
 }
 
+RCP<const CrsMatrix> Calls::tangent(const State& state, Vector& F) {
+  Stopwatch watch(work_.seconds.tangent);
+  return problemCall([&] { return problem_.tangent(*state.u, state.lambda, F); });
+}
+
 void Calls::factor(const State& state, Vector& F) {
-  RCP<const CrsMatrix> K;
-  {
-    Stopwatch watch(work_.seconds.tangent);
-    K = problemCall([&] { return problem_.tangent(*state.u, state.lambda, F); });
-  }
+  const auto K = tangent(state, F);
   Stopwatch watch(work_.seconds.factor);
   ++work_.factorizations;
   solverCall([&] {
@@ -57,6 +58,13 @@ void Calls::solve(const Vector& b, Vector& x) {
   Stopwatch watch(work_.seconds.solve);
   ++work_.solves;
   solverCall([&] { solver_.solve(b, x); });
+}
+
+void Calls::solveTransposed(const Vector& b, Vector& x) {
+  if (problem_.symmetric()) return solve(b, x);
+  Stopwatch watch(work_.seconds.solve);
+  ++work_.solves;
+  solverCall([&] { solver_.solveTransposed(b, x); });
 }
 
 void Calls::beginSeries(const State& state, int maxOrder) {
@@ -80,6 +88,23 @@ Increment Calls::internalOrder(int k, RCP<Vector> v, double mu) {
 void Calls::completeOrder(int k, const Vector& Uk, double lambdaK) {
   Stopwatch watch(work_.seconds.orderRhs);
   problemCall([&] { problem_.completeOrder(k, Uk, lambdaK); });
+}
+
+std::vector<double> Calls::eventOrder(int k) {
+  Stopwatch watch(work_.seconds.orderRhs);
+  std::vector<double> g(problem_.eventCount(), 0.0);
+  if (!g.empty()) problemCall([&] { problem_.eventOrder(k, g); });
+  return g;
+}
+
+void Calls::applyEvent(const std::vector<int>& indices, const State& state) {
+  problemCall([&] { problem_.applyEvent(indices, *state.u, state.lambda); });
+}
+
+std::optional<linear::Inertia> Calls::inertia() const {
+  auto inertia = solver_.inertia();
+  if (inertia) inertia->negative -= problem_.constraintPivots();
+  return inertia;
 }
 
 RCP<Vector> Calls::newVector() const { return Teuchos::rcp(new Vector(problem_.map())); }

@@ -25,6 +25,7 @@ void Options::validate() const {
   require(correctAbove > 0 && correctAbove <= 1, "correctAbove", correctAbove, "in (0, 1]");
   require(maxCorrections >= 0, "maxCorrections", maxCorrections, ">= 0");
   require(maxStartIterations >= 0, "maxStartIterations", maxStartIterations, ">= 0");
+  require(minCosine >= 0 && minCosine < 1, "minCosine", minCosine, "in [0, 1)");
   require(positive(maxStep), "maxStep", maxStep, "positive and finite");
   require(positive(firstStep), "firstStep", firstStep, "positive and finite");
   require(positive(minStep) && minStep < maxStep, "minStep", minStep, "positive and less than maxStep");

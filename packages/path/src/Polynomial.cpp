@@ -18,6 +18,21 @@ Polynomial Polynomial::derivative() const {
   return Polynomial(std::move(d));
 }
 
+Polynomial Polynomial::plus(double factor, const Polynomial& q) const {
+  auto c = c_;
+  if (c.size() < q.c_.size()) c.resize(q.c_.size(), 0);
+  for (std::size_t k = 0; k < q.c_.size(); ++k) c[k] += factor * q.c_[k];
+  return Polynomial(std::move(c));
+}
+
+Polynomial Polynomial::operator*(const Polynomial& q) const {
+  if (c_.empty() || q.c_.empty()) return {};
+  std::vector<double> c(c_.size() + q.c_.size() - 1, 0.0);
+  for (std::size_t i = 0; i < c_.size(); ++i)
+    for (std::size_t j = 0; j < q.c_.size(); ++j) c[i + j] += c_[i] * q.c_[j];
+  return Polynomial(std::move(c));
+}
+
 Polynomial Polynomial::minus(double value) const {
   auto c = c_;
   if (c.empty()) c.push_back(0);

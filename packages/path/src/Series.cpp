@@ -24,16 +24,52 @@ void Series::append(Increment x, double lambda, double norm) {
   norm_.push_back(norm);
 }
 
+void Series::appendEvents(const std::vector<double>& g) {
+  events_.resize(g.size());
+  for (std::size_t i = 0; i < g.size(); ++i) events_[i].push_back(g[i]);
+}
+
+Series Series::reversed() const {
+  Series s = *this;
+  s.form_ = nullptr;
+  for (int k = 1; k <= order(); k += 2) {
+    s.x_[k].u = Teuchos::rcp(new Vector(*x_[k].u, Teuchos::Copy));
+    s.x_[k].u->scale(-1);
+    for (double& y : s.x_[k].internal) y = -y;
+    s.lambda_[k] = -lambda_[k];
+    for (auto& g : s.events_) g[k] = -g[k];
+  }
+  return s;
+}
+
 double Series::evaluate(double a, Vector& u) const {
   u.putScalar(0);
-  for (int k = order(); k >= 0; --k) u.update(1, *x_[k].u, a);
+  if (form_) {
+    const auto c = form_->weights(a);
+    for (std::size_t k = 0; k < c.size(); ++k) u.update(c[k], *x_[k].u, 1);
+  } else {
+    for (int k = order(); k >= 0; --k) u.update(1, *x_[k].u, a);
+  }
   return lambda(a);
+}
+
+std::vector<double> Series::derivativeWeights(double a) const {
+  if (form_) return form_->derivativeWeights(a);
+  std::vector<double> c(order() + 1, 0.0);
+  double power = 1;
+  for (int k = 1; k <= order(); ++k, power *= a) c[k] = k * power;
+  return c;
 }
 
 double Series::derivative(double a, Vector& du) const {
   du.putScalar(0);
-  for (int k = order(); k >= 1; --k) du.update(k, *x_[k].u, a);
-  return lambdaPolynomial().derivative()(a);
+  double lambda = 0;
+  const auto c = derivativeWeights(a);
+  for (std::size_t k = 1; k < c.size(); ++k) {
+    du.update(c[k], *x_[k].u, 1);
+    lambda += c[k] * lambda_[k];
+  }
+  return lambda;
 }
 
 PathTangent Series::tangent(double a) const {
@@ -41,18 +77,22 @@ PathTangent Series::tangent(double a) const {
   t.x.u = Teuchos::rcp(new Vector(x_[0].u->getMap(), false));
   t.lambda = derivative(a, *t.x.u);
   t.x.internal.assign(x_.back().internal.size(), 0);
-  for (int k = order(); k >= 1; --k)
-    for (std::size_t i = 0; i < t.x.internal.size(); ++i)
-      t.x.internal[i] = t.x.internal[i] * a + k * x_[k].internal[i];
+  const auto c = derivativeWeights(a);
+  for (std::size_t k = 1; k < c.size(); ++k)
+    for (std::size_t i = 0; i < t.x.internal.size(); ++i) t.x.internal[i] += c[k] * x_[k].internal[i];
   return t;
 }
 
-double Series::lambda(double a) const { return lambdaPolynomial()(a); }
+double Series::lambda(double a) const { return lambdaFunction()(a); }
 
-Polynomial Series::functional(const Vector& weights) const {
+Rational Series::scalar(const std::vector<double>& coefficients) const {
+  return form_ ? form_->fraction(coefficients) : Rational(Polynomial(coefficients));
+}
+
+Rational Series::functional(const Vector& weights) const {
   std::vector<double> c;
   for (const auto& x : x_) c.push_back(linear::dot(weights, *x.u));
-  return Polynomial(std::move(c));
+  return scalar(c);
 }
 
 double Series::convergence(int k) const {

@@ -31,7 +31,10 @@ Increment combine(Increment x, double mu, const Increment& y) {
 Series buildSeries(Calls& calls, const State& start, const SeriesRequest& request) {
   const Problem& problem = calls.problem();
   auto F = calls.newVector();
-  calls.factor(start, *F);
+  if (request.factored)
+    calls.tangent(start, *F);
+  else
+    calls.factor(start, *F);
   if (!std::isfinite(F->norm2())) notFinite("the load F", 1, start);
 
   auto Uhat = calls.newVector();
@@ -62,13 +65,18 @@ Series buildSeries(Calls& calls, const State& start, const SeriesRequest& reques
   }
 
   Series series(start, w);
+  series.appendEvents(calls.eventOrder(0));
   for (int k = 1; k <= request.order; ++k) {
     auto V = calls.newVector();
-    const bool zero = k == 1 && !request.residual;  // order 1 of an exact solution has no right-hand side
-    if (k > 1)
+    // Order 1 of an exact solution has no right-hand side.
+    const bool zero = k == 1 && !request.residual && !request.perturbation;
+    if (k > 1) {
       calls.orderRhs(k, *Fk);
-    else if (request.residual)
-      Fk->update(-1 / request.relaxOver, *request.residual, 0);
+    } else {
+      Fk->putScalar(0);
+      if (request.residual) Fk->update(-1 / request.relaxOver, *request.residual, 1);
+      if (request.perturbation) Fk->update(1, *request.perturbation, 1);
+    }
     if (!zero) calls.solve(*Fk, *V);
     const Increment Xv = calls.internalOrder(k, V, 0);
     // <X_k, D> w + lambda_k lambda_1 = [k = 1] with D = lambda_1 Xhat, (1 + w <Xhat, Xhat>) lambda_1^2 = 1.
@@ -79,6 +87,7 @@ Series buildSeries(Calls& calls, const State& start, const SeriesRequest& reques
     if (!std::isfinite(norm)) notFinite("the coefficient", k, start);
     calls.completeOrder(k, *Xk.u, lambdaK);
     series.append(std::move(Xk), lambdaK, norm);
+    series.appendEvents(calls.eventOrder(k));
   }
   return series;
 }

@@ -22,7 +22,7 @@ void Stops::validate() const {
 namespace {
 
 /// First root of p - value in (0, end].
-std::optional<double> firstRoot(const Polynomial& p, double value, double end, bool atStart) {
+std::optional<double> firstRoot(const Rational& p, double value, double end, bool atStart) {
   auto q = p.minus(value);
   // Relative to what p is made of: a start that came from an earlier stop satisfies it to rounding only.
   constexpr double satisfied = 1e-12;
@@ -46,7 +46,7 @@ std::optional<StopHit> firstStop(const Stops& stops, const Series& series, doubl
     text << what << ' ' << value << " reached";
     first = StopHit{*a, kind, index, text.str()};
   };
-  const auto lambda = series.lambdaPolynomial();
+  const auto lambda = series.lambdaFunction();
   for (std::size_t i = 0; i < stops.loadFactors.size(); ++i)
     offer(firstRoot(lambda, stops.loadFactors[i], end, atStart), StopHit::Kind::loadFactor,
           static_cast<int>(i), "load factor", stops.loadFactors[i]);

@@ -49,6 +49,7 @@ TEST(Failures, SingularStart) {
   Followed<Fold> f(Fold{}, {0}, 0, Options{}, load(1));
   EXPECT_EQ(f.outcome.reason, EndReason::singularTangent);
   EXPECT_NE(f.outcome.text.find("cannot start here"), std::string::npos) << f.outcome.text;
+  EXPECT_NE(f.outcome.text.find("null vector: unknown 0"), std::string::npos) << f.outcome.text;
   EXPECT_EQ(f.outcome.steps, 0);
 }
 

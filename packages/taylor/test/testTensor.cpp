@@ -161,6 +161,16 @@ TEST(Tensor, linearOperations) {
                    fill9(out, [&](int i, int j) { return A[i][j] + 2.0 * B[i][j] - 0.5 * A[i][j]; });
                  },
                  "sums");
+  checkTensor<9>([](auto A, auto B, auto, auto, auto* out) {
+                   const decltype(A(0, 0)) t = trace(B);
+                   plusIdentity(transpose(A), t).store(out);
+                 },
+                 [](auto& A, auto& B, auto&, auto, auto* out) {
+                   fill9(out, [&](int i, int j) {
+                     return A[j][i] + (i == j ? B[0][0] + B[1][1] + B[2][2] : LongSeries(0.0));
+                   });
+                 },
+                 "transpose, trace and identity of a matrix");
   checkTensor<6>(
       [](auto A, auto, auto S, auto s, auto* out) { plusIdentity(S + symmetricPart(A), s).store(out); },
       [](auto& A, auto&, auto& S, auto s, auto* out) {

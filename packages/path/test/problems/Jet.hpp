@@ -70,6 +70,29 @@ class Jet {
     return r;
   }
 
+  /// s = sin a and c = cos a by s' = c a', c' = -s a'.
+  static void sinCos(const Jet& a, Jet& s, Jet& c) {
+    s[0] = std::sin(a[0]);
+    c[0] = std::cos(a[0]);
+    for (std::size_t k = 1; k < terms; ++k) {
+      s[k] = c[k] = 0;
+      for (std::size_t i = 1; i <= k; ++i) {
+        s[k] += i * a[i] * c[k - i] / k;
+        c[k] -= i * a[i] * s[k - i] / k;
+      }
+    }
+  }
+  friend Jet sin(const Jet& a) {
+    Jet s, c;
+    sinCos(a, s, c);
+    return s;
+  }
+  friend Jet cos(const Jet& a) {
+    Jet s, c;
+    sinCos(a, s, c);
+    return c;
+  }
+
  private:
   std::vector<double> c_;
 };

@@ -136,7 +136,7 @@ class JetProblem : public atrapos::path::Problem {
 
   int residuals = 0;
 
- private:
+ protected:
   std::vector<Jet> jets(const Vector& u) const {
     const auto data = u.getData();
     return std::vector<Jet>(data.begin(), data.end());

@@ -9,6 +9,7 @@
 #include "DenseSolver.hpp"
 #include "JetProblem.hpp"
 #include "Laws.hpp"
+#include "SymmetricDenseSolver.hpp"
 #include "atrapos/path/PathFollower.hpp"
 
 /// Keeps every step.
@@ -30,11 +31,18 @@ struct Record : atrapos::path::Observer {
   }
 };
 
+/// Bifurcation points in the order of the path.
+inline std::vector<atrapos::path::CriticalPoint> criticalPoints(const Record& record) {
+  std::vector<atrapos::path::CriticalPoint> all;
+  for (const auto& s : record.steps) all.insert(all.end(), s.criticalPoints.begin(), s.criticalPoints.end());
+  return all;
+}
+
 /// A path followed from (u, lambda) with the dense solver, and all there is to know about it.
-template <class Law>
+template <class Law, class Solver = DenseSolver>
 struct Followed {
   JetProblem<Law> problem;
-  DenseSolver solver;
+  Solver solver;
   Record record;
   atrapos::path::Outcome outcome;
 

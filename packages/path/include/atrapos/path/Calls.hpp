@@ -22,12 +22,24 @@ class Calls {
 
   /// x = K_T^-1 b with the last factorization.
   void solve(const Vector& b, Vector& x);
+  /// x = K_T^-T b with the last factorization.
+  void solveTransposed(const Vector& b, Vector& x);
+
+  /// K_T(state) without factoring it, and F.
+  RCP<const CrsMatrix> tangent(const State& state, Vector& F);
 
   void beginSeries(const State& state, int maxOrder);
   void orderRhs(int k, Vector& Fk);
   /// (v, internal variables of order k for U_k = v, lambda_k = mu).
   Increment internalOrder(int k, RCP<Vector> v, double mu);
   void completeOrder(int k, const Vector& Uk, double lambdaK);
+
+  /// Coefficient k of the Problem's event functions.
+  std::vector<double> eventOrder(int k);
+  void applyEvent(const std::vector<int>& indices, const State& state);
+
+  /// Of the last factorization, without the pivots owed to constraints.
+  std::optional<linear::Inertia> inertia() const;
 
   /// A new zero vector on the Problem's map.
   RCP<Vector> newVector() const;

@@ -5,10 +5,20 @@
 
 namespace atrapos::path {
 
+/// Where the rational form of a series (Padé) stands in for the polynomial.
+enum class PadeUse {
+  off,
+  automatic,  ///< where its range is longer by a tenth and the residual passes; rests while it does not help
+  on          ///< tried at every step
+};
+
 /// The knobs of path following. Lengths are lengths of the path parameter a, which at the start of the path
 /// changes by sqrt(2) times the change of lambda unless `weight` is given.
 struct Options {
-  int order = 20;        ///< K, the order of the series, >= 1
+  int order = 20;  ///< K, the order of the series, >= 1
+  /// K is chosen while running, in [5, 40], from the measured seconds of a factorization and of an order;
+  /// `order` is that of the first step. Paths then depend on the machine and its load.
+  bool autoOrder = false;
   double delta = 1e-6;   ///< accuracy asked of the series, eq. (36), in (0, 1)
   double direction = 1;  ///< +1: lambda grows at the start of the path; -1: it falls
 
@@ -16,6 +26,8 @@ struct Options {
   /// the path's first step so that both terms weigh the same there, w = 1 / <Xhat, Xhat> with K_T Uhat = F. A
   /// value so large that |lambda_1| < 1e-8 reads as a singular tangent.
   std::optional<double> weight;
+
+  PadeUse pade = PadeUse::off;  ///< saves a third of the steps; see docs/theory/path.md for where it jumps
 
   double residualBound = 1e-6;  ///< largest relative residual accepted at the end of a step
 
@@ -29,6 +41,22 @@ struct Options {
   double correctAbove = 0.5;
   int maxCorrections = 4;       ///< Newton iterations of one correction, >= 0 (0: never correct)
   int maxStartIterations = 25;  ///< Newton iterations at fixed lambda where the start is not in equilibrium
+
+  /// A step whose series ends with another direction than the tangent found there is halved: least cosine of
+  /// the angle between the two (in w <X, X> + lambda^2), in [0, 1).
+  double minCosine = 0.9;
+
+  /// Bifurcation points are located where the number of negative eigenvalues says that there is one (needs a
+  /// tangent solver that tells it). One or two factorizations each, more where several lie close together.
+  bool criticalPoints = true;
+
+  /// Looks for bifurcation points at every step: K more right-hand sides and solves each, no factorization.
+  /// Without it two points in one step whose eigenvalues cancel in the count are not seen.
+  bool searchEveryStep = false;
+
+  /// One factorization at the path's end, where the solver tells the inertia: without it the stability there,
+  /// and what the last step passed, are not known.
+  bool closeEnd = true;
 
   double maxStep = 1e3;     ///< longest step; bounds series that terminate
   double firstStep = 1e-3;  ///< first trial step of order 1, which has no estimate; later trials double

@@ -23,6 +23,9 @@ class PathFollower {
   /// observer pass through.
   Outcome run(const State& start, Observer& observer);
 
+  /// The same from a point with a direction: a branch, or StepReport::next of an interrupted path.
+  Outcome runFrom(const Start& start, Observer& observer);
+
   const Options& options() const { return options_; }
 
  private:

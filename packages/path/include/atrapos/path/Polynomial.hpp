@@ -1,5 +1,6 @@
 #pragma once
 
+#include <utility>
 #include <vector>
 
 namespace atrapos::path {
@@ -14,6 +15,10 @@ class Polynomial {
 
   double operator()(double a) const;
   Polynomial derivative() const;
+
+  /// p + factor q.
+  Polynomial plus(double factor, const Polynomial& q) const;
+  Polynomial operator*(const Polynomial& q) const;
 
   /// p - value.
   Polynomial minus(double value) const;

@@ -67,6 +67,24 @@ class Problem {
   virtual void internalOrder(int /*k*/, const Vector& /*v*/, double /*mu*/,
                              std::vector<double>& /*y*/) const {}
 
+  /// Number of event functions: scalars of the state that are not negative while the Problem is what it is. 0
+  /// where it never changes.
+  virtual int eventCount() const { return 0; }
+
+  /// Coefficient k of every event function on the series under way; k = 0 after beginSeries, k >= 1 after
+  /// completeOrder(k). g has eventCount() entries and is overwritten.
+  virtual void eventOrder(int /*k*/, std::vector<double>& /*g*/) const {}
+
+  /// These event functions have fallen to zero at (u, lambda): the Problem changes (a gap closes and becomes
+  /// a constraint, a force vanishes and sets a point free). (u, lambda) solves the changed Problem too, the
+  /// map and the graph stay, and the functions of these indices are others that start at zero. Called again
+  /// with the same indices it changes back.
+  virtual void applyEvent(const std::vector<int>& /*indices*/, const Vector& /*u*/, double /*lambda*/) {}
+
+  /// Negative pivots of K_T that are owed to constraints with multipliers among the unknowns: they say
+  /// nothing about stability and are not counted.
+  virtual int constraintPivots() const { return 0; }
+
   /// The inner product behind the path parameter (without its weight w and its load term):
   /// a = w <X - X0, X_1> + (lambda - lambda0) lambda_1 with X = (unknowns, internal variables).
   /// Default: the Euclidean product of the unknowns.

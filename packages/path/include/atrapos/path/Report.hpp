@@ -15,6 +15,48 @@ struct LimitPoint {
   double a = 0;       ///< on the step's series
   double lambda = 0;  ///< load factor there
   bool maximum = false;
+  bool smooth = true;  ///< false: lambda turns because an event changed the Problem
+};
+
+enum class CriticalKind {
+  transcritical,  ///< two branches cross, lambda goes on along both
+  pitchfork,      ///< lambda turns along one of the two branches
+  multiple        ///< at least two eigenvalues of the tangent vanish together: more than two branches
+};
+
+/// "transcritical" and so on.
+const char* toString(CriticalKind kind);
+
+/// A bifurcation point on the path (docs/theory/path.md).
+struct CriticalPoint {
+  double a = 0;           ///< on the step's series
+  double stepLength = 0;  ///< of the step: what is near and far here
+  CriticalKind kind = CriticalKind::transcritical;
+  State state;          ///< corrected: exact to rounding at a simple point
+  double residual = 0;  ///< relative, at `state`
+  /// The last correction of its location, as a part of the step's length.
+  double uncertainty = 0;
+  int negativeChange = 0;  ///< of the number of negative eigenvalues from before to behind it
+  /// Number of null vectors found: 1, or more where `kind` is multiple.
+  int nullity = 1;
+  /// Unit directions (w <X, X> + lambda^2 = 1) of the branches through it, that of the path first and with
+  /// its sense; empty at a multiple point.
+  std::vector<PathTangent> tangents;
+  std::vector<RCP<Vector>> nullVectors;  ///< of K_T there, Euclidean norm 1
+};
+
+/// Where and how a path starts. The state alone starts a new one; the other entries go on with one that was
+/// interrupted, and are taken from StepReport::next as they are.
+struct Start {
+  State state;
+  std::optional<PathTangent> tangent;  ///< of the path that led here: the sense is kept
+  int steps = 0;                       ///< taken before, counted against Options::maxSteps
+  double pathLength = 0;               ///< gone before
+  std::optional<double> weight;        ///< w of the path; empty: by Options::weight
+  double length = 0;                   ///< of the step that led here; 0: none
+  std::vector<int> events;             ///< applied at this state: their functions are zero here
+  int order = 0;                       ///< of the series to come; 0: Options::order
+  int padeFailures = 0, padeWait = 0;  ///< when the rational form is tried again
 };
 
 /// What happened in one step.
@@ -28,11 +70,25 @@ struct StepReport {
   double residual = 0;          ///< relative, at the end, after corrections
   double residualOfSeries = 0;  ///< the same before corrections
   int corrections = 0;          ///< Newton iterations at the end, one factorization each
-  int restarts = 0;  ///< singular tangents at the start, each stepped over along the previous series
-  std::optional<linear::Inertia> inertia;  ///< of the tangent at the step's start
+  int restarts = 0;      ///< singular tangents at the start, each stepped over along the previous series
+  int retreats = 0;      ///< times the step was halved because the direction at its end was another one
+  double padeRange = 0;  ///< range of the rational form; 0 where none was tried or none is good
+  bool pade = false;     ///< the step follows the rational form
+  std::optional<linear::Inertia> inertia;     ///< of the tangent at the step's start
+  std::optional<linear::Inertia> inertiaEnd;  ///< and at its end, i.e. the next step's start
   std::vector<LimitPoint> limitPoints;
+  std::vector<int> events;  ///< event functions that fell to zero at the step's end and were applied
+  std::vector<CriticalPoint> criticalPoints;  ///< bifurcation points inside the step, ascending
+  /// Eigenvalues that changed sign inside the step and are explained by no point found: the tangent says that
+  /// there is a bifurcation, its place is not known.
+  int unexplained = 0;
   double pathLengthStart = 0, pathLengthEnd = 0;  ///< sums of the lengths
   State end;                                      ///< the accepted state, after corrections
+  /// Number of negative eigenvalues of the tangent at a in [0, length]; empty where it is not known (a solver
+  /// that does not tell, two limit points of which only the sum of the changes is known).
+  std::optional<long long> negativeAt(double a) const;
+
+  Start next;  ///< a path that starts from it goes on with the same bits
 };
 
 /// Watches a path as it is followed.
@@ -40,7 +96,8 @@ class Observer {
  public:
   virtual ~Observer() = default;
 
-  /// After every accepted step; valid for a in [0, report.length]. Return false to end the path.
+  /// After every accepted step, as soon as the tangent at its end is known; the series is valid for a in
+  /// [0, report.length]. Return false to end the path.
   virtual bool onStep(const StepReport& report, const Series& series) = 0;
 };
 
@@ -53,6 +110,9 @@ enum class EndReason {
   solverFailed,           ///< the tangent solver failed for another reason than singularity
   loadWithoutEffect,      ///< Uhat = 0: the load parameter does not move the unknowns
   notFinite,              ///< the Problem or the solver gave a value that is not a number
+  noAdmissibleDirection,  ///< after an event no change of the Problem lets the path go on
+  eventsCycle,            ///< events follow one another without the path going on
+  directionLost,          ///< the tangent at a step's end is not its series' derivative, however short
   stepTooSmall,           ///< the residual bound cannot be met by a step of sensible length
   problemFailed           ///< the Problem threw; its message is in the text
 };
@@ -88,15 +148,21 @@ struct Work {
   Timings seconds;
 };
 
-/// How a path ended, and what it cost. factorizations = steps + startIterations + corrections + restarts,
-/// plus 1 where the last series did not become a step.
+/// How a path ended, and what it cost. factorizations = steps + startIterations + corrections + restarts +
+/// retreats + closings + criticalFactorizations + eventTrials, plus 1 where the last series did not become a
+/// step.
 struct Outcome : Work {
   EndReason reason = EndReason::problemFailed;
   std::string text;  ///< one line
   int steps = 0;
-  int startIterations = 0;  ///< Newton iterations before the first step
-  int corrections = 0;      ///< Newton iterations at the ends of steps
-  int restarts = 0;         ///< singular tangents met at the start of a step
+  int startIterations = 0;         ///< Newton iterations before the first step
+  int corrections = 0;             ///< Newton iterations at the ends of steps
+  int restarts = 0;                ///< singular tangents met at the start of a step
+  int retreats = 0;                ///< steps halved because the direction at their end was another one
+  int criticalFactorizations = 0;  ///< spent on locating critical points
+  int events = 0;                  ///< applied
+  int eventTrials = 0;             ///< factorizations of changes that turned out not to be admissible
+  int closings = 0;                ///< factorizations at the path's end, for its inertia
   int cutBacks = 0;
   double worstResidual = 0;  ///< largest relative residual at the end of a step
   double weight = 0;         ///< w of the path parameter; 0 where no step was started

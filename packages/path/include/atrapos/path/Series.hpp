@@ -1,8 +1,9 @@
 #pragma once
 
+#include <memory>
 #include <vector>
 
-#include "atrapos/path/Polynomial.hpp"
+#include "atrapos/path/Pade.hpp"
 #include "atrapos/path/State.hpp"
 
 namespace atrapos::path {
@@ -30,6 +31,11 @@ class Series {
   /// w of a = w <X - X0, X_1> + (lambda - lambda0) lambda_1.
   double weight() const { return weight_; }
 
+  /// From here on evaluate() and all that follows it read the path off this rational form; null: off the
+  /// polynomial. The coefficients stay as they are.
+  void setForm(std::shared_ptr<const Pade> form) { form_ = std::move(form); }
+  const std::shared_ptr<const Pade>& form() const { return form_; }
+
   /// u = U(a); returns lambda(a).
   double evaluate(double a, Vector& u) const;
 
@@ -40,10 +46,15 @@ class Series {
   PathTangent tangent(double a) const;
 
   double lambda(double a) const;
-  Polynomial lambdaPolynomial() const { return Polynomial(lambda_); }
 
-  /// weights . U(a) as a polynomial of a: a displacement, a mean, a reaction.
-  Polynomial functional(const Vector& weights) const;
+  /// lambda as a function of a.
+  Rational lambdaFunction() const { return scalar(lambda_); }
+
+  /// weights . U(a) as a function of a: a displacement, a mean, a reaction.
+  Rational functional(const Vector& weights) const;
+
+  /// A scalar with these Taylor coefficients, in the form that the path has.
+  Rational scalar(const std::vector<double>& coefficients) const;
 
   /// Validity, eq. (36): (delta ||X_1|| / ||X_K||)^(1/(K-1)), once with the norm of X alone as printed and
   /// once with w ||X||^2 + lambda^2 (where U is the better parameter, lambda is what the truncation spoils);
@@ -51,17 +62,32 @@ class Series {
   /// vanish (the series terminates) and for K = 1 (nothing to estimate from).
   double radius(double delta) const;
 
+  /// Coefficient k of the Problem's event functions, k = 0, 1, ... in turn.
+  void appendEvents(const std::vector<double>& g);
+  int eventCount() const { return static_cast<int>(events_.size()); }
+  const std::vector<double>& eventCoefficients(int i) const { return events_.at(i); }
+
+  /// The same path with a replaced by -a.
+  Series reversed() const;
+
   /// Appends order K+1; `norm` is ||x|| in the Problem's inner product.
   void append(Increment x, double lambda, double norm);
+
+  /// Estimate of the radius of convergence, radius(1).
+  double convergenceRadius() const { return radius(1); }
 
  private:
   /// (||X_1|| / ||X_k||)^(1/(k-1)), the smaller over both norms.
   double convergence(int k) const;
+  /// Factors of X_0 .. X_K in dX/da (a).
+  std::vector<double> derivativeWeights(double a) const;
 
   double weight_;
+  std::shared_ptr<const Pade> form_;
   std::vector<Increment> x_;
   std::vector<double> lambda_;
   std::vector<double> norm_;
+  std::vector<std::vector<double>> events_;  ///< coefficients of each event function
 };
 
 }  // namespace atrapos::path

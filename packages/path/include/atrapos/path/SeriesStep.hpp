@@ -16,6 +16,9 @@ struct SeriesRequest {
   /// A residual R0 of the start that the series takes to zero over the length `relaxOver`; null: none.
   const Vector* residual = nullptr;
   double relaxOver = 1;
+  /// A force that grows with a: the series is that of R(U(a), lambda(a)) = a * perturbation; null: none.
+  const Vector* perturbation = nullptr;
+  bool factored = false;  ///< the tangent solver holds K_T of the start already
 };
 
 /// The Taylor series of the path at a state: one factorization, one solve per order.

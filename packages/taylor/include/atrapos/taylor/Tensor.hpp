@@ -90,10 +90,20 @@ struct Full {
   }
 };
 
+struct Transpose {
+  template <class V>
+  KOKKOS_FORCEINLINE_FUNCTION void operator()(const V* a, V* out) const {
+    ATRAPOS_UNROLL
+    for (int m = 0; m < 9; ++m) out[m] = a[3 * (m % 3) + m / 3];
+  }
+};
+
+/// Diagonal entries lie Step apart: 1 in a symmetric tensor, 4 in a matrix.
+template <int Step>
 struct Trace {
   template <class V>
   KOKKOS_FORCEINLINE_FUNCTION void operator()(const V* a, V* out) const {
-    out[0] = a[0] + a[1] + a[2];
+    out[0] = a[0] + a[Step] + a[2 * Step];
   }
 };
 
@@ -125,12 +135,13 @@ struct Minus {
   }
 };
 
+template <int Step, int N>
 struct PlusIdentity {
   template <class V>
   KOKKOS_FORCEINLINE_FUNCTION void operator()(const V* a, const V* s, V* out) const {
     ATRAPOS_UNROLL
-    for (int n = 0; n < 6; ++n) {
-      if (n < 3)
+    for (int n = 0; n < N; ++n) {
+      if (n % Step == 0 && n <= 2 * Step)
         out[n] = a[n] + s[0];
       else
         out[n] = a[n];
@@ -258,15 +269,34 @@ KOKKOS_FORCEINLINE_FUNCTION Matrix3<T> full(const Symmetric3<T>& S) {
 template <class T>
 KOKKOS_FORCEINLINE_FUNCTION T trace(const Symmetric3<T>& S) {
   detail::Scalar<T> t;
-  detail::linear(detail::Trace{}, S, t);
+  detail::linear(detail::Trace<1>{}, S, t);
+  return t.entry(0);
+}
+template <class T>
+KOKKOS_FORCEINLINE_FUNCTION T trace(const Matrix3<T>& A) {
+  detail::Scalar<T> t;
+  detail::linear(detail::Trace<4>{}, A, t);
   return t.entry(0);
 }
 
-/// S + s I
+template <class T>
+KOKKOS_FORCEINLINE_FUNCTION Matrix3<T> transpose(const Matrix3<T>& A) {
+  Matrix3<T> B;
+  detail::linear(detail::Transpose{}, A, B);
+  return B;
+}
+
+/// The tensor plus s I.
 template <class T>
 KOKKOS_FORCEINLINE_FUNCTION Symmetric3<T> plusIdentity(const Symmetric3<T>& S, const T& s) {
   Symmetric3<T> C;
-  detail::linear(detail::PlusIdentity{}, S, detail::Scalar<T>(&s), C);
+  detail::linear(detail::PlusIdentity<1, 6>{}, S, detail::Scalar<T>(&s), C);
+  return C;
+}
+template <class T>
+KOKKOS_FORCEINLINE_FUNCTION Matrix3<T> plusIdentity(const Matrix3<T>& A, const T& s) {
+  Matrix3<T> C;
+  detail::linear(detail::PlusIdentity<4, 9>{}, A, detail::Scalar<T>(&s), C);
   return C;
 }
 

@@ -1,0 +1,86 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "atrapos/path/PathFollower.hpp"
+
+namespace atrapos::path {
+
+/// Which branches are followed where the path bifurcates.
+enum class Follow {
+  none,    ///< the first path only; bifurcation points are reported
+  stable,  ///< branches whose tangent has no negative eigenvalue where they start
+  all
+};
+
+struct BranchOptions {
+  Follow follow = Follow::all;
+  int maxDepth = 4;      ///< bifurcations between the first path and a branch, >= 0
+  int maxBranches = 20;  ///< half-branches followed besides the first path, >= 0
+};
+
+enum class BranchEnd {
+  path,       ///< as its Outcome says
+  closed,     ///< it came back to its own start
+  joined,     ///< it reached a point from where it would repeat what has been followed
+  notStable,  ///< not followed: Follow::stable
+  noStart     ///< no equilibrium next to the point in the branch's direction
+};
+
+/// "closed" and so on.
+const char* toString(BranchEnd end);
+
+/// One path of the diagram: the first one, or half a branch that leaves a bifurcation point.
+struct Branch {
+  int parent = -1;        ///< the branch whose bifurcation point it leaves; -1: the first path
+  int point = -1;         ///< that point, in BranchDiagram::points
+  int depth = 0;          ///< bifurcations since the first path
+  PathTangent direction;  ///< unit, at that point
+  State start;            ///< where its first step starts, next to the point
+  BranchEnd end = BranchEnd::path;
+  Outcome outcome;
+};
+
+/// A bifurcation point, found once whatever the number of branches that pass it.
+struct BranchPoint {
+  CriticalPoint point;
+  int branch = 0, step = 0;  ///< where it was found first
+};
+
+/// All that was followed; `branches[0]` is the first path.
+struct BranchDiagram {
+  std::vector<Branch> branches;
+  std::vector<BranchPoint> points;
+  int switchFactorizations = 0;  ///< spent on starts of branches, besides those of the paths
+  bool complete = true;          ///< false where maxDepth or maxBranches left branches out
+};
+
+/// Watches a diagram as it is followed.
+class BranchObserver {
+ public:
+  virtual ~BranchObserver() = default;
+  /// Every step of every branch. Return false to end everything.
+  virtual bool onStep(int branch, const StepReport& report, const Series& series) = 0;
+};
+
+/// Follows a path and the branches that leave it, each once: a branch that arrives at a known bifurcation
+/// point crosses off the direction that it came from, and ends where the one ahead has been followed or waits
+/// for its turn. Needs a tangent solver that tells the inertia.
+class BranchFollower {
+ public:
+  /// Throws std::invalid_argument, one line, on options that make no sense.
+  BranchFollower(Problem& problem, linear::TangentSolver& solver, Options options, Stops stops,
+                 BranchOptions branches);
+
+  BranchDiagram run(const State& start, BranchObserver& observer);
+
+ private:
+  Problem& problem_;
+  linear::TangentSolver& solver_;
+  Options options_;
+  Stops stops_;
+  BranchOptions branches_;
+};
+
+}  // namespace atrapos::path

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <vector>
+
+#include "Augmented.hpp"
+#include "atrapos/path/Report.hpp"
+#include "atrapos/path/SeriesStep.hpp"
+
+namespace atrapos::path {
+
+/// A stretch of path in which the tangent says that there are bifurcation points.
+struct CriticalSearch {
+  const Series& series;      ///< of the step
+  double length = 0;         ///< where the step ends on it
+  const State& end;          ///< the state there; the solver holds its tangent
+  const PathTangent& along;  ///< the direction there
+  int order = 20;
+  /// Eigenvalues that changed sign and are not those of limit points (at least). 0: none is known, points
+  /// whose changes cancel are looked for.
+  int signChanges = 1;
+  double residualBound = 1e-6;
+};
+
+struct CriticalFound {
+  std::vector<CriticalPoint> points;  ///< ascending in a
+  int factorizations = 0;
+};
+
+/// Locates them: poles of the response to a small force seen from the step's end, then Newton on the extended
+/// system (docs/theory/path.md). What cannot be confirmed is left out. The solver's factorization is another
+/// one afterwards.
+CriticalFound findCriticalPoints(Calls& calls, const CriticalSearch& search);
+
+/// The response of the path to a small force a f, as a series seen from a state whose tangent the solver
+/// holds: difference of the path's series with the force and without. Its poles are the critical points.
+Series pathResponse(Calls& calls, const State& from, const PathTangent& along, double weight, int order);
+
+/// Real poles of the response to a small force, seen from a state whose tangent the solver holds: positions
+/// relative to it in [-behind, ahead], nearest first, and the response's highest order, which is dominated by
+/// the nearest null vector.
+struct ResponsePoles {
+  std::vector<double> a;
+  RCP<Vector> direction;
+};
+ResponsePoles responsePoles(Calls& calls, const CriticalSearch& search, const State& from,
+                            const PathTangent& along, double behind, double ahead);
+
+/// A simple bifurcation point near a = guess of the step's series, with its branches; `nullGuess` is a rough
+/// null vector. False where none is confirmed.
+bool refineSimple(Calls& calls, const CriticalSearch& search, double guess, const RCP<Vector>& nullGuess,
+                  int maxFactorizations, CriticalPoint& point, int& factorizations);
+
+/// Where eigenvalues of the tangent that are near zero at a = guess vanish along the step's series, nearest
+/// first: mu_i + (a - guess) d mu_i/da = 0, each with its null vector. One factorization; symmetric tangents
+/// only.
+struct NearNull {
+  std::vector<double> a;
+  std::vector<RCP<Vector>> vectors;
+};
+NearNull nearNull(Calls& calls, const CriticalSearch& search, double guess, const RCP<Vector>& nullGuess,
+                  int count);
+
+/// A point where two or more eigenvalues vanish together, on a path that crosses it; `zeros` are those of
+/// nearNull close to it. One factorization. False where they do not vanish together.
+bool refineMultiple(Calls& calls, const CriticalSearch& search, const NearNull& zeros, CriticalPoint& point,
+                    int& factorizations);
+
+}  // namespace atrapos::path

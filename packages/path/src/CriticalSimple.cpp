@@ -1,0 +1,136 @@
+#include <algorithm>
+#include <cmath>
+
+#include <Tpetra_Vector.hpp>
+
+#include "ExtendedSystem.hpp"
+#include "atrapos/linear/Dot.hpp"
+
+namespace atrapos::path {
+
+namespace {
+
+/// The tangents of the two branches: roots of H_00 x^2 + 2 H_01 x y + H_11 y^2 = 0 (algebraic bifurcation
+/// equation), as directions x V_0 + y V_1. False where they are not real and distinct.
+bool branches(const ExtendedSystem& r, double w, std::vector<Augmented>& tangents) {
+  const double A = r.H(0, 0), B = r.H(0, 1), C = r.H(1, 1);
+  const double size = std::abs(A) + std::abs(B) + std::abs(C), disc = B * B - A * C;
+  // Two tangents closer than a thousandth are one, to the accuracy of a second derivative.
+  if (!(disc > 1e-6 * size * size)) return false;
+  const double s = B >= 0 ? B + std::sqrt(disc) : B - std::sqrt(disc);
+  const double roots[2][2] = {{-C, s}, {-s, A}};  // both free of cancellation
+  for (const auto& xy : roots) {
+    Augmented t = copy(r.V(0));
+    scale(t, xy[0]);
+    add(t, xy[1], r.V(1));
+    scale(t, 1 / std::sqrt(dot(t, t, w)));
+    tangents.push_back(t);
+  }
+  return true;
+}
+
+/// Where the step's series passes nearest to a point, and how far from it.
+std::pair<double, double> nearest(Calls& calls, const Series& series, const State& point, double guess) {
+  auto u = calls.newVector();
+  const double w = series.weight();
+  double a = guess, distance = 0;
+  for (int i = 0; i < 3; ++i) {
+    const double lambda = series.evaluate(a, *u);
+    const auto t = series.tangent(a);
+    const Augmented direction{t.x.u, t.lambda};
+    Augmented gap{Teuchos::rcp(new Vector(*point.u, Teuchos::Copy)), point.lambda - lambda};
+    gap.u->update(-1, *u, 1);
+    distance = std::sqrt(dot(gap, gap, w));
+    a += dot(gap, direction, w) / dot(direction, direction, w);
+  }
+  return {a, distance};
+}
+
+}  // namespace
+
+bool refineSimple(Calls& calls, const CriticalSearch& search, double guess, const RCP<Vector>& nullGuess,
+                  int maxFactorizations, CriticalPoint& point, int& factorizations) {
+  const double w = search.series.weight();
+  ExtendedSystem refinement(calls, search, nullGuess);
+  State state{calls.newVector(), 0};
+  state.lambda = search.series.evaluate(guess, *state.u);
+  double a = guess, moved = search.length;
+  // Newton goes on until its corrections no longer fall (rounding); one of `accepted` of the step confirms.
+  constexpr double accepted = 1e-8, far = 1e-2;
+  constexpr int maxIterations = 8;
+  bool done = false;
+  for (int f = 0; f < maxFactorizations && !done; ++f) {
+    const auto t = search.series.tangent(std::clamp(a, 0.0, search.length));
+    try {
+      ++factorizations;
+      if (!refinement.enter(state, {t.x.u, t.lambda})) return false;
+    } catch (const PathError& error) {
+      if (error.reason() != EndReason::singularTangent) throw;
+      // Hit exactly: a little aside the tangent can be factored, and Newton comes back.
+      a += 1e-4 * search.length;
+      state.lambda = search.series.evaluate(a, *state.u);
+      continue;
+    }
+    double last = search.length;
+    for (int i = 0; i < maxIterations; ++i) {
+      double next = 0;
+      if (!refinement.iterate(state, next)) break;
+      moved = next;
+      if (moved == 0 || moved > 0.1 * last) break;
+      last = moved;
+    }
+    done = moved <= accepted * search.length;
+    a = nearest(calls, search.series, state, a).first;
+    if (!done && !(std::abs(a - guess) < search.length)) return false;
+  }
+  if (!done) return false;
+
+  const auto [position, distance] = nearest(calls, search.series, state, a);
+  auto r = calls.newVector();
+  point.residual = calls.residual(state, *r).relative();
+  // Not on this path, or a near miss: an imperfection larger than the bound keeps the branches apart.
+  if (distance > far * search.length || point.residual > search.residualBound) return false;
+  constexpr double outside = 0.01;
+  if (position < -outside * search.length || position > (1 + outside) * search.length) return false;
+  std::vector<Augmented> tangents;
+  if (!branches(refinement, w, tangents)) return false;
+  const auto t = search.series.tangent(std::clamp(position, 0.0, search.length));
+  const Augmented path{t.x.u, t.lambda};
+  double along[2];
+  for (int i = 0; i < 2; ++i) along[i] = dot(tangents[i], path, w);
+  if (std::abs(along[1]) > std::abs(along[0])) {
+    std::swap(tangents[0], tangents[1]);
+    std::swap(along[0], along[1]);
+  }
+  constexpr double sameDirection = 0.9;
+  if (!(std::abs(along[0]) > sameDirection * std::sqrt(dot(path, path, w)))) return false;
+  if (along[0] < 0) scale(tangents[0], -1);
+
+  point.a = std::clamp(position, 0.0, search.length);
+  point.state = state;
+  point.uncertainty = moved / search.length;
+  for (const auto& x : tangents) {
+    PathTangent tangent;
+    tangent.x = {x.u, std::vector<double>(calls.problem().internalCount(), 0.0)};
+    tangent.lambda = x.lambda;
+    point.tangents.push_back(tangent);
+  }
+  // Along one branch of a pitchfork lambda turns: its share of the unit tangent vanishes.
+  constexpr double turns = 1e-4;
+  const bool pitchfork = std::min(std::abs(tangents[0].lambda), std::abs(tangents[1].lambda)) < turns;
+  point.kind = pitchfork ? CriticalKind::pitchfork : CriticalKind::transcritical;
+  point.nullVectors = {refinement.phi()};
+  // The eigenvalue that vanishes moves at the rate psi . D^2R(X', phi) along the path; it does not cross zero
+  // on a branch that leaves a pitchfork.
+  SecondOrder second(calls, state, refinement.psi());
+  const double size =
+      std::abs(refinement.H(0, 0)) + std::abs(refinement.H(0, 1)) + std::abs(refinement.H(1, 1));
+  const double rate =
+      second(tangents[0], {refinement.phi(), 0}) * linear::dot(*refinement.psi(), *refinement.phi());
+  constexpr double crosses = 1e-6;
+  const double phiSize = std::sqrt(dot({refinement.phi(), 0}, {refinement.phi(), 0}, w));
+  point.negativeChange = std::abs(rate) < crosses * size * phiSize ? 0 : rate < 0 ? 1 : -1;
+  return true;
+}
+
+}  // namespace atrapos::path

@@ -1,0 +1,145 @@
+#include "Run.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Tpetra_Vector.hpp>
+
+#include "BestOrder.hpp"
+
+namespace atrapos::path {
+
+RCP<Vector> copy(const Vector& v) { return Teuchos::rcp(new Vector(v, Teuchos::Copy)); }
+
+double rounded(double length) {
+  int exponent = 0;
+  const double mantissa = std::frexp(length, &exponent);
+  return std::ldexp(std::floor(mantissa * 128) / 128, exponent);
+}
+
+bool Run::end(EndReason reason, std::string text) {
+  outcome_.reason = reason;
+  outcome_.text = std::move(text);
+  return false;
+}
+
+void Run::follow(const Start& start) {
+  outcome_.final = {copy(*start.state.u), start.state.lambda};
+  outcome_.steps = start.steps;
+  outcome_.pathLength = start.pathLength;
+  r_ = calls_.newVector();
+  weight_ = start.weight ? start.weight : options_.weight;
+  tangent_ = start.tangent;
+  applied_ = start.events;
+  lastLength_ = start.length;
+  order_ = start.order > 0 ? start.order : options_.order;
+  padeFailures_ = start.padeFailures;
+  padeWait_ = start.padeWait;
+  try {
+    equilibrate();
+    while (step()) {
+    }
+  } catch (const PathError& error) {
+    end(error.reason(), error.what());
+  }
+  finish();
+}
+
+bool Run::step() {
+  if (outcome_.steps == options_.maxSteps)
+    return end(EndReason::stepLimit, line("the limit of ", options_.maxSteps, " steps is reached"));
+  StepReport report;
+  Series series = nextSeries(report);
+  const EndTangent tangent{calls_.inertia(), series.lambdaCoefficient(1)};
+  // After an event the tangent is that of the changed problem and says nothing about the step before.
+  if (pending_ && !settle(pending_->events.empty() ? &tangent : nullptr))
+    return end(EndReason::observerStopped, "ended by the observer");
+  clean(series);
+  report.order = series.order();
+  report.step = outcome_.steps + 1;
+  report.lambdaStart = outcome_.final.lambda;
+  report.pathLengthStart = outcome_.pathLength;
+  report.inertia = tangent.inertia;
+  report.radius = series.radius(options_.delta);
+  weight_ = outcome_.weight = series.weight();
+
+  Trial trial;
+  try {
+    trial = acceptedTrial(series, report);
+  } catch (...) {
+    outcome_.cutBacks += report.cutBacks;
+    throw;
+  }
+  report.residualOfSeries = trial.residual;
+  correct(series, trial, report);
+  const auto stop = trial.stop;
+  due_ = trial.events;
+  accept(std::move(trial), std::move(report), std::move(series));
+  if (stop) return end(EndReason::stopReached, stop->text);
+  return true;
+}
+
+/// The step's end becomes the state; the observer sees it later.
+void Run::accept(Trial trial, StepReport report, Series series) {
+  report.length = trial.a;
+  report.residual = trial.residual;
+  report.lambdaEnd = trial.state.lambda;
+  report.end = trial.state;
+  report.pathLengthEnd = report.pathLengthStart + trial.a;
+
+  ++outcome_.steps;
+  outcome_.corrections += report.corrections;
+  outcome_.cutBacks += report.cutBacks;
+  outcome_.pathLength = report.pathLengthEnd;
+  outcome_.final = trial.state;
+  r_ = trial.r;
+  residual_ = trial.residual;
+  lastLength_ = lastEnd_ = trial.a;
+  last_ = std::move(series);
+  applied_.clear();
+  tangent_ = last_->tangent(trial.a);
+  if (options_.autoOrder) chooseOrder();
+  pending_ = std::move(report);
+}
+
+/// The pending step is final: what lies inside it is read off its series, and the observer sees it.
+bool Run::settle(const EndTangent* end) {
+  StepReport report = std::move(*pending_);
+  pending_.reset();
+  const auto slope = last_->lambdaFunction().derivative();
+  const auto curvature = slope.numerator().derivative();  // of the sign of lambda'' where lambda' = 0
+  for (const double a : slope.roots(report.length))
+    report.limitPoints.push_back({a, last_->lambda(a), curvature(a) < 0, true});
+  if (turned_) report.limitPoints.push_back({report.length, report.lambdaEnd, tangent_->lambda > 0, false});
+  turned_ = false;
+  if (end) {
+    report.inertiaEnd = end->inertia;
+    explainStability(report, end->lambda1);
+  }
+  outcome_.worstResidual = std::max(outcome_.worstResidual, report.residual);
+  report.next = {outcome_.final, tangent_, outcome_.steps, outcome_.pathLength, last_->weight(),
+                 lastLength_,    applied_, order_,         padeFailures_,       padeWait_};
+  return observer_.onStep(report, *last_);
+}
+
+void Run::chooseOrder() {
+  const Work& work = calls_.work();
+  if (work.factorizations == 0 || work.orders == 0) return;
+  const auto& s = work.seconds;
+  order_ = bestOrder((s.tangent + s.factor) / work.factorizations, (s.solve + s.orderRhs) / work.orders,
+                     options_.delta);
+}
+
+void Run::finish() {
+  if (!pending_) return;
+  const bool ended = outcome_.reason == EndReason::stopReached || outcome_.reason == EndReason::stepLimit;
+  const bool close = ended && options_.closeEnd && calls_.solver().inertia();
+  if (!close) {
+    settle(nullptr);
+    return;
+  }
+  const EndTangent tangent = closeEnd();
+  settle(&tangent);
+}
+
+}  // namespace atrapos::path

@@ -1,0 +1,124 @@
+#pragma once
+
+#include <optional>
+#include <sstream>
+#include <string>
+
+#include "atrapos/path/Calls.hpp"
+#include "atrapos/path/Options.hpp"
+#include "atrapos/path/SeriesStep.hpp"
+#include "atrapos/path/Stops.hpp"
+
+namespace atrapos::path {
+
+/// One line from its parts.
+template <class... Parts>
+std::string line(const Parts&... parts) {
+  std::ostringstream text;
+  (text << ... << parts);
+  return text.str();
+}
+
+/// One path as it is followed: the state that moves, and what the next step needs from the last one.
+///
+/// A step that has been accepted stays pending until the tangent at its end is known, which the next step's
+/// factorization brings: the direction there is checked, eigenvalues that changed sign are explained, then
+/// the observer sees it.
+class Run {
+ public:
+  Run(Problem& problem, linear::TangentSolver& solver, const Options& options, const Stops& stops,
+      Observer& observer, Outcome& outcome)
+      : options_(options), stops_(stops), observer_(observer), outcome_(outcome), calls_(problem, solver) {}
+
+  void follow(const Start& start);
+
+  const Work& work() const { return calls_.work(); }
+
+ private:
+  /// The end of a step under trial.
+  struct Trial {
+    double a = 0;
+    State state;
+    RCP<Vector> r;        ///< R there
+    double residual = 0;  ///< its relative norm
+    std::optional<StopHit> stop;
+    std::vector<int> events;  ///< event functions that are zero there
+  };
+
+  /// What the tangent at a step's end tells.
+  struct EndTangent {
+    std::optional<linear::Inertia> inertia;
+    double lambda1 = 0;  ///< its load part, of which the sign counts
+  };
+
+  // Run.cpp: the loop.
+  bool step();
+  void accept(Trial trial, StepReport report, Series series);
+  bool settle(const EndTangent* end);
+  void finish();
+  void chooseOrder();
+  bool end(EndReason reason, std::string text);
+
+  // RunStart.cpp: how a step begins.
+  void equilibrate();
+  Series nextSeries(StepReport& report);
+  void stepOverSingularity(const PathError& cause, int attempt);
+  std::string nullVectorText();
+  bool directionAgrees(const Series& series, const PathTangent& previous) const;
+  bool retreat();
+  EndTangent closeEnd();
+
+  // RunCritical.cpp: what the step passed.
+  void clean(Series& series);
+  void explainStability(StepReport& report, double lambda1);
+
+  // RunEvents.cpp: where the Problem changes.
+  void limit(const Series& series, Trial& trial) const;
+  Series seriesAfterEvents(StepReport& report);
+
+  // RunTrial.cpp: how far it goes.
+  double longestLength() const;
+  double firstLength(double radius) const;
+  Trial acceptedTrial(Series& series, StepReport& report);
+  std::optional<Trial> padeTrial(Series& series, StepReport& report);
+  Trial polynomialTrial(const Series& series, StepReport& report);
+  void evaluate(const Series& series, Trial& trial);
+  double startPart(double a) const;
+  double shorterBy(const Trial& trial) const;
+  void correct(const Series& series, Trial& trial, StepReport& report);
+
+  double bound() const { return options_.residualBound; }
+  double correctAbove() const { return options_.correctAbove * options_.residualBound; }
+
+  const Options& options_;
+  const Stops& stops_;
+  Observer& observer_;
+  Outcome& outcome_;
+  Calls calls_;
+
+  RCP<Vector> r_;          ///< R at the current state
+  double residual_ = 0;    ///< its relative norm
+  double relaxOver_ = 0;   ///< length over which the series under way takes R0 to zero; 0: it keeps R0
+  double lastLength_ = 0;  ///< of the last accepted step; 0 before the first
+  double lastEnd_ = 0;     ///< where the state is on the last series; > lastLength_ after a singularity
+  int order_ = 0;          ///< of the next series
+  std::optional<double> weight_;
+  std::optional<Series> last_;          ///< the last accepted series
+  std::optional<StepReport> pending_;   ///< its step, not yet seen by the observer
+  std::optional<PathTangent> tangent_;  ///< at the current state, of what led there
+  std::vector<int> due_;      ///< event functions that fell to zero at the state and are not applied yet
+  std::vector<int> applied_;  ///< applied at the state: their functions start at zero
+  bool turned_ = false;       ///< lambda goes the other way after the events
+  int standing_ = 0;          ///< events in a row without a step of sensible length
+  int padeFailures_ = 0;      ///< steps in a row that the rational form did not lengthen
+  int padeWait_ = 0;          ///< steps until it is tried again
+};
+
+/// A length with the first 7 bits of its mantissa. Step lengths come from the highest orders, whose last
+/// digits are rounding; taken as they are, two runs that round differently (another machine, compiler, number
+/// of ranks) would drift apart along the path and could not be compared point by point.
+double rounded(double length);
+
+RCP<Vector> copy(const Vector& v);
+
+}  // namespace atrapos::path

@@ -1,0 +1,92 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include <Tpetra_Vector.hpp>
+
+#include "Critical.hpp"
+#include "GeometricProgression.hpp"
+#include "Run.hpp"
+
+namespace atrapos::path {
+
+/// Next to a bifurcation point the residual of the start, an imperfection of the size of the bound, turns the
+/// path away from its branch: the late terms are a geometric progression and the steps shrink towards the
+/// point. The progression is taken out by the small force that makes the opposite one; what is left passes
+/// the point. The residual, which that force enters, decides about its length as about any other.
+void Run::clean(Series& series) {
+  if (!options_.criticalPoints || !last_ || series.eventCount() > 0) return;
+  const double radius = series.radius(options_.delta);
+  constexpr double shrinks = 0.6, ratioBound = 1e-3, perpBound = 0.3, gains = 1.5;
+  if (!(radius < shrinks * lastLength_)) return;
+  const auto& problem = calls_.problem();
+  if (!geometricProgression(problem, series, ratioBound, perpBound)) return;
+  const int N = series.order();
+  std::optional<Series> made;
+  try {
+    made = pathResponse(calls_, outcome_.final, *tangent_, series.weight(), N);
+  } catch (const PathError&) {
+    return;  // so near the point that the response is beyond numbers: the series stays as it is
+  }
+  const Series& response = *made;
+  if (!(response.norm(N) > 0)) return;
+  const double c =
+      problem.inner(series.coefficient(N), response.coefficient(N)) / (response.norm(N) * response.norm(N));
+  Series cleaned(outcome_.final, series.weight());
+  for (int k = 1; k <= N; ++k) {
+    Increment x{copy(*series.coefficient(k).u), series.coefficient(k).internal};
+    x.u->update(-c, *response.coefficient(k).u, 1);
+    for (std::size_t i = 0; i < x.internal.size(); ++i)
+      x.internal[i] -= c * response.coefficient(k).internal[i];
+    const double norm = std::sqrt(problem.inner(x, x));
+    cleaned.append(std::move(x), series.lambdaCoefficient(k) - c * response.lambdaCoefficient(k), norm);
+  }
+  const double longer = cleaned.radius(options_.delta);
+  if (!(longer > gains * radius)) return;
+  // A real imperfection is larger than the bound and cannot be taken out.
+  Trial trial;
+  trial.a = std::min(longer, longestLength());
+  evaluate(cleaned, trial);
+  if (trial.residual > bound()) {
+    trial.a *= 0.5;
+    if (trial.a > gains * radius) evaluate(cleaned, trial);
+  }
+  if (trial.residual <= bound()) series = std::move(cleaned);
+}
+
+/// Eigenvalues that changed sign inside the step are those of its limit points, or there are bifurcation
+/// points.
+///
+/// Along the path det [K, -F; w X_1^T, lambda_1] = det K / lambda_1 changes sign where an odd number of
+/// eigenvalues is lost other than at a limit point of lambda; this holds on a branch that leaves a pitchfork
+/// too, where no eigenvalue of K changes sign but lambda_1 does.
+void Run::explainStability(StepReport& report, double lambda1) {
+  if (!options_.criticalPoints || !report.inertia || !report.inertiaEnd) return;
+  const auto before = *report.inertia, after = *report.inertiaEnd;
+  if (before.null > 0 || after.null > 0) return;
+  const long long change = std::llabs(after.negative - before.negative);
+  const bool lambdaTurned = (last_->lambdaCoefficient(1) > 0) != (lambda1 > 0);
+  const bool odd = (change % 2 != 0) != lambdaTurned;
+  const long long limits = static_cast<long long>(report.limitPoints.size());
+  const int needed = static_cast<int>(std::max(change - limits, odd ? 1LL : 0LL));
+  if (needed == 0 && !options_.searchEveryStep) return;
+  CriticalFound found;
+  try {
+    found = findCriticalPoints(
+        calls_, {*last_, report.length, outcome_.final, *tangent_, order_, needed, options_.residualBound});
+  } catch (const PathError&) {
+    // A state off the path that the problem or the solver refuses: nothing is confirmed.
+  }
+  outcome_.criticalFactorizations += found.factorizations;
+  report.unexplained = needed;
+  for (const auto& point : found.points) report.unexplained -= point.nullity;
+  report.unexplained = std::max(report.unexplained, 0);
+  report.criticalPoints = std::move(found.points);
+  for (auto& point : report.criticalPoints) {
+    point.stepLength = report.length;
+    if (point.kind == CriticalKind::multiple)
+      point.negativeChange = after.negative > before.negative ? point.nullity : -point.nullity;
+  }
+}
+
+}  // namespace atrapos::path

@@ -1,0 +1,153 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <Tpetra_Vector.hpp>
+
+#include "Newton.hpp"
+#include "PadeFit.hpp"
+#include "Run.hpp"
+
+namespace atrapos::path {
+
+/// What is left at a of the residual that the series started with.
+double Run::startPart(double a) const {
+  return relaxOver_ > 0 ? std::abs(1 - a / relaxOver_) * residual_ : residual_;
+}
+
+/// Beyond relaxOver_ the residual taken away comes back with the other sign: stay below half the bound.
+double Run::longestLength() const {
+  if (!(relaxOver_ > 0 && residual_ > 0)) return options_.maxStep;
+  return std::min(options_.maxStep, relaxOver_ * (1 + 0.5 * bound() / residual_));
+}
+
+double Run::firstLength(double radius) const {
+  if (order_ == 1)  // no estimate, nothing to round
+    return lastLength_ > 0 ? std::min(2 * lastLength_, options_.maxStep) : options_.firstStep;
+  return rounded(std::min(radius, longestLength()));
+}
+
+void Run::evaluate(const Series& series, Trial& trial) {
+  trial.state.u = calls_.newVector();
+  trial.state.lambda = series.evaluate(trial.a, *trial.state.u);
+  trial.r = calls_.newVector();
+  trial.residual = calls_.residual(trial.state, *trial.r).relative();
+}
+
+/// Factor for the next trial length: the truncation error of the residual grows like a^(K+1).
+double Run::shorterBy(const Trial& trial) const {
+  if (!std::isfinite(trial.residual)) return 0.5;
+  const double start = startPart(trial.a);
+  const double truncation = trial.residual - start;
+  const double room = 0.5 * (correctAbove() - start);
+  if (truncation <= 0 || room <= 0) return 0.5;
+  return std::clamp(std::pow(room / truncation, 1.0 / (order_ + 1)), 0.1, 0.9);
+}
+
+Run::Trial Run::acceptedTrial(Series& series, StepReport& report) {
+  if (auto trial = padeTrial(series, report)) return *trial;
+  return polynomialTrial(series, report);
+}
+
+/// The end of the step by the rational form, where that goes further than the polynomial and its residual
+/// passes, at the end and inside.
+std::optional<Run::Trial> Run::padeTrial(Series& series, StepReport& report) {
+  if (options_.pade == PadeUse::off || order_ < 4) return std::nullopt;
+  const bool automatic = options_.pade == PadeUse::automatic;
+  if (automatic && padeWait_ > 0) {
+    --padeWait_;
+    return std::nullopt;
+  }
+  const double polynomial = firstLength(report.radius);
+  // Shorter gains do not pay for the fit, which costs about as much as one order.
+  const double least = (automatic ? 1.1 : 1.0) * polynomial;
+  // A stop or an event that the polynomial reaches needs nothing longer.
+  Trial near;
+  near.a = polynomial;
+  limit(series, near);
+  if (near.stop || !near.events.empty()) return std::nullopt;
+  const PadeFit fit = fitPade(calls_.problem(), series, options_.delta, longestLength());
+  report.padeRange = fit.range;
+  if (fit.usable() && fit.range > least) {
+    series.setForm(fit.form);
+    constexpr int maxTrials = 3;
+    Trial trial, inside;
+    trial.a = rounded(fit.range);
+    for (int i = 0; i < maxTrials && trial.a > least; ++i) {
+      limit(series, trial);
+      evaluate(series, trial);
+      inside.a = 0.7 * trial.a;
+      if (trial.residual <= correctAbove()) evaluate(series, inside);
+      if (trial.residual <= correctAbove() && inside.residual <= bound()) {
+        padeFailures_ = 0;
+        report.pade = true;
+        return trial;
+      }
+      ++report.cutBacks;
+      trial.a = rounded(std::sqrt(trial.a * polynomial));
+    }
+    series.setForm(nullptr);
+  }
+  // The longer it has not helped, the longer it rests.
+  padeFailures_ = std::min(padeFailures_ + 1, 4);
+  padeWait_ = (1 << padeFailures_) - 2;
+  return std::nullopt;
+}
+
+Run::Trial Run::polynomialTrial(const Series& series, StepReport& report) {
+  Trial trial;
+  trial.a = firstLength(report.radius);
+  limit(series, trial);
+  // Shortening the step a little is cheaper than a correction, which costs a factorization; tried once.
+  constexpr double worthKeeping = 0.7;
+  bool shortened = false;
+  int trials = 0;
+  double previous = std::numeric_limits<double>::infinity();  // residual of the longer trial before
+  for (;;) {
+    evaluate(series, trial);
+    if (trial.residual <= correctAbove()) return trial;
+    const double factor = shorterBy(trial);
+    if (trial.residual <= bound()) {
+      const bool shorten = !shortened && !trial.stop && trial.events.empty() && factor >= worthKeeping &&
+                           startPart(factor * trial.a) < correctAbove();
+      if (!shorten || trials == options_.maxCutBacks) return trial;
+      shortened = true;
+    }
+    const bool spent = trials == options_.maxCutBacks;
+    if (spent || factor * trial.a < options_.minStep) {
+      const bool stagnates = trial.residual > 0.3 * previous;  // truncation would fall like a^(K+1)
+      throw PathError(
+          EndReason::stepTooSmall,
+          line(
+              "relative residual ", trial.residual, " at step length ", trial.a, " is over the bound ",
+              bound(), " (lambda = ", outcome_.final.lambda, ", ",
+              spent ? "no trial left" : "shorter than minStep",
+              stagnates ? "; it does not fall with the step: rounding limits it, ask for a larger bound" : "",
+              ')'));
+    }
+    ++trials;
+    ++report.cutBacks;
+    previous = trial.residual;
+    trial.a = rounded(factor * trial.a);
+    trial.stop.reset();
+    trial.events.clear();
+  }
+}
+
+void Run::correct(const Series& series, Trial& trial, StepReport& report) {
+  if (trial.residual <= correctAbove() || options_.maxCorrections == 0) return;
+  Border border;
+  if (!trial.stop || trial.stop->kind == StopHit::Kind::pathLength)
+    border = holdPathParameter(calls_.problem(), series.weight(), series.tangent(trial.a));
+  else if (trial.stop->kind == StopHit::Kind::loadFactor)
+    border = holdLoad();
+  else
+    border = holdFunctional(stops_.functionals[trial.stop->index].weights);
+  // The state is under the bound already: where an iteration does not help, it stays as it is.
+  const auto result = newton(calls_, trial.state, *trial.r, border, correctAbove(), options_.maxCorrections,
+                             /*maxHalvings*/ 0);
+  report.corrections = result.iterations;
+  trial.residual = result.residual;
+}
+
+}  // namespace atrapos::path

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <vector>
+
+#include "JetProblem.hpp"
+
+/// Masses u_0 .. u_{m-1} with hard stops: mass i may not pass stop_i. One multiplier R_i >= 0 a stop is an
+/// unknown at all times: the map and the graph never change; its row reads R_i = 0 while the stop is free and
+/// u_i - stop_i = 0 while it is touched. Body supplies forces(u, lambda) = 0 without the stops.
+///
+/// Event functions: the gap of a free stop, the force of a touched one.
+template <class Body>
+struct WithStops : Body {
+  std::vector<double> stops;
+  std::vector<bool> touched = std::vector<bool>(stops.size(), false);
+
+  WithStops(Body body, std::vector<double> where) : Body(body), stops(std::move(where)) {}
+
+  int masses() const { return static_cast<int>(stops.size()); }
+  int size() const { return 2 * masses(); }
+  template <class S>
+  std::vector<S> residual(const std::vector<S>& x, const S& lambda) const {
+    const int m = masses();
+    std::vector<S> r = Body::forces(std::vector<S>(x.begin(), x.begin() + m), lambda);
+    for (int i = 0; i < m; ++i) {
+      r[i] = r[i] + x[m + i];
+      r.push_back(touched[i] ? x[i] - stops[i] : x[m + i]);
+    }
+    // Symmetric: a free stop's multiplier is zero and acts on nothing.
+    for (int i = 0; i < m; ++i)
+      if (!touched[i]) r[i] = r[i] - x[m + i];
+    return r;
+  }
+  template <class S>
+  std::vector<S> events(const std::vector<S>& x) const {
+    std::vector<S> g;
+    for (int i = 0; i < masses(); ++i) g.push_back(touched[i] ? x[masses() + i] : stops[i] - x[i]);
+    return g;
+  }
+};
+
+template <class Body>
+class UnilateralProblem : public JetProblem<WithStops<Body>> {
+ public:
+  using Base = JetProblem<WithStops<Body>>;
+  using Vector = typename Base::Vector;
+  using Base::Base;
+
+  int eventCount() const override { return this->law_.masses(); }
+  void eventOrder(int k, std::vector<double>& g) const override {
+    Jet::terms = k + 1;
+    const auto e = this->law_.events(this->seriesJets());
+    for (std::size_t i = 0; i < e.size(); ++i) g[i] = e[i][k];
+  }
+  void applyEvent(const std::vector<int>& indices, const Vector&, double) override {
+    for (const int i : indices) this->law_.touched[i] = !this->law_.touched[i];
+    ++changes;
+  }
+  int constraintPivots() const override {
+    int n = 0;
+    for (const bool t : this->law_.touched) n += t;
+    return n;
+  }
+  int changes = 0;
+};

@@ -1,0 +1,219 @@
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "problems/Record.hpp"
+#include "problems/UnilateralProblem.hpp"
+
+using namespace atrapos::path;
+
+namespace {
+
+/// Followed with events.
+template <class Body>
+struct Moved {
+  UnilateralProblem<Body> problem;
+  SymmetricDenseSolver solver;
+  Record record;
+  Outcome outcome;
+  Moved(Body body, std::vector<double> stops, double end, Options options = {})
+      : problem(WithStops<Body>(body, stops)) {
+    Stops at;
+    at.loadFactors = {end};
+    options.maxSteps = 60;
+    outcome = PathFollower(problem, solver, options, at).run({problem.vector({}), 0}, record);
+    EXPECT_EQ(solver.counters().factorizations, outcome.factorizations);
+    EXPECT_EQ(outcome.factorizations, outcome.steps + outcome.corrections + outcome.retreats +
+                                          outcome.closings + outcome.criticalFactorizations +
+                                          outcome.eventTrials);
+  }
+  double final(int i) const { return outcome.final.u->getData()[i]; }
+  /// The steps that ended with an event.
+  std::vector<StepReport> events() const {
+    std::vector<StepReport> all;
+    for (const auto& s : record.steps)
+      if (!s.events.empty()) all.push_back(s);
+    return all;
+  }
+  /// Nothing passes a stop or is pulled by it, anywhere inside the steps.
+  void expectAdmissible(double tolerance) {
+    auto u = problem.vector({});
+    const int m = problem.law().masses();
+    for (std::size_t s = 0; s < record.steps.size(); ++s)
+      for (int j = 0; j <= 20; ++j) {
+        record.series[s].evaluate(record.steps[s].length * j / 20, *u);
+        for (int i = 0; i < m; ++i) {
+          EXPECT_LE(u->getData()[i], problem.law().stops[i] + tolerance);
+          EXPECT_GE(u->getData()[m + i], -tolerance);
+        }
+      }
+  }
+};
+
+struct Body {
+  double scale() const { return 0.1; }
+  template <class S>
+  std::vector<S> internal(const std::vector<S>&, const S&) const {
+    return {};
+  }
+};
+
+/// One mass on a hardening spring, u + u^3 = lambda.
+struct OneMass : Body {
+  template <class S>
+  std::vector<S> forces(const std::vector<S>& u, const S& lambda) const {
+    return {u[0] + u[0] * u[0] * u[0] - lambda};
+  }
+};
+
+TEST(Events, AMassMeetsItsStop) {
+  Moved<OneMass> f(OneMass{}, {1}, 3);
+  EXPECT_EQ(f.outcome.reason, EndReason::stopReached) << f.outcome.text;
+  ASSERT_EQ(f.events().size(), 1u);
+  EXPECT_NEAR(f.events()[0].lambdaEnd, 2, 1e-6);  // 1 + 1, to the residual bound
+  EXPECT_EQ(f.events()[0].events, std::vector<int>{0});
+  EXPECT_NEAR(f.final(0), 1, 1e-7);
+  EXPECT_NEAR(f.final(1), 1, 1e-6);  // the rest of the load
+  EXPECT_EQ(f.outcome.events, 1);
+  EXPECT_EQ(f.outcome.eventTrials, 0);
+  f.expectAdmissible(1e-6);
+  // The multiplier's negative pivot is not an instability.
+  for (const auto& s : f.record.steps) EXPECT_EQ(s.inertia->negative, 0);
+  for (const auto& s : f.record.steps) EXPECT_TRUE(s.limitPoints.empty());
+}
+
+/// The truss x (1 - x)(2 - x) = lambda, falling after its limit point, meets a stop at x = 1.2: x stays and
+/// the load rises again. A limit point without a horizontal tangent.
+struct TrussBody : Body {
+  template <class S>
+  std::vector<S> forces(const std::vector<S>& u, const S& lambda) const {
+    return {u[0] * (1 - u[0]) * (2 - u[0]) - lambda};
+  }
+};
+
+TEST(Events, ThePathTurnsAtAStop) {
+  Moved<TrussBody> f(TrussBody{}, {1.2}, 1.0);
+  EXPECT_EQ(f.outcome.reason, EndReason::stopReached) << f.outcome.text;
+  const double least = 1.2 * -0.2 * 0.8;
+  const auto limits = f.record.limitPoints();
+  ASSERT_EQ(limits.size(), 2u);
+  EXPECT_TRUE(limits[0].smooth);
+  EXPECT_TRUE(limits[0].maximum);
+  EXPECT_NEAR(limits[0].lambda, 0.384900179459750, 1e-7);
+  EXPECT_FALSE(limits[1].smooth);
+  EXPECT_FALSE(limits[1].maximum);
+  EXPECT_NEAR(limits[1].lambda, least, 1e-6);
+  EXPECT_NEAR(f.final(0), 1.2, 1e-7);
+  EXPECT_NEAR(f.final(1), 1.0 - least, 1e-6);
+  // Held by the stop the truss is stable where it was not.
+  EXPECT_EQ(f.events().at(0).inertia->negative, 1);
+  EXPECT_EQ(f.record.steps.back().inertia->negative, 0);
+  f.expectAdmissible(1e-6);
+}
+
+/// Two masses and a spring between them; the load on the first turns quadratic with lambda so that it comes
+/// off.
+struct ComesOff : Body {
+  template <class S>
+  std::vector<S> forces(const std::vector<S>& u, const S& lambda) const {
+    return {2 * u[0] - u[1] - 3 * lambda + lambda * lambda, 2 * u[1] - u[0] - 0.1 * lambda};
+  }
+};
+
+TEST(Events, AMassTouchesAndComesOffAgain) {
+  Moved<ComesOff> f(ComesOff{}, {1, 10}, 2.9);
+  EXPECT_EQ(f.outcome.reason, EndReason::stopReached) << f.outcome.text;
+  // Free: u_0 = (2 (3 l - l^2) + 0.1 l)/3 = 1 twice.
+  const double root = std::sqrt(6.1 * 6.1 - 24), on = (6.1 - root) / 4, off = (6.1 + root) / 4;
+  const auto events = f.events();
+  ASSERT_EQ(events.size(), 2u);
+  EXPECT_NEAR(events[0].lambdaEnd, on, 1e-6);
+  EXPECT_NEAR(events[1].lambdaEnd, off, 1e-6);
+  EXPECT_NEAR(f.final(2), 0, 1e-12);
+  EXPECT_NEAR(f.final(0), (2 * (3 * 2.9 - 2.9 * 2.9) + 0.29) / 3, 1e-6);
+  f.expectAdmissible(1e-6);
+}
+
+/// K u = lambda f with K = [2, -1.5; -1.5, 2].
+struct TwoMasses : Body {
+  double f0 = 1, f1 = 1;
+  template <class S>
+  std::vector<S> forces(const std::vector<S>& u, const S& lambda) const {
+    return {2 * u[0] - 1.5 * u[1] - f0 * lambda, 2 * u[1] - 1.5 * u[0] - f1 * lambda};
+  }
+};
+
+TEST(Events, EventsThatCoincideAreAppliedTogether) {
+  Moved<TwoMasses> f(TwoMasses{}, {2, 2}, 3);  // u_0 = u_1 = 2 lambda
+  EXPECT_EQ(f.outcome.reason, EndReason::stopReached) << f.outcome.text;
+  ASSERT_EQ(f.events().size(), 1u);
+  EXPECT_EQ(f.events()[0].events.size(), 2u);
+  EXPECT_NEAR(f.events()[0].lambdaEnd, 1, 1e-9);
+  EXPECT_NEAR(f.final(2), 2, 1e-6);  // R = lambda f - K u = 3 - 1
+  EXPECT_NEAR(f.final(3), 2, 1e-6);
+  EXPECT_EQ(f.outcome.eventTrials, 0);
+}
+
+/// Both gaps vanish at lambda = 1, but the stop of the first alone moves the second mass away from its own.
+TEST(Events, OfTwoThatCoincideOnlyOneMayBeAdmissible) {
+  TwoMasses body;
+  body.f1 = -0.2;
+  Moved<TwoMasses> f(body, {1.7 / 1.75, 1.1 / 1.75}, 3);
+  EXPECT_EQ(f.outcome.reason, EndReason::stopReached) << f.outcome.text;
+  ASSERT_EQ(f.events().size(), 1u);
+  EXPECT_EQ(f.events()[0].events, std::vector<int>{0});
+  EXPECT_GE(f.outcome.eventTrials, 1);  // both together were tried first
+  EXPECT_NEAR(f.final(3), 0, 1e-12);
+  EXPECT_NEAR(f.final(1), 1.1 / 1.75 - 0.1 * 2, 1e-6);  // 2 u_1 = 1.5 u_0 - 0.2 lambda
+  EXPECT_GT(f.final(2), 0);
+  f.expectAdmissible(1e-6);
+}
+
+/// A function that falls whatever is done about it.
+struct Hopeless : UnilateralProblem<OneMass> {
+  using UnilateralProblem::UnilateralProblem;
+  void eventOrder(int k, std::vector<double>& g) const override {
+    // -(a)^2 from where it is applied: falls both ways.
+    if (changes % 2 == 1)
+      g[0] = k == 2 ? -1 : 0;
+    else
+      UnilateralProblem::eventOrder(k, g);
+  }
+};
+
+TEST(Events, APathThatMayNotGoOnEndsWithAReason) {
+  Hopeless problem(WithStops<OneMass>(OneMass{}, {1}));
+  SymmetricDenseSolver solver;
+  Record record;
+  Stops stops;
+  stops.loadFactors = {3};
+  const auto outcome = PathFollower(problem, solver, Options{}, stops).run({problem.vector({}), 0}, record);
+  EXPECT_EQ(outcome.reason, EndReason::noAdmissibleDirection) << outcome.text;
+  EXPECT_NEAR(outcome.final.lambda, 2, 1e-6);
+  EXPECT_EQ(record.steps.size(), static_cast<std::size_t>(outcome.steps));
+  EXPECT_EQ(problem.changes % 2, 0);  // left as it was
+}
+
+/// A change that the state does not solve is the Problem's mistake and is named.
+struct Jumps : UnilateralProblem<OneMass> {
+  using UnilateralProblem::UnilateralProblem;
+  ResidualNorm residual(const Vector& u, double lambda, Vector& r) override {
+    auto n = UnilateralProblem::residual(u, lambda, r);
+    if (changes > 0) n.norm += 1;
+    return n;
+  }
+};
+
+TEST(Events, AChangeThatTheStateDoesNotSolveIsNamed) {
+  Jumps problem(WithStops<OneMass>(OneMass{}, {1}));
+  SymmetricDenseSolver solver;
+  Record record;
+  Stops stops;
+  stops.loadFactors = {3};
+  const auto outcome = PathFollower(problem, solver, Options{}, stops).run({problem.vector({}), 0}, record);
+  EXPECT_EQ(outcome.reason, EndReason::problemFailed);
+  EXPECT_NE(outcome.text.find("does not solve the problem as an event has changed it"), std::string::npos)
+      << outcome.text;
+}
+
+}  // namespace
