@@ -50,7 +50,7 @@ ShellPath followPath(fem::FeProblem& problem, const path::Stops& stops, int obse
 PathPoint atLoad(const ShellPath& path, double lambda, const std::vector<int>& dofs) {
   for (std::size_t s = 0; s < path.series.size(); ++s) {
     // A little further than the step: the load at its very end is not lost to rounding.
-    const auto roots = path.series[s].lambdaPolynomial().minus(lambda).roots(path.lengths[s] * (1 + 1e-9));
+    const auto roots = path.series[s].lambdaFunction().minus(lambda).roots(path.lengths[s] * (1 + 1e-9));
     if (!roots.empty()) return pointAt(path.series[s], roots[0], dofs);
   }
   throw std::runtime_error("the path does not reach load factor " + std::to_string(lambda));
