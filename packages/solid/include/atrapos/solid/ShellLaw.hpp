@@ -1,0 +1,81 @@
+#pragma once
+
+#include <Kokkos_Macros.hpp>
+#include <string>
+#include <vector>
+
+#include "atrapos/solid/Strain.hpp"
+#include "atrapos/taylor/Law.hpp"
+
+namespace atrapos::solid {
+
+/// A material of solids at a point of a shell, paper (32)-(34) (docs/theory/shell.md):
+///
+///     E = (H + H^T + H^T H)/2 + e g x g,   S = S(E),   P = (I + H) S,   s = S : g x g
+///
+/// in: H_ij = du_i/dX_j by rows (9, dimensionless), e (length^2, as g is 1/length).
+///
+/// out: first Piola-Kirchhoff stress P_ij by rows (9, force per reference area), s (conjugate of e).
+///
+/// data: g (3), the scaled contravariant base vector of shellPoints.
+///
+/// Material: `template <class T> taylor::Symmetric3<T> secondPiola(const taylor::Symmetric3<T>& E) const`,
+/// the second Piola-Kirchhoff stress of the Green-Lagrange strain.
+template <class Material>
+struct ShellLaw {
+  static constexpr int numInputs = 10, numOutputs = 10, numData = 3;
+  static constexpr bool symmetric = Material::symmetric;
+
+  Material material;
+
+  /// S of (H, e).
+  template <class T>
+  KOKKOS_FORCEINLINE_FUNCTION taylor::Symmetric3<T> stress(const taylor::Matrix3<T>& H, const T& e,
+                                                           const taylor::Passive<T>* g) const {
+    return material.secondPiola(plusDyad(greenLagrange(H), e, g));
+  }
+
+  template <class T>
+  KOKKOS_INLINE_FUNCTION void operator()(const T* in, const taylor::Passive<T>* g, T* out) const {
+    const taylor::Matrix3<T> H(in);
+    const taylor::Symmetric3<T> S = stress(H, in[9], g);
+    const taylor::Matrix3<T> P = full(S) + H * S;
+    P.store(out);
+    out[9] = projection(S, g);
+  }
+
+  /// s alone: what the enhanced parameters' own equation needs.
+  template <class T>
+  KOKKOS_INLINE_FUNCTION T enhancedStress(const T* in, const taylor::Passive<T>* g) const {
+    return projection(stress(taylor::Matrix3<T>(in), in[9], g), g);
+  }
+
+  /// Strain per unit of e.
+  KOKKOS_INLINE_FUNCTION double enhancedStrainSize(const double* g) const {
+    return g[0] * g[0] + g[1] * g[1] + g[2] * g[2];
+  }
+
+  static constexpr int numObserved = 6;
+  static std::vector<std::string> observedNames() {
+    return {"stress_xx", "stress_yy", "stress_zz", "stress_xy", "stress_yz", "stress_zx"};
+  }
+  /// Cauchy stress F S F^T / det F with the deformation gradient F = I + H of the nodes.
+  KOKKOS_INLINE_FUNCTION void observe(const double* in, const double* g, double* sigma) const {
+    double out[10], F[9];
+    (*this)(in, g, out);
+    for (int i = 0; i < 9; ++i) F[i] = in[i] + (i % 4 == 0);
+    const double J = F[0] * (F[4] * F[8] - F[5] * F[7]) - F[1] * (F[3] * F[8] - F[5] * F[6]) +
+                     F[2] * (F[3] * F[7] - F[4] * F[6]);
+    const auto component = [&](int i, int j) {
+      return (out[3 * i] * F[3 * j] + out[3 * i + 1] * F[3 * j + 1] + out[3 * i + 2] * F[3 * j + 2]) / J;
+    };
+    sigma[0] = component(0, 0);
+    sigma[1] = component(1, 1);
+    sigma[2] = component(2, 2);
+    sigma[3] = component(0, 1);
+    sigma[4] = component(1, 2);
+    sigma[5] = component(2, 0);
+  }
+};
+
+}  // namespace atrapos::solid

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <vector>
+
+#include "atrapos/fem/EnhancedTerm.hpp"
+#include "atrapos/solid/ShellLaw.hpp"
+
+namespace atrapos::solid {
+
+/// Eight-node shell elements as FeProblem sees them: every node of the mid-surface has a node for its
+/// displacement v and one for the displacement w of its director, x = X + v + zeta w.
+///
+/// Nodes in Exodus' order of SHELL8: corners, then the middles of the edges 1-2, 2-3, 3-4, 4-1.
+struct ShellElements {
+  std::vector<int> nodes;          ///< [element][16]: eight nodes of v, then those of w
+  std::vector<double> midsurface;  ///< [element][8][3] R, length
+  std::vector<double>
+      directors;  ///< [element][8][3] D = (thickness/2) N of the element, N the normal, length
+  /// [element][8] the element's own director over that of the node, whose displacement is w: elements of
+  /// different thickness may share a director. Empty: 1 everywhere.
+  std::vector<double> directorScale;
+
+  int count() const { return static_cast<int>(nodes.size() / 16); }
+  double scale(int element, int a) const {
+    return directorScale.empty() ? 1.0 : directorScale[8 * static_cast<std::size_t>(element) + a];
+  }
+};
+
+/// Cubature of a shell element: Gauss points along each reference coordinate.
+struct ShellCubature {
+  int inPlane = 2;           ///< along xi and eta; 2: reduced, 3: full
+  int throughThickness = 2;  ///< along zeta
+};
+
+/// Parameters of the enhanced thickness strain: beta in span{1, xi, eta, xi eta}.
+constexpr int numShellParameters = 4;
+
+/// Term of a shell with this material.
+template <class Material>
+using ShellTerm = fem::EnhancedTerm<ShellLaw<Material>, numShellParameters>;
+
+/// The cubature points of shell elements: gradients of N_a and zeta N_a with respect to X = R + zeta D,
+/// volume weights, modes zeta {1, xi, eta, xi eta} and the scaled base vector g (docs/theory/shell.md).
+/// Points are in the order [eta][xi][zeta], zeta fastest. Throws std::runtime_error naming the element
+/// (counted from 1) where the Jacobian of X is not positive: the thickness is too large for the curvature, or
+/// the element is turned over or degenerate.
+fem::EnhancedPoints shellPoints(const ShellElements& elements, const ShellCubature& cubature = {});
+
+}  // namespace atrapos::solid

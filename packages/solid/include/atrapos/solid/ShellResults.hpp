@@ -1,0 +1,41 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "atrapos/solid/ShellPoints.hpp"
+
+/// What a shell shows: stresses at its surfaces, stress resultants, thickness (docs/theory/shell.md,
+/// "Results"). `u` is a model's state, [3 node + component].
+namespace atrapos::solid {
+
+/// Where and in which axes the results of an element are: its in-plane cubature points, [element][point].
+/// axis: a direction whose projection on the undeformed mid-surface is the local direction 1 (the next of
+/// x, y, z where it is within 10 degrees of the normal); it moves with the material. Direction 3 is the
+/// normal of the deformed mid-surface, 2 completes a right-handed frame.
+struct ShellResultOptions {
+  ShellCubature cubature;
+  std::array<double, 3> axis{1, 0, 0};
+};
+
+/// Cauchy stresses, [element][in-plane point][xx yy zz xy yz zx], at the surface zeta, extrapolated along
+/// zeta from those at the cubature points (what the term's observe gives).
+std::vector<double> surfaceStress(const fem::PointValues& stress, const ShellCubature& cubature, double zeta);
+
+/// Stress resultants per deformed length at the in-plane points:
+///     n_ab = int s_ab mu dz,   m_ab = int z s_ab mu dz,   q_a = int s_a3 mu dz,
+/// s the Cauchy stress in the local axes, z the distance from the mid-surface, mu dz dA the volume. Moments
+/// m_11 stretch the side z > 0 along 1.
+struct ShellResultants {
+  static std::vector<std::string> names();  ///< n_11 n_22 n_12 m_11 m_22 m_12 q_1 q_2
+  std::vector<double> values;               ///< [element][point][name]
+  std::vector<double> positions;            ///< [element][point][3] on the undeformed mid-surface
+};
+ShellResultants shellResultants(const ShellElements& elements, const fem::PointValues& stress,
+                                const std::vector<double>& u, const ShellResultOptions& options = {});
+
+/// Change of the thickness, 2 (|D + w| - |D|) with the element's own director, [element][8 nodes], length.
+std::vector<double> thicknessChange(const ShellElements& elements, const std::vector<double>& u);
+
+}  // namespace atrapos::solid

@@ -1,0 +1,231 @@
+#include "atrapos/solid/ShellLoads.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <stdexcept>
+
+#include "atrapos/fem/LawTerm.hpp"
+#include "atrapos/fem/ReferenceCell.hpp"
+
+namespace atrapos::solid {
+namespace {
+
+using Vec3 = std::array<double, 3>;
+
+constexpr double sqrt06 = 0.7745966692414834;  // sqrt(0.6), three Gauss points
+constexpr std::array<double, 3> lineX{-sqrt06, 0, sqrt06}, lineW{5.0 / 9, 8.0 / 9, 5.0 / 9};
+
+/// 3 x 3 points of the surface: N_a N_b J is integrated exactly for parallelograms.
+fem::Tabulation surfaceTable() { return fem::tabulateFace(fem::Face::Quad8, 5); }
+
+/// X_xi and X_eta of the surface zeta at a point.
+void surfaceTangents(const ShellElements& elements, int e, const fem::Tabulation& t, int q, double zeta,
+                     Vec3& g1, Vec3& g2) {
+  g1 = g2 = {0, 0, 0};
+  for (int a = 0; a < 8; ++a)
+    for (int i = 0; i < 3; ++i) {
+      const std::size_t at = 24 * static_cast<std::size_t>(e) + 3 * a + i;
+      const double X = elements.midsurface[at] + zeta * elements.directors[at];
+      g1[i] += t.gradients[(q * 8 + a) * 2] * X;
+      g2[i] += t.gradients[(q * 8 + a) * 2 + 1] * X;
+    }
+}
+
+/// Calls give(element, point, area vector times weight) at all points of a surface.
+template <class Give>
+void forEachSurfacePoint(const ShellElements& elements, double zeta, const fem::Tabulation& t,
+                         const Give& give) {
+  for (int e = 0; e < elements.count(); ++e)
+    for (int q = 0; q < t.numPoints; ++q) {
+      Vec3 g1, g2, n;
+      surfaceTangents(elements, e, t, q, zeta, g1, g2);
+      detail::cross(g1.data(), g2.data(), n.data());
+      for (double& c : n) c *= t.weights[q];
+      give(e, q, n);
+    }
+}
+
+void addAt(const ShellElements& elements, int e, const double* N, double zeta, const Vec3& f,
+           std::vector<double>& force) {
+  for (int a = 0; a < 8; ++a)
+    for (int i = 0; i < 3; ++i) {
+      force[3 * elements.nodes[16 * static_cast<std::size_t>(e) + a] + i] += N[a] * f[i];
+      if (zeta != 0)
+        force[3 * elements.nodes[16 * static_cast<std::size_t>(e) + 8 + a] + i] +=
+            zeta * elements.scale(e, a) * N[a] * f[i];
+    }
+}
+
+/// Nodes of an edge within the element (start, end, middle) and their quadratic shape functions.
+std::array<int, 3> nodesOf(const ShellEdge& edge) { return {edge.edge, (edge.edge + 1) % 4, 4 + edge.edge}; }
+
+struct EdgeShape {
+  std::array<double, 3> N, dN;
+  explicit EdgeShape(double s)
+      : N{s * (s - 1) / 2, s * (s + 1) / 2, 1 - s * s}, dN{s - 0.5, s + 0.5, -2 * s} {}
+};
+
+void checkEdges(const ShellElements& elements, const std::vector<ShellEdge>& edges) {
+  for (const ShellEdge& edge : edges)
+    if (edge.element < 0 || edge.element >= elements.count() || edge.edge < 0 || edge.edge > 3)
+      throw std::invalid_argument(
+          fmt::format("shell edge {} of element {}: there are 4 edges and {} elements", edge.edge + 1,
+                      edge.element + 1, elements.count()));
+}
+
+Vec3 edgeTangent(const ShellElements& elements, const ShellEdge& edge, const EdgeShape& shape) {
+  Vec3 T{};
+  const auto local = nodesOf(edge);
+  for (int a = 0; a < 3; ++a)
+    for (int i = 0; i < 3; ++i)
+      T[i] +=
+          shape.dN[a] * elements.midsurface[24 * static_cast<std::size_t>(edge.element) + 3 * local[a] + i];
+  return T;
+}
+
+/// Points of edges for EdgeFrame: three nodes of v, three of w, the load factor's; and the laws' data.
+fem::PointSet edgePoints(const ShellElements& elements, const std::vector<ShellEdge>& edges,
+                         int loadFactorNode, std::vector<double>& data) {
+  checkEdges(elements, edges);
+  fem::PointSet p;
+  p.numEntities = static_cast<int>(edges.size());
+  p.nodesPerEntity = 7;
+  p.pointsPerEntity = 3;
+  p.shapeComponents = EdgeFrame::components;
+  for (const ShellEdge& edge : edges) {
+    const std::size_t e = edge.element;
+    const auto local = nodesOf(edge);
+    for (int half = 0; half < 2; ++half)
+      for (int a : local) p.nodes.push_back(elements.nodes[16 * e + 8 * half + a]);
+    p.nodes.push_back(loadFactorNode);
+    for (int q = 0; q < 3; ++q) {
+      const EdgeShape shape(lineX[q]);
+      const Vec3 T = edgeTangent(elements, edge, shape);
+      Vec3 D{};
+      for (int a = 0; a < 3; ++a)
+        for (int i = 0; i < 3; ++i) D[i] += shape.N[a] * elements.directors[24 * e + 3 * local[a] + i];
+      p.weights.push_back(lineW[q] * std::sqrt(detail::dot(T.data(), T.data())));
+      for (int a = 0; a < 3; ++a) p.shape.insert(p.shape.end(), {shape.N[a], shape.dN[a], 0, 0});
+      for (int a = 0; a < 3; ++a)
+        p.shape.insert(p.shape.end(), {0, 0, elements.scale(edge.element, local[a]) * shape.N[a], 0});
+      p.shape.insert(p.shape.end(), {0, 0, 0, 1});
+      data.insert(data.end(), D.begin(), D.end());
+      data.insert(data.end(), T.begin(), T.end());
+    }
+  }
+  return p;
+}
+
+}  // namespace
+
+void addShellAreaForce(const ShellElements& elements, double zeta, const std::array<double, 3>& perArea,
+                       std::vector<double>& force) {
+  const fem::Tabulation t = surfaceTable();
+  forEachSurfacePoint(elements, zeta, t, [&](int e, int q, const Vec3& n) {
+    const double area = std::sqrt(detail::dot(n.data(), n.data()));
+    addAt(elements, e, &t.values[q * 8], zeta, {area * perArea[0], area * perArea[1], area * perArea[2]},
+          force);
+  });
+}
+
+void addShellPressure(const ShellElements& elements, double zeta, double pressure,
+                      std::vector<double>& force) {
+  const fem::Tabulation t = surfaceTable();
+  forEachSurfacePoint(elements, zeta, t, [&](int e, int q, const Vec3& n) {
+    addAt(elements, e, &t.values[q * 8], zeta, {-pressure * n[0], -pressure * n[1], -pressure * n[2]}, force);
+  });
+}
+
+void addShellEdgeForce(const ShellElements& elements, const std::vector<ShellEdge>& edges,
+                       const std::array<double, 3>& perLength, std::vector<double>& force) {
+  checkEdges(elements, edges);
+  for (const ShellEdge& edge : edges)
+    for (int q = 0; q < 3; ++q) {
+      const EdgeShape shape(lineX[q]);
+      const Vec3 T = edgeTangent(elements, edge, shape);
+      const double length = lineW[q] * std::sqrt(detail::dot(T.data(), T.data()));
+      for (int a = 0; a < 3; ++a)
+        for (int i = 0; i < 3; ++i)
+          force[3 * elements.nodes[16 * static_cast<std::size_t>(edge.element) + nodesOf(edge)[a]] + i] +=
+              length * shape.N[a] * perLength[i];
+    }
+}
+
+double lengthOf(const ShellElements& elements, const std::vector<ShellEdge>& edges) {
+  checkEdges(elements, edges);
+  double length = 0;
+  for (const ShellEdge& edge : edges)
+    for (int q = 0; q < 3; ++q) {
+      const Vec3 T = edgeTangent(elements, edge, EdgeShape(lineX[q]));
+      length += lineW[q] * std::sqrt(detail::dot(T.data(), T.data()));
+    }
+  return length;
+}
+
+void prescribeLoadFactor(fem::Supports& supports, int loadFactorNode) {
+  for (int i = 0; i < 3; ++i) supports.prescribe(loadFactorNode, i, 0, i == 0 ? 1 : 0);
+}
+
+std::unique_ptr<fem::Term> followerPressure(const ShellElements& elements, const std::vector<int>& loaded,
+                                            double zeta, LoadAmount pressure, int loadFactorNode) {
+  const fem::Tabulation t = surfaceTable();
+  fem::PointSet p;
+  p.numEntities = static_cast<int>(loaded.size());
+  p.nodesPerEntity = 17;
+  p.pointsPerEntity = t.numPoints;
+  p.shapeComponents = SurfaceFrame::components;
+  std::vector<double> data;
+  for (int e : loaded) {
+    if (e < 0 || e >= elements.count())
+      throw std::invalid_argument(
+          fmt::format("pressure on shell element {}: there are {} elements", e + 1, elements.count()));
+    const auto first = elements.nodes.begin() + 16 * static_cast<std::ptrdiff_t>(e);
+    p.nodes.insert(p.nodes.end(), first, first + 16);
+    p.nodes.push_back(loadFactorNode);
+    for (int q = 0; q < t.numPoints; ++q) {
+      p.weights.push_back(t.weights[q]);
+      for (int half = 0; half < 2; ++half)
+        for (int a = 0; a < 8; ++a) {
+          const double* dN = &t.gradients[(q * 8 + a) * 2];
+          const double scale = half == 0 ? 1.0 : zeta * elements.scale(e, a);
+          p.shape.insert(p.shape.end(), {scale * t.values[q * 8 + a], scale * dN[0], scale * dN[1], 0});
+        }
+      p.shape.insert(p.shape.end(), {0, 0, 0, 1});
+      Vec3 g1, g2;
+      surfaceTangents(elements, e, t, q, zeta, g1, g2);
+      data.insert(data.end(), g1.begin(), g1.end());
+      data.insert(data.end(), g2.begin(), g2.end());
+    }
+  }
+  return std::make_unique<fem::LawTerm<FollowerPressure, SurfaceFrame>>(FollowerPressure{pressure}, p, data);
+}
+
+std::unique_ptr<fem::Term> followerEdgeLoad(const ShellElements& elements,
+                                            const std::vector<ShellEdge>& edges, const FollowerEdgeLoad& load,
+                                            int loadFactorNode) {
+  std::vector<double> data;
+  const fem::PointSet p = edgePoints(elements, edges, loadFactorNode, data);
+  return std::make_unique<fem::LawTerm<FollowerEdgeLoad, EdgeFrame>>(load, p, data);
+}
+
+std::unique_ptr<fem::Term> deadEdgeMoment(const ShellElements& elements, const std::vector<ShellEdge>& edges,
+                                          const DeadEdgeMoment& load, int loadFactorNode) {
+  std::vector<double> data;
+  const fem::PointSet p = edgePoints(elements, edges, loadFactorNode, data);
+  for (std::size_t i = 0; i < data.size() / 6; ++i)
+    for (const Vec3& m : {Vec3{load.x.constant, load.y.constant, load.z.constant},
+                          Vec3{load.x.rate, load.y.rate, load.z.rate}}) {
+      const double* D = &data[6 * i];
+      const double size = std::sqrt(detail::dot(m.data(), m.data()) * detail::dot(D, D));
+      // Directors made from averaged normals are off the true normal by up to about a degree.
+      if (std::abs(detail::dot(m.data(), D)) > 0.02 * size)
+        throw std::invalid_argument(fmt::format(
+            "the moment on edge {} of shell element {} has a part about the director: shells take "
+            "no drilling moments",
+            edges[i / 3].edge + 1, edges[i / 3].element + 1));
+    }
+  return std::make_unique<fem::LawTerm<DeadEdgeMoment, EdgeFrame>>(load, p, data);
+}
+
+}  // namespace atrapos::solid

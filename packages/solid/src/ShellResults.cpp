@@ -1,0 +1,130 @@
+#include "atrapos/solid/ShellResults.hpp"
+
+#include <cmath>
+#include <stdexcept>
+
+#include "ShellSurface.hpp"
+
+namespace atrapos::solid {
+
+using detail::Vec3;
+
+namespace {
+
+/// Values at zeta of the Lagrange polynomials of the points x.
+std::vector<double> lagrange(const std::vector<double>& x, double zeta) {
+  std::vector<double> l(x.size(), 1.0);
+  for (std::size_t i = 0; i < x.size(); ++i)
+    for (std::size_t j = 0; j < x.size(); ++j)
+      if (i != j) l[i] *= (zeta - x[j]) / (x[i] - x[j]);
+  return l;
+}
+
+void checkStress(const fem::PointValues& stress, std::size_t multipleOf) {
+  if (stress.names.size() != 6 || stress.values.size() % (6 * multipleOf) != 0)
+    throw std::logic_error("shell results: the stresses are not those of this shell's term");
+}
+
+Vec3 unit(const Vec3& a) {
+  const double size = std::sqrt(detail::dot(a, a));
+  return {a[0] / size, a[1] / size, a[2] / size};
+}
+
+/// Coefficients (a, b) with a G_1 + b G_2 = the projection of `axis` on the tangent plane, or of the axis'
+/// next permutation where that is almost the normal.
+std::array<double, 2> inPlane(const detail::Base& G, Vec3 axis) {
+  const Vec3 N = unit(detail::cross(G.g1, G.g2));
+  const double cos10 = std::cos(M_PI / 18);
+  if (std::abs(detail::dot(unit(axis), N)) > cos10) axis = {axis[2], axis[0], axis[1]};
+  const double a11 = detail::dot(G.g1, G.g1), a12 = detail::dot(G.g1, G.g2), a22 = detail::dot(G.g2, G.g2),
+               b1 = detail::dot(axis, G.g1), b2 = detail::dot(axis, G.g2), det = a11 * a22 - a12 * a12;
+  return {(b1 * a22 - b2 * a12) / det, (b2 * a11 - b1 * a12) / det};
+}
+
+/// e_a . s e_b
+double component(const double* s, const Vec3& a, const Vec3& b) {
+  return a[0] * (s[0] * b[0] + s[3] * b[1] + s[5] * b[2]) + a[1] * (s[3] * b[0] + s[1] * b[1] + s[4] * b[2]) +
+         a[2] * (s[5] * b[0] + s[4] * b[1] + s[2] * b[2]);
+}
+
+}  // namespace
+
+std::vector<double> surfaceStress(const fem::PointValues& stress, const ShellCubature& cubature,
+                                  double zeta) {
+  const detail::GaussRule through = detail::gaussRule(cubature.throughThickness);
+  const std::size_t Z = through.x.size();
+  checkStress(stress, Z);
+  const std::vector<double> l = lagrange(through.x, zeta);
+  std::vector<double> result(stress.values.size() / Z, 0.0);
+  for (std::size_t p = 0; p < result.size() / 6; ++p)
+    for (std::size_t z = 0; z < Z; ++z)
+      for (int m = 0; m < 6; ++m) result[6 * p + m] += l[z] * stress.values[6 * (p * Z + z) + m];
+  return result;
+}
+
+std::vector<std::string> ShellResultants::names() {
+  return {"n_11", "n_22", "n_12", "m_11", "m_22", "m_12", "q_1", "q_2"};
+}
+
+ShellResultants shellResultants(const ShellElements& elements, const fem::PointValues& stress,
+                                const std::vector<double>& u, const ShellResultOptions& options) {
+  const detail::PlanePoints plane(options.cubature.inPlane);
+  const detail::GaussRule through = detail::gaussRule(options.cubature.throughThickness);
+  const int Q = plane.count(), Z = static_cast<int>(through.x.size());
+  checkStress(stress, static_cast<std::size_t>(Q) * Z);
+  if (stress.values.size() != static_cast<std::size_t>(elements.count()) * Q * Z * 6)
+    throw std::logic_error("shell results: the stresses are not those of these elements");
+  ShellResultants result;
+  for (int e = 0; e < elements.count(); ++e) {
+    const double* R = &elements.midsurface[24 * static_cast<std::size_t>(e)];
+    const double* D = &elements.directors[24 * static_cast<std::size_t>(e)];
+    double r[24], d[24];
+    for (int a = 0; a < 8; ++a)
+      for (int i = 0; i < 3; ++i) {
+        const std::size_t at = 16 * static_cast<std::size_t>(e) + a;
+        r[3 * a + i] = R[3 * a + i] + u[3 * elements.nodes[at] + i];
+        d[3 * a + i] = D[3 * a + i] + elements.scale(e, a) * u[3 * elements.nodes[at + 8] + i];
+      }
+    for (int q = 0; q < Q; ++q) {
+      const auto [c1, c2] = inPlane(detail::baseAt(plane.table, q, 0, R, D), options.axis);
+      const detail::Base g = detail::baseAt(plane.table, q, 0, r, d);
+      const Vec3 e3 = unit(detail::cross(g.g1, g.g2));
+      const Vec3 e1 =
+          unit({c1 * g.g1[0] + c2 * g.g2[0], c1 * g.g1[1] + c2 * g.g2[1], c1 * g.g1[2] + c2 * g.g2[2]});
+      const Vec3 e2 = detail::cross(e3, e1);
+      const double half = detail::dot(g.g3, e3), j0 = g.jacobian();
+      double sums[8] = {};
+      for (int z = 0; z < Z; ++z) {
+        const double* s = &stress.values[6 * ((static_cast<std::size_t>(e) * Q + q) * Z + z)];
+        const double mu = detail::baseAt(plane.table, q, through.x[z], r, d).jacobian() / j0,
+                     w = through.w[z] * half * mu, arm = through.x[z] * half;
+        const double s11 = component(s, e1, e1), s22 = component(s, e2, e2), s12 = component(s, e1, e2);
+        const double add[8] = {
+            s11, s22, s12, arm * s11, arm * s22, arm * s12, component(s, e1, e3), component(s, e2, e3)};
+        for (int m = 0; m < 8; ++m) sums[m] += w * add[m];
+      }
+      result.values.insert(result.values.end(), sums, sums + 8);
+      for (int i = 0; i < 3; ++i) {
+        double x = 0;
+        for (int a = 0; a < 8; ++a) x += plane.table.values[q * 8 + a] * R[3 * a + i];
+        result.positions.push_back(x);
+      }
+    }
+  }
+  return result;
+}
+
+std::vector<double> thicknessChange(const ShellElements& elements, const std::vector<double>& u) {
+  std::vector<double> result;
+  for (int e = 0; e < elements.count(); ++e)
+    for (int a = 0; a < 8; ++a) {
+      const double* D = &elements.directors[24 * static_cast<std::size_t>(e) + 3 * a];
+      const double* w = &u[3 * elements.nodes[16 * static_cast<std::size_t>(e) + 8 + a]];
+      const double own = elements.scale(e, a);
+      const Vec3 before{D[0], D[1], D[2]}, after{D[0] + own * w[0], D[1] + own * w[1], D[2] + own * w[2]};
+      result.push_back(2 * (std::sqrt(detail::dot(after, after)) - std::sqrt(detail::dot(before, before))));
+    }
+  return result;
+}
+
+}  // namespace atrapos::solid

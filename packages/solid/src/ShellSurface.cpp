@@ -1,0 +1,50 @@
+#include "ShellSurface.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <stdexcept>
+
+namespace atrapos::solid::detail {
+
+GaussRule gaussRule(int points) {
+  switch (points) {
+    case 2: {
+      const double a = 1 / std::sqrt(3.0);
+      return {{-a, a}, {1, 1}};
+    }
+    case 3: {
+      const double a = std::sqrt(0.6);
+      return {{-a, 0, a}, {5.0 / 9, 8.0 / 9, 5.0 / 9}};
+    }
+    default:
+      throw std::invalid_argument(fmt::format("shell cubature: {} points; accepted are 2 and 3", points));
+  }
+}
+
+PlanePoints::PlanePoints(int perDirection) {
+  const GaussRule line = gaussRule(perDirection);
+  for (int j = 0; j < perDirection; ++j)
+    for (int i = 0; i < perDirection; ++i) {
+      xi.insert(xi.end(), {line.x[i], line.x[j]});
+      weights.push_back(line.w[i] * line.w[j]);
+    }
+  table = fem::tabulateFaceAt(fem::Face::Quad8, xi);
+}
+
+Base baseAt(const fem::Tabulation& t, int point, double zeta, const double* R, const double* D) {
+  Base base;
+  for (int a = 0; a < 8; ++a) {
+    const double N = t.values[point * 8 + a];
+    const double* dN = &t.gradients[(point * 8 + a) * 2];
+    for (int i = 0; i < 3; ++i) {
+      const double X = R[3 * a + i] + zeta * D[3 * a + i];
+      base.g1[i] += dN[0] * X;
+      base.g2[i] += dN[1] * X;
+      base.g3[i] += N * D[3 * a + i];
+    }
+  }
+  return base;
+}
+
+}  // namespace atrapos::solid::detail

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "atrapos/fem/ReferenceCell.hpp"
+#include "atrapos/solid/ShellPoints.hpp"
+
+/// Geometry of shell elements at their cubature points, for set-up and results.
+namespace atrapos::solid::detail {
+
+using Vec3 = std::array<double, 3>;
+
+inline Vec3 cross(const Vec3& a, const Vec3& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+inline double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+struct GaussRule {
+  std::vector<double> x, w;
+};
+
+/// 2 or 3 Gauss points of [-1, 1]; throws std::invalid_argument for another number.
+GaussRule gaussRule(int points);
+
+/// The points of a cubature in the plane, xi fastest, with the shape functions there.
+struct PlanePoints {
+  std::vector<double> xi, weights;  ///< [point][2], [point]
+  fem::Tabulation table;
+
+  explicit PlanePoints(int perDirection);
+  int count() const { return static_cast<int>(weights.size()); }
+};
+
+/// Covariant base vectors of R + zeta D at an in-plane point; R, D: [8][3].
+struct Base {
+  Vec3 g1{}, g2{}, g3{};
+  double jacobian() const { return dot(cross(g1, g2), g3); }
+};
+Base baseAt(const fem::Tabulation& t, int point, double zeta, const double* R, const double* D);
+
+}  // namespace atrapos::solid::detail

@@ -1,0 +1,18 @@
+#pragma once
+
+#include "ShellModel.hpp"
+
+namespace atrapos::solid::test {
+
+/// A state off the linear range: random displacements of this size at free dofs, 0 at the supports.
+Numbers randomState(const fem::Supports& supports, double amplitude, unsigned seed);
+
+/// Central differences of the residual against the tangent along `direction` (zero at prescribed dofs): their
+/// error falls like h^2.
+void expectTangent(fem::FeProblem& problem, const Numbers& u, const Numbers& direction, double lambda);
+
+/// Where U_1..U_K solve the order equations, what is left of the residual along the series starts at order
+/// K+1. u0 need not be an equilibrium: its own residual is constant along the series and taken off.
+void expectOrders(fem::FeProblem& problem, const Numbers& u0, double lambda0);
+
+}  // namespace atrapos::solid::test

@@ -1,0 +1,91 @@
+#include "ShellGrid.hpp"
+
+#include "support/Meshes.hpp"
+
+namespace atrapos::solid::test {
+
+Vec3 ShellGrid::D(int n) const {
+  const double h = thickness / 2;
+  return {h * normal[n][0], h * normal[n][1], h * normal[n][2]};
+}
+
+std::vector<int> ShellGrid::lineI(int i) const {
+  std::vector<int> nodes;
+  for (int j = 0; j <= 2 * nv; ++j)
+    if (node(i, j) >= 0) nodes.push_back(node(i, j));
+  return nodes;
+}
+
+std::vector<int> ShellGrid::lineJ(int j) const {
+  std::vector<int> nodes;
+  for (int i = 0; i <= 2 * nu; ++i)
+    if (node(i, j) >= 0) nodes.push_back(node(i, j));
+  return nodes;
+}
+
+ShellElements ShellGrid::elements() const {
+  constexpr int di[8] = {0, 2, 2, 0, 1, 2, 1, 0}, dj[8] = {0, 0, 2, 2, 0, 1, 2, 1};
+  ShellElements result;
+  for (int ej = 0; ej < nv; ++ej)
+    for (int ei = 0; ei < nu; ++ei) {
+      int nodes[8];
+      for (int a = 0; a < 8; ++a) nodes[a] = node(2 * ei + di[a], 2 * ej + dj[a]);
+      for (int n : nodes) result.nodes.push_back(n);
+      for (int n : nodes) result.nodes.push_back(director(n));
+      for (int n : nodes) {
+        const Vec3 d = D(n);
+        result.midsurface.insert(result.midsurface.end(), x[n].begin(), x[n].end());
+        result.directors.insert(result.directors.end(), d.begin(), d.end());
+      }
+    }
+  return result;
+}
+
+ShellGrid shellGrid(int nu, int nv, double thickness, const Surface& surface, const Distortion& distortion) {
+  ShellGrid grid;
+  grid.nu = nu;
+  grid.nv = nv;
+  grid.thickness = thickness;
+  for (int j = 0; j <= 2 * nv; ++j)
+    for (int i = 0; i <= 2 * nu; ++i) {
+      const bool exists = i % 2 == 0 || j % 2 == 0;
+      grid.lattice.push_back(exists ? grid.numNodes() : -1);
+      if (!exists) continue;
+      const auto [s, t] = distortion(i / (2.0 * nu), j / (2.0 * nv));
+      const SurfacePoint p = surface(s, t);
+      grid.x.push_back(p.x);
+      grid.normal.push_back(p.normal);
+    }
+  return grid;
+}
+
+std::vector<ShellEdge> ShellGrid::side(int number) const {
+  std::vector<ShellEdge> edges;
+  const int count = number % 2 == 0 ? nu : nv;
+  for (int k = 0; k < count; ++k) {
+    const int i = number == 1 ? nu - 1 : number == 3 ? 0 : k, j = number == 2 ? nv - 1 : number == 0 ? 0 : k;
+    edges.push_back({j * nu + i, number});
+  }
+  return edges;
+}
+
+ShellGrid shaken(ShellGrid grid, double amount, unsigned seed) {
+  const auto moves = fem::test::randomNumbers(2 * grid.numNodes(), amount, seed);
+  for (int j = 2; j < 2 * grid.nv; j += 2)
+    for (int i = 2; i < 2 * grid.nu; i += 2) {
+      const int n = grid.node(i, j);
+      grid.x[n][0] += moves[2 * n];
+      grid.x[n][1] += moves[2 * n + 1];
+    }
+  for (int j = 0; j <= 2 * grid.nv; ++j)
+    for (int i = 0; i <= 2 * grid.nu; ++i) {
+      const int n = grid.node(i, j);
+      if (n < 0 || (i % 2 == 0 && j % 2 == 0)) continue;
+      const int a = i % 2 ? grid.node(i - 1, j) : grid.node(i, j - 1);
+      const int b = i % 2 ? grid.node(i + 1, j) : grid.node(i, j + 1);
+      for (int c = 0; c < 3; ++c) grid.x[n][c] = 0.5 * (grid.x[a][c] + grid.x[b][c]);
+    }
+  return grid;
+}
+
+}  // namespace atrapos::solid::test

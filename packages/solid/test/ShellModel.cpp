@@ -1,0 +1,22 @@
+#include "ShellModel.hpp"
+
+#include <Tpetra_CrsMatrix.hpp>
+#include <Tpetra_Vector.hpp>
+
+#include "atrapos/linear/MakeTangentSolver.hpp"
+
+namespace atrapos::solid::test {
+
+Numbers linearSolution(fem::FeProblem& problem) {
+  auto F = fem::test::zeroVector(problem), u = fem::test::zeroVector(problem);
+  const auto K = problem.tangent(*fem::test::zeroVector(problem), 0, *F);
+  linear::TangentSolverOptions options;
+  options.symmetric = problem.symmetric();
+  const auto solver = linear::makeTangentSolver(options);
+  solver->analyze(K);
+  solver->factor(K);
+  solver->solve(*F, *u);
+  return fem::FeProblem::values(*u);
+}
+
+}  // namespace atrapos::solid::test

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <cmath>
+
+#include "ShellGrid.hpp"
+#include "atrapos/fem/FeProblem.hpp"
+#include "atrapos/solid/SaintVenantKirchhoff.hpp"
+#include "atrapos/solid/ShellLoads.hpp"
+#include "support/Vectors.hpp"
+
+namespace atrapos::solid::test {
+
+using fem::test::Numbers;
+using Shell = ShellTerm<SaintVenantKirchhoff>;
+
+/// Saint Venant-Kirchhoff shell without supports and loads; `moreNodes` beside those of the grid.
+inline fem::FeModel shellModel(const ShellGrid& grid, const SaintVenantKirchhoff& material,
+                               const ShellCubature& cubature = {}, int moreNodes = 0) {
+  fem::FeModel model;
+  model.numNodes = 2 * grid.numNodes() + moreNodes;
+  model.terms.push_back(std::make_unique<Shell>(ShellLaw<SaintVenantKirchhoff>{material},
+                                                shellPoints(grid.elements(), cubature)));
+  model.supports = fem::Supports(model.numNodes);
+  model.constantLoad.assign(3 * model.numNodes, 0.0);
+  model.load.assign(3 * model.numNodes, 0.0);
+  return model;
+}
+
+/// Holds components ("x", "yz", ...) of v at these nodes.
+inline void hold(fem::FeModel& model, const std::vector<int>& nodes, const std::string& components) {
+  for (int n : nodes)
+    for (char c : components) model.supports.prescribe(n, c - 'x', 0, 0);
+}
+
+/// The same of w.
+inline void holdDirector(fem::FeModel& model, const ShellGrid& grid, const std::vector<int>& nodes,
+                         const std::string& components) {
+  for (int n : nodes)
+    for (char c : components) model.supports.prescribe(grid.director(n), c - 'x', 0, 0);
+}
+
+/// Symmetry about a plane with this normal axis: that component of v and w.
+inline void symmetric(fem::FeModel& model, const ShellGrid& grid, const std::vector<int>& nodes, char axis) {
+  hold(model, nodes, std::string(1, axis));
+  holdDirector(model, grid, nodes, std::string(1, axis));
+}
+
+inline void clamp(fem::FeModel& model, const ShellGrid& grid, const std::vector<int>& nodes) {
+  hold(model, nodes, "xyz");
+  holdDirector(model, grid, nodes, "xyz");
+}
+
+/// Displacements of the linear problem: K(0) u = F at load factor 1.
+Numbers linearSolution(fem::FeProblem& problem);
+
+/// A flat rectangle [0, a] x [0, b] in the x-y plane.
+inline Surface flat(double a, double b) {
+  return [=](double s, double t) { return SurfacePoint{{a * s, b * t, 0}, {0, 0, 1}}; };
+}
+
+/// Cylinder about the y axis: (R sin(angle), y, R cos(angle)), angles in radians, normal outward; s runs
+/// along y and t along the angle where `axialFirst`, so that the normal follows from the node order.
+inline Surface cylinder(double R, double angle0, double angle1, double y0, double y1) {
+  return [=](double s, double t) {
+    const double a = angle0 + (angle1 - angle0) * s, y = y0 + (y1 - y0) * t;
+    return SurfacePoint{{R * std::sin(a), y, R * std::cos(a)}, {std::sin(a), 0, std::cos(a)}};
+  };
+}
+
+}  // namespace atrapos::solid::test
