@@ -19,9 +19,10 @@ class AtraposSweep {
       : law_(law),
         maxOrder_(maxOrder),
         waiting_(taylor::HistoryShape::waiting(maxOrder)),
-        shape_(taylor::historyShape(law)) {}
+        shape_(taylor::historyShape(law)),
+        perBatch_(shape_.doubles<kLanes>(maxOrder)) {}
 
-  std::size_t historyDoubles(std::size_t batches) const { return batches * perBatch(); }
+  std::size_t historyDoubles(std::size_t batches) const { return batches * perBatch_; }
 
   /// Bytes a point of all passes, each number counted once a pass: what is read (order 0, the orders that the
   /// sweep's block asks for, sums that wait, constants) and written (orders k-1 and k, sums).
@@ -46,15 +47,15 @@ class AtraposSweep {
     taylor::Context<kLanes> context;
     context.shape = shape_;
     context.waiting = waiting_;
-    context.ahead = static_cast<std::ptrdiff_t>(perBatch());
+    context.ahead = static_cast<std::ptrdiff_t>(perBatch_);
     for (std::size_t b = 0; b < batches; ++b) {
-      context.memory = history + b * perBatch();
+      context.memory = history + b * perBatch_;
       taylor::start(law_, context, inputs.batch(b, 0), &datum, sink(0, b));
     }
     for (int k = 1; k <= maxOrder_; ++k) {
       context.block = taylor::orderBlock(k, maxOrder_);
       for (std::size_t b = 0; b < batches; ++b) {
-        context.memory = history + b * perBatch();
+        context.memory = history + b * perBatch_;
         if (k > 1) {
           context.order = k - 1;
           taylor::complete(law_, context, inputs.batch(b, k - 1), &datum);
@@ -66,12 +67,11 @@ class AtraposSweep {
   }
 
  private:
-  std::size_t perBatch() const { return shape_.doubles<kLanes>(maxOrder_); }
-
   Law law_;
   int maxOrder_;
   int waiting_;
   taylor::HistoryShape shape_;
+  std::size_t perBatch_;
 };
 
 }  // namespace atrapos::bench

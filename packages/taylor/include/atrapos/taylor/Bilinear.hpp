@@ -210,6 +210,9 @@ KOKKOS_FORCEINLINE_FUNCTION void convolveTerms(const Context<X::lanes>& c, const
   using Outputs = Entries<Terms::numOut>;
   const int k = c.order;
   const std::ptrdiff_t perOrder = static_cast<std::ptrdiff_t>(c.shape.sums) * X::lanes;
+  // The loops below fetch what they read; order 0 and the order to be written come besides.
+  fetch<X::lanes>(q + c.ahead, Entries<Terms::numRight>());
+  fetch<X::lanes>(q + k * c.stride + c.ahead, Entries<Terms::numRight>());
   if (c.block.begin != 0 && k > c.block.begin) {
     const int last = k - c.block.begin;
     LanesOf<X> begun[Terms::numOut];
@@ -227,6 +230,7 @@ KOKKOS_FORCEINLINE_FUNCTION void convolveTerms(const Context<X::lanes>& c, const
   else
     convolveBlocks<Terms>(p, q, c.stride, k, 1, c.ahead, out);
   for (int n = k + 1; n < c.block.end; ++n) {
+    fetch<X::lanes>(waiting + (n - k - 1) * perOrder + c.ahead, Outputs());
     LanesOf<X> sum[Terms::numOut];
     clearEntries(sum, Outputs());
     if constexpr (Terms::ofOneBlock)

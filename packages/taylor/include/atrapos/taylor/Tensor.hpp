@@ -34,8 +34,8 @@ struct StorageOf<Sweep<X>, N> {
 template <class T, int N>
 struct Tensor : StorageOf<T, N>::Type {
   using Storage = typename StorageOf<T, N>::Type;
-  using Storage::Storage;
   Tensor() = default;
+  KOKKOS_FORCEINLINE_FUNCTION explicit Tensor(const T* a) : Storage(a) {}
 
   /// The entries as variables: a law's outputs.
   KOKKOS_FORCEINLINE_FUNCTION void store(T* out) const {
@@ -50,7 +50,9 @@ struct Tensor : StorageOf<T, N>::Type {
 template <class T>
 struct Matrix3 : detail::Tensor<T, 9> {
   using Base = detail::Tensor<T, 9>;
-  using Base::Base;
+  Matrix3() = default;
+  /// From nine variables by rows.
+  KOKKOS_FORCEINLINE_FUNCTION explicit Matrix3(const T* rows) : Base(rows) {}
   using Base::set;
   KOKKOS_FORCEINLINE_FUNCTION T operator()(int i, int j) const { return this->entry(3 * i + j); }
   KOKKOS_FORCEINLINE_FUNCTION void set(int i, int j, const T& a) { Base::set(3 * i + j, a); }
@@ -60,7 +62,9 @@ struct Matrix3 : detail::Tensor<T, 9> {
 template <class T>
 struct Symmetric3 : detail::Tensor<T, 6> {
   using Base = detail::Tensor<T, 6>;
-  using Base::Base;
+  Symmetric3() = default;
+  /// From six variables, xx yy zz xy yz zx.
+  KOKKOS_FORCEINLINE_FUNCTION explicit Symmetric3(const T* entries) : Base(entries) {}
   using Base::set;
   KOKKOS_FORCEINLINE_FUNCTION T operator()(int i, int j) const { return this->entry(symmetricIndex(i, j)); }
   KOKKOS_FORCEINLINE_FUNCTION void set(int i, int j, const T& a) { Base::set(symmetricIndex(i, j), a); }
