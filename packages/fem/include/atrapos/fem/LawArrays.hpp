@@ -51,13 +51,13 @@ struct LawArrays {
   std::size_t pointDoubles = 0;  // of the histories of L points
   int maxOrder = 0, waiting = 0;
   taylor::OrderBlock block;  // of the order that is swept
-  View<int*> nodes;       // [batch][lane][node]
-  View<int*> positions;   // [batch][lane][node a][node b]
-  View<double*> shape;    // [batch][q][node][component][lane]
-  View<double*> weight;   // [batch][q][lane]
-  View<double*> offset;   // [batch][q][input][lane], CurrentPosition only: X
-  View<double*> data;     // [batch][q][datum][lane]
-  View<double*> history;  // [batch][q], then as taylor::Context has it
+  View<int*> nodes;          // [batch][lane][node]
+  View<int*> positions;      // [batch][lane][node a][node b]
+  View<double*> shape;       // [batch][q][node][component][lane]
+  View<double*> weight;      // [batch][q][lane]
+  View<double*> offset;      // [batch][q][input][lane], CurrentPosition only: X
+  View<double*> data;        // [batch][q][datum][lane]
+  View<double*> history;     // [batch][q], then as taylor::Context has it
   View<int*> order;
 
   KOKKOS_INLINE_FUNCTION int lanesIn(int b) const {
@@ -184,7 +184,8 @@ struct LawArrays {
       for (int m = 0; m < Law::numOutputs; ++m)
         if (out[m][lane] != out[m][lane]) {
           const bool named = noted.operation[lane] != taylor::Operation::None;
-          first = {b * L + lane, q, named ? noted.operation[lane] : taylor::Operation::Result, noted.value[lane]};
+          first = {b * L + lane, q, named ? noted.operation[lane] : taylor::Operation::Result,
+                   noted.value[lane]};
           break;
         }
   }
@@ -269,9 +270,9 @@ inline void throwFirst(const View<LawFailure*>& perBatch) {
   auto host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), perBatch);
   for (std::size_t b = 0; b < host.size(); ++b)
     if (host(b).entity >= 0)
-      throw taylor::DomainError(host(b).operation, host(b).value,
-                                "entity " + std::to_string(host(b).entity + 1) + ", point " +
-                                    std::to_string(host(b).point + 1));
+      throw taylor::DomainError(
+          host(b).operation, host(b).value,
+          "entity " + std::to_string(host(b).entity + 1) + ", point " + std::to_string(host(b).point + 1));
 }
 
 /// The sum over all batches, in one order for any number of threads.

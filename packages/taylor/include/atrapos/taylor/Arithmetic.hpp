@@ -93,38 +93,38 @@ KOKKOS_FORCEINLINE_FUNCTION Sweep<X> operator/(const Expression<A, X>& a, const 
   return detail::quotient(detail::evaluate(a, own != nullptr ? own : divisor.context()), divisor);
 }
 
-#define ATRAPOS_EXPRESSION_WITH(PASSIVE)                                                       \
-  template <class E, class X>                                                                    \
-  KOKKOS_FORCEINLINE_FUNCTION auto operator+(const Expression<E, X>& a, PASSIVE b) {           \
-    return a + detail::Constant<X>(b);                                                         \
-  }                                                                                            \
-  template <class E, class X>                                                                    \
-  KOKKOS_FORCEINLINE_FUNCTION auto operator+(PASSIVE a, const Expression<E, X>& b) {           \
-    return b + detail::Constant<X>(a);                                                         \
-  }                                                                                            \
-  template <class E, class X>                                                                    \
-  KOKKOS_FORCEINLINE_FUNCTION auto operator-(const Expression<E, X>& a, PASSIVE b) {           \
-    return a - detail::Constant<X>(b);                                                         \
-  }                                                                                            \
-  template <class E, class X>                                                                    \
-  KOKKOS_FORCEINLINE_FUNCTION auto operator-(PASSIVE a, const Expression<E, X>& b) {           \
-    return detail::Constant<X>(a) - b;                                                         \
-  }                                                                                            \
-  template <class E, class X>                                                                    \
-  KOKKOS_FORCEINLINE_FUNCTION auto operator*(const Expression<E, X>& a, PASSIVE b) {           \
-    return detail::scale(a.self(), b);                                                              \
-  }                                                                                            \
-  template <class E, class X>                                                                    \
-  KOKKOS_FORCEINLINE_FUNCTION auto operator*(PASSIVE a, const Expression<E, X>& b) {           \
-    return detail::scale(b.self(), a);                                                              \
-  }                                                                                            \
-  template <class E, class X>                                                                    \
-  KOKKOS_FORCEINLINE_FUNCTION auto operator/(const Expression<E, X>& a, PASSIVE b) {           \
-    return detail::scale(a.self(), 1.0 / b);                                                   \
-  }                                                                                            \
-  template <class E, class X>                                                                    \
-  KOKKOS_FORCEINLINE_FUNCTION Sweep<X> operator/(PASSIVE a, const Expression<E, X>& b) {       \
-    return Sweep<X>(a) / b;                                                                    \
+#define ATRAPOS_EXPRESSION_WITH(PASSIVE)                                                 \
+  template <class E, class X>                                                            \
+  KOKKOS_FORCEINLINE_FUNCTION auto operator+(const Expression<E, X>& a, PASSIVE b) {     \
+    return a + detail::Constant<X>(b);                                                   \
+  }                                                                                      \
+  template <class E, class X>                                                            \
+  KOKKOS_FORCEINLINE_FUNCTION auto operator+(PASSIVE a, const Expression<E, X>& b) {     \
+    return b + detail::Constant<X>(a);                                                   \
+  }                                                                                      \
+  template <class E, class X>                                                            \
+  KOKKOS_FORCEINLINE_FUNCTION auto operator-(const Expression<E, X>& a, PASSIVE b) {     \
+    return a - detail::Constant<X>(b);                                                   \
+  }                                                                                      \
+  template <class E, class X>                                                            \
+  KOKKOS_FORCEINLINE_FUNCTION auto operator-(PASSIVE a, const Expression<E, X>& b) {     \
+    return detail::Constant<X>(a) - b;                                                   \
+  }                                                                                      \
+  template <class E, class X>                                                            \
+  KOKKOS_FORCEINLINE_FUNCTION auto operator*(const Expression<E, X>& a, PASSIVE b) {     \
+    return detail::scale(a.self(), b);                                                   \
+  }                                                                                      \
+  template <class E, class X>                                                            \
+  KOKKOS_FORCEINLINE_FUNCTION auto operator*(PASSIVE a, const Expression<E, X>& b) {     \
+    return detail::scale(b.self(), a);                                                   \
+  }                                                                                      \
+  template <class E, class X>                                                            \
+  KOKKOS_FORCEINLINE_FUNCTION auto operator/(const Expression<E, X>& a, PASSIVE b) {     \
+    return detail::scale(a.self(), 1.0 / b);                                             \
+  }                                                                                      \
+  template <class E, class X>                                                            \
+  KOKKOS_FORCEINLINE_FUNCTION Sweep<X> operator/(PASSIVE a, const Expression<E, X>& b) { \
+    return Sweep<X>(a) / b;                                                              \
   }
 
 ATRAPOS_EXPRESSION_WITH(double)

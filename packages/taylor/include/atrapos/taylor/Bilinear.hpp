@@ -15,11 +15,13 @@ struct BilinearTerm {
   int out, left, right, sign;
 };
 
-/// out = sum of terms at order 0, for any type with + - *. Terms of one output stand in the order of the list.
+/// out = sum of terms at order 0, for any type with + - *. Terms of one output stand in the order of the
+/// list.
 template <class Terms, class T, std::size_t... t>
 KOKKOS_FORCEINLINE_FUNCTION void addTerms(const T* a, const T* b, T* out, std::index_sequence<t...>) {
-  ((Terms::list[t].sign > 0 ? void(out[Terms::list[t].out] += a[Terms::list[t].left] * b[Terms::list[t].right])
-                            : void(out[Terms::list[t].out] -= a[Terms::list[t].left] * b[Terms::list[t].right])),
+  ((Terms::list[t].sign > 0
+        ? void(out[Terms::list[t].out] += a[Terms::list[t].left] * b[Terms::list[t].right])
+        : void(out[Terms::list[t].out] -= a[Terms::list[t].left] * b[Terms::list[t].right])),
    ...);
 }
 
@@ -72,11 +74,11 @@ KOKKOS_FORCEINLINE_FUNCTION void fetch([[maybe_unused]] const double* p, std::in
 #endif
 }
 
-/// Adds the terms at (a_i, b_{k-i}), i = first..k-first, to out; a and b are different blocks of slots. Meanwhile
-/// the same place of b's `ahead` doubles on is fetched (a's is where a meets itself).
+/// Adds the terms at (a_i, b_{k-i}), i = first..k-first, to out; a and b are different blocks of slots.
+/// Meanwhile the same place of b's `ahead` doubles on is fetched (a's is where a meets itself).
 template <class Terms, int L>
-KOKKOS_FORCEINLINE_FUNCTION void convolveBlocks(const double* a, const double* b, std::ptrdiff_t stride, int k,
-                                                int first, std::ptrdiff_t ahead, Lanes<L>* out) {
+KOKKOS_FORCEINLINE_FUNCTION void convolveBlocks(const double* a, const double* b, std::ptrdiff_t stride,
+                                                int k, int first, std::ptrdiff_t ahead, Lanes<L>* out) {
   Lanes<L> sum[Terms::numOut];
   clearEntries(sum, Entries<Terms::numOut>());
   const double* p = a + first * stride;
@@ -201,9 +203,9 @@ KOKKOS_FORCEINLINE_FUNCTION void convolveBlockEnds(const double* a, std::ptrdiff
   addBoth<Terms>(forward, backward, out, Outputs());
 }
 
-/// The sums over i = 1..k-1 of order k = context.order, added to out. The first order of a block adds the pairs
-/// of orders below it for the whole block, and leaves the sums of later orders in `waiting`; those add the
-/// pairs that were not known then.
+/// The sums over i = 1..k-1 of order k = context.order, added to out. The first order of a block adds the
+/// pairs of orders below it for the whole block, and leaves the sums of later orders in `waiting`; those add
+/// the pairs that were not known then.
 template <class Terms, class X>
 KOKKOS_FORCEINLINE_FUNCTION void convolveTerms(const Context<X::lanes>& c, const double* p, const double* q,
                                                double* waiting, LanesOf<X>* out) {
@@ -245,10 +247,10 @@ KOKKOS_FORCEINLINE_FUNCTION void convolveTerms(const Context<X::lanes>& c, const
 /// consecutive slots.
 template <class X, int N>
 struct Block {
-  LanesOf<X> v[N];                         ///< coefficients of this pass
-  Context<X::lanes>* context = nullptr;    ///< null: constants, and v are their values
-  mutable double* slots = nullptr;         ///< order-0 lanes of the first; null: no histories
-  bool zero = false;                       ///< all coefficients of this pass are zero: inputs not known yet
+  LanesOf<X> v[N];                       ///< coefficients of this pass
+  Context<X::lanes>* context = nullptr;  ///< null: constants, and v are their values
+  mutable double* slots = nullptr;       ///< order-0 lanes of the first; null: no histories
+  bool zero = false;                     ///< all coefficients of this pass are zero: inputs not known yet
 
   Block() = default;
 
@@ -300,13 +302,15 @@ struct Block {
   }
   template <std::size_t... n>
   KOKKOS_FORCEINLINE_FUNCTION void recordAll(const Context<X::lanes>& c, std::index_sequence<n...>) const {
-    (record<X::pass>(c, slots + static_cast<std::ptrdiff_t>(n) * X::lanes, counts() ? v[n] : LanesOf<X>(0.0)), ...);
+    (record<X::pass>(c, slots + static_cast<std::ptrdiff_t>(n) * X::lanes, counts() ? v[n] : LanesOf<X>(0.0)),
+     ...);
   }
 };
 
 /// out = the terms' sums of the first entries of two blocks (or of one with itself: Terms::ofOneBlock).
 template <class Terms, class X, int M, int N>
-KOKKOS_FORCEINLINE_FUNCTION void bilinear(const Block<X, M>& a, const Block<X, N>& b, Block<X, Terms::numOut>& out) {
+KOKKOS_FORCEINLINE_FUNCTION void bilinear(const Block<X, M>& a, const Block<X, N>& b,
+                                          Block<X, Terms::numOut>& out) {
   static_assert(Terms::numLeft <= M && Terms::numRight <= N);
   Context<X::lanes>* context = a.context != nullptr ? a.context : b.context;
   out.context = context;

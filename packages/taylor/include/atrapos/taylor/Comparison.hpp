@@ -49,7 +49,8 @@ KOKKOS_INLINE_FUNCTION Lanes<L> select(const Mask<L>& mask, const Lanes<L>& yes,
 
 // The smaller (sign = 1) or larger (-1) of two: order 0 decides; where it cannot, there is no series.
 template <class X>
-KOKKOS_INLINE_FUNCTION Sweep<X> extremum(const Sweep<X>& a, const Sweep<X>& b, double sign, Operation operation) {
+KOKKOS_INLINE_FUNCTION Sweep<X> extremum(const Sweep<X>& a, const Sweep<X>& b, double sign,
+                                         Operation operation) {
   if (a.isPassive() && b.isPassive())
     return {sign > 0 ? fmin(a.value(), b.value()) : fmax(a.value(), b.value())};
   Context<X::lanes>& context = a.isPassive() ? *b.context() : *a.context();
@@ -68,27 +69,27 @@ KOKKOS_INLINE_FUNCTION Sweep<X> extremum(const Sweep<X>& a, const Sweep<X>& b, d
 
 }  // namespace detail
 
-#define ATRAPOS_COMPARISON(OP)                                                                        \
-  template <class A, class B, class X>                                                                  \
-  KOKKOS_INLINE_FUNCTION Mask<X::lanes> operator OP(const Expression<A, X>& a, const Expression<B, X>& b) {  \
-    return detail::compare(Sweep<X>(a.self()), Sweep<X>(b.self()),                                    \
-                           [](double x, double y) { return x OP y; });                                \
-  }                                                                                                   \
-  template <class E, class X>                                                                           \
-  KOKKOS_INLINE_FUNCTION Mask<X::lanes> operator OP(const Expression<E, X>& a, double b) {                   \
-    return a OP Sweep<X>(b);                                                                          \
-  }                                                                                                   \
-  template <class E, class X>                                                                           \
-  KOKKOS_INLINE_FUNCTION Mask<X::lanes> operator OP(double a, const Expression<E, X>& b) {                   \
-    return Sweep<X>(a) OP b;                                                                          \
-  }                                                                                                   \
-  template <class E, class X>                                                                           \
-  KOKKOS_INLINE_FUNCTION Mask<X::lanes> operator OP(const Expression<E, X>& a, const LanesOf<X>& b) {          \
-    return a OP Sweep<X>(b);                                                                          \
-  }                                                                                                   \
-  template <class E, class X>                                                                           \
-  KOKKOS_INLINE_FUNCTION Mask<X::lanes> operator OP(const LanesOf<X>& a, const Expression<E, X>& b) {          \
-    return Sweep<X>(a) OP b;                                                                          \
+#define ATRAPOS_COMPARISON(OP)                                                                              \
+  template <class A, class B, class X>                                                                      \
+  KOKKOS_INLINE_FUNCTION Mask<X::lanes> operator OP(const Expression<A, X>& a, const Expression<B, X>& b) { \
+    return detail::compare(Sweep<X>(a.self()), Sweep<X>(b.self()),                                          \
+                           [](double x, double y) { return x OP y; });                                      \
+  }                                                                                                         \
+  template <class E, class X>                                                                               \
+  KOKKOS_INLINE_FUNCTION Mask<X::lanes> operator OP(const Expression<E, X>& a, double b) {                  \
+    return a OP Sweep<X>(b);                                                                                \
+  }                                                                                                         \
+  template <class E, class X>                                                                               \
+  KOKKOS_INLINE_FUNCTION Mask<X::lanes> operator OP(double a, const Expression<E, X>& b) {                  \
+    return Sweep<X>(a) OP b;                                                                                \
+  }                                                                                                         \
+  template <class E, class X>                                                                               \
+  KOKKOS_INLINE_FUNCTION Mask<X::lanes> operator OP(const Expression<E, X>& a, const LanesOf<X>& b) {       \
+    return a OP Sweep<X>(b);                                                                                \
+  }                                                                                                         \
+  template <class E, class X>                                                                               \
+  KOKKOS_INLINE_FUNCTION Mask<X::lanes> operator OP(const LanesOf<X>& a, const Expression<E, X>& b) {       \
+    return Sweep<X>(a) OP b;                                                                                \
   }
 
 ATRAPOS_COMPARISON(<)
@@ -99,8 +100,8 @@ ATRAPOS_COMPARISON(==)
 ATRAPOS_COMPARISON(!=)
 #undef ATRAPOS_COMPARISON
 
-/// yes where the condition holds, no elsewhere; both are evaluated. In a lane where the other one is chosen, an
-/// argument outside a domain does no harm.
+/// yes where the condition holds, no elsewhere; both are evaluated. In a lane where the other one is chosen,
+/// an argument outside a domain does no harm.
 template <class A, class B, class X>
 KOKKOS_INLINE_FUNCTION Sweep<X> if_then_else(const Mask<X::lanes>& condition, const Expression<A, X>& a,
                                              const Expression<B, X>& b) {
@@ -140,7 +141,8 @@ KOKKOS_INLINE_FUNCTION Sweep<X> fabs(const Expression<E, X>& e) {
   LanesOf<X> sign(0.0);
   if (X::pass == Pass::Start) {
     for (int l = 0; l < X::lanes; ++l) sign[l] = a.value()[l] < 0 ? -1.0 : 1.0;
-    sign = detail::restrictTo(context.failures, Operation::Abs, a.value(), sign, [](double x) { return x != 0; });
+    sign = detail::restrictTo(context.failures, Operation::Abs, a.value(), sign,
+                              [](double x) { return x != 0; });
   }
   return {a.value() * detail::keep<X>(context, sign), &context};
 }
@@ -150,22 +152,22 @@ KOKKOS_INLINE_FUNCTION Sweep<X> abs(const Expression<E, X>& e) {
 }
 
 // Overloads for Sweep itself because std::min and std::max would fit better than the ones for expressions.
-#define ATRAPOS_EXTREMUM(NAME, SIGN, OPERATION)                                                          \
-  template <class A, class B, class X>                                                                     \
-  KOKKOS_INLINE_FUNCTION Sweep<X> NAME(const Expression<A, X>& a, const Expression<B, X>& b) {           \
-    return detail::extremum(Sweep<X>(a.self()), Sweep<X>(b.self()), SIGN, Operation::OPERATION);         \
-  }                                                                                                      \
-  template <class X>                                                                                       \
-  KOKKOS_INLINE_FUNCTION Sweep<X> NAME(const Sweep<X>& a, const Sweep<X>& b) {                           \
-    return detail::extremum(a, b, SIGN, Operation::OPERATION);                                           \
-  }                                                                                                      \
-  template <class E, class X>                                                                              \
-  KOKKOS_INLINE_FUNCTION Sweep<X> NAME(const Expression<E, X>& a, const LanesOf<X>& b) {                 \
-    return NAME(a, static_cast<const Expression<Sweep<X>, X>&>(Sweep<X>(b)));                            \
-  }                                                                                                      \
-  template <class E, class X>                                                                              \
-  KOKKOS_INLINE_FUNCTION Sweep<X> NAME(const LanesOf<X>& a, const Expression<E, X>& b) {                 \
-    return NAME(static_cast<const Expression<Sweep<X>, X>&>(Sweep<X>(a)), b);                            \
+#define ATRAPOS_EXTREMUM(NAME, SIGN, OPERATION)                                                  \
+  template <class A, class B, class X>                                                           \
+  KOKKOS_INLINE_FUNCTION Sweep<X> NAME(const Expression<A, X>& a, const Expression<B, X>& b) {   \
+    return detail::extremum(Sweep<X>(a.self()), Sweep<X>(b.self()), SIGN, Operation::OPERATION); \
+  }                                                                                              \
+  template <class X>                                                                             \
+  KOKKOS_INLINE_FUNCTION Sweep<X> NAME(const Sweep<X>& a, const Sweep<X>& b) {                   \
+    return detail::extremum(a, b, SIGN, Operation::OPERATION);                                   \
+  }                                                                                              \
+  template <class E, class X>                                                                    \
+  KOKKOS_INLINE_FUNCTION Sweep<X> NAME(const Expression<E, X>& a, const LanesOf<X>& b) {         \
+    return NAME(a, static_cast<const Expression<Sweep<X>, X>&>(Sweep<X>(b)));                    \
+  }                                                                                              \
+  template <class E, class X>                                                                    \
+  KOKKOS_INLINE_FUNCTION Sweep<X> NAME(const LanesOf<X>& a, const Expression<E, X>& b) {         \
+    return NAME(static_cast<const Expression<Sweep<X>, X>&>(Sweep<X>(a)), b);                    \
   }
 
 /// The smaller or larger of two. Defined where they differ in order 0.

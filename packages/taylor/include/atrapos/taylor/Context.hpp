@@ -15,8 +15,8 @@ enum class Pass {
             ///< one, added to the histories
 };
 
-/// How a law is executed on Sweep: for L points at a time, in one of the passes. With Counting it only tells what
-/// memory it takes: context.shape is what there is, and what does not fit shares the first slot.
+/// How a law is executed on Sweep: for L points at a time, in one of the passes. With Counting it only tells
+/// what memory it takes: context.shape is what there is, and what does not fit shares the first slot.
 template <int L, Pass P, bool Counting = false>
 struct Execution {
   static constexpr bool counting = Counting;
@@ -35,8 +35,8 @@ struct OrderBlock {
   int begin = 0, end = 0;  ///< 0, 0: the order alone
 };
 
-/// The block of order k >= 1 in a series of orders up to maxOrder. About sqrt(begin) orders make a block: what
-/// is read again within it and what it saves then balance. Host; once an order.
+/// The block of order k >= 1 in a series of orders up to maxOrder. About sqrt(begin) orders make a block:
+/// what is read again within it and what it saves then balance. Host; once an order.
 inline OrderBlock orderBlock(int k, int maxOrder) {
   OrderBlock block{1, 1};
   while (block.end <= k) {
@@ -64,7 +64,7 @@ struct HistoryShape {
     return most;
   }
 
-  /// Doubles of the histories of L points for orders 0..maxOrder.
+  /// Doubles of the histories of L points for orders 0..maxOrder. Host.
   template <int L>
   std::size_t doubles(int maxOrder) const {
     return (static_cast<std::size_t>(slots) * (maxOrder + 1) + constants +
@@ -75,18 +75,18 @@ struct HistoryShape {
 
 /// The state of one execution at L points: where the histories lie and what is being computed.
 ///
-/// Memory at a group of L points: [constant][lane], [order waiting][sum][lane], then [order][slot][lane], so that
-/// the sweep of order k reads one contiguous piece, whatever the highest order. Slots, constants and sums are
-/// handed out in the order of execution, which is the same at every pass. Any alignment of a double will do; a multiple of 8*L bytes
-/// is fastest.
+/// Memory at a group of L points: [constant][lane], [order waiting][sum][lane], then [order][slot][lane], so
+/// that the sweep of order k reads one contiguous piece, whatever the highest order. Slots, constants and
+/// sums are handed out in the order of execution, which is the same at every pass. Any alignment of a double
+/// will do; a multiple of 8*L bytes is fastest.
 template <int L>
 struct Context {
   double* memory = nullptr;  ///< shape.doubles<L>(maxOrder) doubles; kept from pass to pass
   HistoryShape shape;
-  int order = 0;                    ///< order of this pass; 0 in Start
-  OrderBlock block;                 ///< of this order
-  int waiting = 0;                  ///< HistoryShape::waiting(maxOrder) where sweeps work in blocks of orders
-  std::ptrdiff_t ahead = 0;         ///< doubles from here to the memory that is wanted next, fetched meanwhile
+  int order = 0;             ///< order of this pass; 0 in Start
+  OrderBlock block;          ///< of this order
+  int waiting = 0;           ///< HistoryShape::waiting(maxOrder) where sweeps work in blocks of orders
+  std::ptrdiff_t ahead = 0;  ///< doubles from here to the memory that is wanted next, fetched meanwhile
   Failures<L>* failures = nullptr;  ///< where Start notes arguments outside an operation's domain
 
   // Of the execution under way.
@@ -96,8 +96,8 @@ struct Context {
   std::ptrdiff_t stride = 0;  ///< doubles from one order to the next
   HistoryShape taken;
 
-  /// Begins an execution with what the caller has given. Read number by number: a wider load would have to wait
-  /// for the caller's stores to reach the cache.
+  /// Begins an execution with what the caller has given. Read number by number: a wider load would have to
+  /// wait for the caller's stores to reach the cache.
   KOKKOS_FORCEINLINE_FUNCTION void begin(const Context& given) {
     memory = alone(given.memory);
     shape.slots = alone(given.shape.slots);

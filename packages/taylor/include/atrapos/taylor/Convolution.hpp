@@ -4,8 +4,8 @@
 
 #include "atrapos/taylor/Lanes.hpp"
 
-/// Sums over the orders 1..k-1 of histories: the inner loops of every recurrence. (Terms with coefficient k of
-/// an operand are linear in what is new; they are added where the recurrence stands.) a and b point to the
+/// Sums over the orders 1..k-1 of histories: the inner loops of every recurrence. (Terms with coefficient k
+/// of an operand are linear in what is new; they are added where the recurrence stands.) a and b point to the
 /// order-0 lanes of a slot, `stride` doubles lie between an order and the next.
 namespace atrapos::taylor::detail {
 
@@ -29,7 +29,8 @@ KOKKOS_INLINE_FUNCTION Lanes<L> convolve(const double* a, const double* b, std::
 template <int L>
 KOKKOS_INLINE_FUNCTION Lanes<L> convolveSquare(const double* a, std::ptrdiff_t stride, int k) {
   Lanes<L> sum(0.0);
-  for (int i = 1; 2 * i < k; ++i) sum += Lanes<L>::load(a + i * stride) * Lanes<L>::load(a + (k - i) * stride);
+  for (int i = 1; 2 * i < k; ++i)
+    sum += Lanes<L>::load(a + i * stride) * Lanes<L>::load(a + (k - i) * stride);
   sum *= 2.0;
   if (k % 2 == 0 && k > 0) {
     const Lanes<L> middle = Lanes<L>::load(a + k / 2 * stride);
@@ -40,8 +41,8 @@ KOKKOS_INLINE_FUNCTION Lanes<L> convolveSquare(const double* a, std::ptrdiff_t s
 
 /// sum_{i=1..k-1} (slope i + offset) a_i b_{k-i}
 template <int L, class S>
-KOKKOS_INLINE_FUNCTION Lanes<L> convolveWeighted(const double* a, const double* b, std::ptrdiff_t stride, int k,
-                                                 const S& slope, double offset) {
+KOKKOS_INLINE_FUNCTION Lanes<L> convolveWeighted(const double* a, const double* b, std::ptrdiff_t stride,
+                                                 int k, const S& slope, double offset) {
   Lanes<L> even(0.0), odd(0.0);
   int i = 1;
   for (; i < k - 1; i += 2) {
@@ -54,7 +55,8 @@ KOKKOS_INLINE_FUNCTION Lanes<L> convolveWeighted(const double* a, const double* 
   return even + odd;
 }
 
-/// The part of coefficient k of c, c' = w a', that is known before order k: (1/k) sum_{i=1..k-1} i a_i w_{k-i}
+/// The part of coefficient k of c, c' = w a', that is known before order k: (1/k) sum_{i=1..k-1} i a_i
+/// w_{k-i}
 template <int L>
 KOKKOS_INLINE_FUNCTION Lanes<L> integrate(const double* a, const double* w, std::ptrdiff_t stride, int k) {
   return convolveWeighted<L>(a, w, stride, k, 1.0, 0.0) * (1.0 / k);

@@ -67,8 +67,8 @@ constexpr double notANumber = std::numeric_limits<double>::quiet_NaN();
 
 /// result where `inside` holds for the lane's argument, NaN and a note elsewhere.
 template <int L, class Inside>
-KOKKOS_INLINE_FUNCTION Lanes<L> restrictTo(Failures<L>* failures, Operation operation, const Lanes<L>& argument,
-                                           Lanes<L> result, const Inside& inside) {
+KOKKOS_INLINE_FUNCTION Lanes<L> restrictTo(Failures<L>* failures, Operation operation,
+                                           const Lanes<L>& argument, Lanes<L> result, const Inside& inside) {
   for (int l = 0; l < L; ++l)
     if (!inside(argument[l])) {
       result[l] = notANumber;
@@ -104,8 +104,9 @@ inline std::string describe(Operation operation, double value) {
     case Operation::Log1p:
       return line("log1p", "its argument must be above -1");
     case Operation::Pow:
-      return line("pow", "the base must be positive where the exponent is not an integer, and must not "
-                         "vanish where it is negative or differs from point to point");
+      return line("pow",
+                  "the base must be positive where the exponent is not an integer, and must not "
+                  "vanish where it is negative or differs from point to point");
     case Operation::Asin:
       return line("asin", "its argument must lie between -1 and 1");
     case Operation::Acos:
@@ -124,7 +125,8 @@ inline std::string describe(Operation operation, double value) {
       return line("max", "its arguments must differ");
     case Operation::Implicit:
       return "the local system g(x, y) = 0 has no regular solution here: Newton's method ended with a "
-             "relative residual of " + number;
+             "relative residual of " +
+             number;
     case Operation::None:
     case Operation::Result:
       break;

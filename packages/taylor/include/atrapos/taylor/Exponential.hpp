@@ -25,7 +25,8 @@ KOKKOS_INLINE_FUNCTION Sweep<X> exponential(const Sweep<X>& a) {
 
 // (shift + a) c' = scale a': c_k = (scale a_k - (1/k) sum_{i=1..k-1} i c_i a_{k-i}) / (shift + a_0)
 template <class X>
-KOKKOS_INLINE_FUNCTION Sweep<X> logarithm(const Sweep<X>& a, const LanesOf<X>& c0, double shift, double scale) {
+KOKKOS_INLINE_FUNCTION Sweep<X> logarithm(const Sweep<X>& a, const LanesOf<X>& c0, double shift,
+                                          double scale) {
   Context<X::lanes>& context = *a.context();
   const double* as = a.slot();
   double* cs = takeSlots<X>(context);

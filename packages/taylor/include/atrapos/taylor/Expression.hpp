@@ -108,14 +108,17 @@ struct PreparedScaled {
   LanesOf<X> known;
   KOKKOS_FORCEINLINE_FUNCTION bool active() const { return x.active(); }
   KOKKOS_FORCEINLINE_FUNCTION bool squares() const { return x.squares(); }
-  KOKKOS_FORCEINLINE_FUNCTION void addPairs(std::ptrdiff_t i, std::ptrdiff_t j, LanesOf<X>* f, LanesOf<X>* b) const {
+  KOKKOS_FORCEINLINE_FUNCTION void addPairs(std::ptrdiff_t i, std::ptrdiff_t j, LanesOf<X>* f,
+                                            LanesOf<X>* b) const {
     x.addPairs(i, j, f, b);
   }
   KOKKOS_FORCEINLINE_FUNCTION void addSquares(std::ptrdiff_t i, std::ptrdiff_t j, LanesOf<X>* f) const {
     x.addSquares(i, j, f);
   }
   KOKKOS_FORCEINLINE_FUNCTION LanesOf<X> combine(const LanesOf<X>* f) const { return x.combine(f) * factor; }
-  KOKKOS_FORCEINLINE_FUNCTION LanesOf<X> oneByOne(const Context<X::lanes>& c) const { return x.oneByOne(c) * factor; }
+  KOKKOS_FORCEINLINE_FUNCTION LanesOf<X> oneByOne(const Context<X::lanes>& c) const {
+    return x.oneByOne(c) * factor;
+  }
 };
 
 /// x times a passive factor (double or Lanes).

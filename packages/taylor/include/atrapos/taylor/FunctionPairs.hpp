@@ -13,8 +13,8 @@ KOKKOS_FORCEINLINE_FUNCTION bool isStart(const Sweep<X>&) {
 
 // s' = c a', c' = sign s a'
 template <class X>
-KOKKOS_INLINE_FUNCTION void sinePair(const Sweep<X>& a, const LanesOf<X>& s0, const LanesOf<X>& c0, double sign,
-                                     Sweep<X>& sine, Sweep<X>& cosine) {
+KOKKOS_INLINE_FUNCTION void sinePair(const Sweep<X>& a, const LanesOf<X>& s0, const LanesOf<X>& c0,
+                                     double sign, Sweep<X>& sine, Sweep<X>& cosine) {
   Context<X::lanes>& context = *a.context();
   const LanesOf<X> ak = a.value();
   const double* as = a.slot();

@@ -71,7 +71,8 @@ template <class E, class X>
 KOKKOS_INLINE_FUNCTION Sweep<X> asinh(const Expression<E, X>& e) {
   const auto& a = detail::variable(e.self());
   if (a.isPassive()) return {asinh(a.value())};
-  return detail::primitive(a, 1.0 / sqrt(1.0 + a * a), detail::isStart(a) ? asinh(a.value()) : LanesOf<X>(0.0));
+  return detail::primitive(a, 1.0 / sqrt(1.0 + a * a),
+                           detail::isStart(a) ? asinh(a.value()) : LanesOf<X>(0.0));
 }
 
 /// c' = a' / sqrt(a^2 - 1). Defined for a_0 > 1.

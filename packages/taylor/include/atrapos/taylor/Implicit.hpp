@@ -70,7 +70,8 @@ KOKKOS_INLINE_FUNCTION bool solveLanes(const G& g, const Sweep<X>* x, const Lane
 }
 
 template <int NX, int NY, int ND, class G, class X>
-KOKKOS_INLINE_FUNCTION bool solveImplicit(const G& g, const Sweep<X>* x, const LanesOf<X>* data, Sweep<X>* y) {
+KOKKOS_INLINE_FUNCTION bool solveImplicit(const G& g, const Sweep<X>* x, const LanesOf<X>* data,
+                                          Sweep<X>* y) {
   Context<X::lanes>* context = nullptr;
   for (int j = 0; j < NX; ++j)
     if (!x[j].isPassive()) context = x[j].context();
@@ -88,8 +89,7 @@ KOKKOS_INLINE_FUNCTION bool solveImplicit(const G& g, const Sweep<X>* x, const L
 
   const bool start = X::pass == Pass::Start;
   for (int j = 0; j < NY; ++j) yk[j] = start ? y[j].value() : LanesOf<X>(0.0);
-  if (start && !X::counting)
-    converged = solveLanes<NX, NY, ND>(g, x, data, yk, inverse, context->failures);
+  if (start && !X::counting) converged = solveLanes<NX, NY, ND>(g, x, data, yk, inverse, context->failures);
 
   // y takes slots, the inverse of dg/dy is of order 0 only; then comes what g takes.
   double* slots = takeSlots<X>(*context, NY);
@@ -131,7 +131,8 @@ KOKKOS_INLINE_FUNCTION bool solveImplicit(const G& g, const Sweep<X>* x, const L
     y[j] = Sweep<X>(yk[j], context, slot);
     dy[j] = y[j].template in<Again>();
   }
-  callImplicit<ND>(g, static_cast<const Sweep<Again>*>(xk), static_cast<const Sweep<Again>*>(dy), data, unused);
+  callImplicit<ND>(g, static_cast<const Sweep<Again>*>(xk), static_cast<const Sweep<Again>*>(dy), data,
+                   unused);
   return true;
 }
 

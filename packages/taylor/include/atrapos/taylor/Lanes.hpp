@@ -3,8 +3,8 @@
 #include <Kokkos_Macros.hpp>
 #include <cmath>
 
-// Requests to the compiler: unroll a short loop over the entries of a local array (left to itself it keeps the
-// array in memory), and inline all calls of a function.
+// Requests to the compiler: unroll a short loop over the entries of a local array (left to itself it keeps
+// the array in memory), and inline all calls of a function.
 #if defined(__clang__)
 #define ATRAPOS_UNROLL _Pragma("unroll")
 #define ATRAPOS_FLATTEN __attribute__((flatten))
@@ -39,12 +39,11 @@ struct VectorOf {
   using Entry = double;
 };
 
-#define ATRAPOS_VECTOR_OPERATOR(OP)                                   \
-  template <class V>                                                  \
-  KOKKOS_FORCEINLINE_FUNCTION auto operator OP(V a, const V& b)       \
-      ->decltype(a.e[0], V()) {                                       \
-    for (unsigned l = 0; l < sizeof(V) / 8; ++l) a.e[l] = a.e[l] OP b.e[l]; \
-    return a;                                                         \
+#define ATRAPOS_VECTOR_OPERATOR(OP)                                                      \
+  template <class V>                                                                     \
+  KOKKOS_FORCEINLINE_FUNCTION auto operator OP(V a, const V& b)->decltype(a.e[0], V()) { \
+    for (unsigned l = 0; l < sizeof(V) / 8; ++l) a.e[l] = a.e[l] OP b.e[l];              \
+    return a;                                                                            \
   }
 ATRAPOS_VECTOR_OPERATOR(+)
 ATRAPOS_VECTOR_OPERATOR(-)
@@ -162,12 +161,12 @@ ATRAPOS_LANES_FUNCTION(erf)
 ATRAPOS_LANES_FUNCTION(fabs)
 #undef ATRAPOS_LANES_FUNCTION
 
-#define ATRAPOS_LANES_FUNCTION(NAME)                                            \
-  template <int L>                                                              \
-  KOKKOS_INLINE_FUNCTION Lanes<L> NAME(const Lanes<L>& a, const Lanes<L>& b) {  \
-    Lanes<L> r;                                                                 \
-    for (int l = 0; l < L; ++l) r[l] = std::NAME(a[l], b[l]);                   \
-    return r;                                                                   \
+#define ATRAPOS_LANES_FUNCTION(NAME)                                           \
+  template <int L>                                                             \
+  KOKKOS_INLINE_FUNCTION Lanes<L> NAME(const Lanes<L>& a, const Lanes<L>& b) { \
+    Lanes<L> r;                                                                \
+    for (int l = 0; l < L; ++l) r[l] = std::NAME(a[l], b[l]);                  \
+    return r;                                                                  \
   }
 
 ATRAPOS_LANES_FUNCTION(pow)

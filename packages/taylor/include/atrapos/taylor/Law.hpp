@@ -90,18 +90,22 @@ KOKKOS_FORCEINLINE_FUNCTION void start(const Law& law, Context<L>& context, cons
   detail::execute<Execution<L, Pass::Start>, true>(law, context, in, data, out);
 }
 
-/// Order k with coefficient k of the inputs taken as zero, because it is not known yet: `out` is the nonlinear
-/// part of order k (paper (16)-(20)).
+/// Order k with coefficient k of the inputs taken as zero, because it is not known yet: `out` is the
+/// nonlinear part of order k (paper (16)-(20)).
 template <int L, class Law>
-KOKKOS_FORCEINLINE_FUNCTION void sweep(const Law& law, Context<L>& context, const Lanes<L>* data, Lanes<L>* out) {
-  detail::execute<Execution<L, Pass::Sweep>, false>(law, context, static_cast<const Lanes<L>*>(nullptr), data, out);
+KOKKOS_FORCEINLINE_FUNCTION void sweep(const Law& law, Context<L>& context, const Lanes<L>* data,
+                                       Lanes<L>* out) {
+  detail::execute<Execution<L, Pass::Sweep>, false>(law, context, static_cast<const Lanes<L>*>(nullptr), data,
+                                                    out);
 }
 
-/// Once after such a sweep: `in` is coefficient k of the inputs. The histories become those of the true series.
+/// Once after such a sweep: `in` is coefficient k of the inputs. The histories become those of the true
+/// series.
 template <int L, class Law>
 KOKKOS_FORCEINLINE_FUNCTION void complete(const Law& law, Context<L>& context, const Lanes<L>* in,
                                           const Lanes<L>* data) {
-  detail::execute<Execution<L, Pass::Complete>, true>(law, context, in, data, static_cast<Lanes<L>*>(nullptr));
+  detail::execute<Execution<L, Pass::Complete>, true>(law, context, in, data,
+                                                      static_cast<Lanes<L>*>(nullptr));
 }
 
 /// The same, and `out` is the linear effect of `in`.

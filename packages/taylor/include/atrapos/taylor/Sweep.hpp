@@ -31,7 +31,8 @@ class Sweep : public Expression<Sweep<X>, X> {
   KOKKOS_FORCEINLINE_FUNCTION Sweep(const LanesOf<X>& constant) : value_(constant) {}
 
   /// An active value; slot may be null, otherwise the value must be recorded there already.
-  KOKKOS_FORCEINLINE_FUNCTION Sweep(const LanesOf<X>& value, Context<X::lanes>* context, double* slot = nullptr)
+  KOKKOS_FORCEINLINE_FUNCTION Sweep(const LanesOf<X>& value, Context<X::lanes>* context,
+                                    double* slot = nullptr)
       : value_(value), slot_(slot), context_(context) {}
 
   /// An active value with a slot whose coefficient of this order is not known yet and counts as zero.

@@ -223,30 +223,30 @@ using Scalar = Tensor<T, 1>;
 
 }  // namespace detail
 
-#define ATRAPOS_TENSORS(TENSOR, N)                                                                 \
-  template <class T>                                                                               \
-  KOKKOS_FORCEINLINE_FUNCTION TENSOR<T> operator+(const TENSOR<T>& A, const TENSOR<T>& B) {        \
-    TENSOR<T> C;                                                                                   \
-    detail::linear(detail::Plus<N>{}, A, B, C);                                                    \
-    return C;                                                                                      \
-  }                                                                                                \
-  template <class T>                                                                               \
-  KOKKOS_FORCEINLINE_FUNCTION TENSOR<T> operator-(const TENSOR<T>& A, const TENSOR<T>& B) {        \
-    TENSOR<T> C;                                                                                   \
-    detail::linear(detail::Minus<N>{}, A, B, C);                                                   \
-    return C;                                                                                      \
-  }                                                                                                \
-  template <class T>                                                                               \
-  KOKKOS_FORCEINLINE_FUNCTION TENSOR<T> operator*(const Passive<T>& s, const TENSOR<T>& A) {       \
-    TENSOR<T> C;                                                                                   \
-    detail::linear(detail::Scale<Passive<T>, N>{s}, A, C);                                         \
-    return C;                                                                                      \
-  }                                                                                                \
-  template <class T>                                                                               \
-  KOKKOS_FORCEINLINE_FUNCTION TENSOR<T> scaled(const TENSOR<T>& A, const T& s) {                   \
-    TENSOR<T> C;                                                                                   \
-    detail::bilinear<detail::ScaledTerms<N>>(A, detail::Scalar<T>(&s), C);                         \
-    return C;                                                                                      \
+#define ATRAPOS_TENSORS(TENSOR, N)                                                           \
+  template <class T>                                                                         \
+  KOKKOS_FORCEINLINE_FUNCTION TENSOR<T> operator+(const TENSOR<T>& A, const TENSOR<T>& B) {  \
+    TENSOR<T> C;                                                                             \
+    detail::linear(detail::Plus<N>{}, A, B, C);                                              \
+    return C;                                                                                \
+  }                                                                                          \
+  template <class T>                                                                         \
+  KOKKOS_FORCEINLINE_FUNCTION TENSOR<T> operator-(const TENSOR<T>& A, const TENSOR<T>& B) {  \
+    TENSOR<T> C;                                                                             \
+    detail::linear(detail::Minus<N>{}, A, B, C);                                             \
+    return C;                                                                                \
+  }                                                                                          \
+  template <class T>                                                                         \
+  KOKKOS_FORCEINLINE_FUNCTION TENSOR<T> operator*(const Passive<T>& s, const TENSOR<T>& A) { \
+    TENSOR<T> C;                                                                             \
+    detail::linear(detail::Scale<Passive<T>, N>{s}, A, C);                                   \
+    return C;                                                                                \
+  }                                                                                          \
+  template <class T>                                                                         \
+  KOKKOS_FORCEINLINE_FUNCTION TENSOR<T> scaled(const TENSOR<T>& A, const T& s) {             \
+    TENSOR<T> C;                                                                             \
+    detail::bilinear<detail::ScaledTerms<N>>(A, detail::Scalar<T>(&s), C);                   \
+    return C;                                                                                \
   }
 
 /// Sums, differences, a passive factor, and scaled(A, s): every entry times one variable.

@@ -103,7 +103,8 @@ KOKKOS_INLINE_FUNCTION Sweep<X> acos(const Expression<E, X>& e) {
   return detail::inverseSine(a, Operation::Acos, -1.0, inverse);
 }
 
-/// The angle of the vector (x, y): c' = (x y' - y x') / (x^2 + y^2). Defined where x_0, y_0 do not both vanish.
+/// The angle of the vector (x, y): c' = (x y' - y x') / (x^2 + y^2). Defined where x_0, y_0 do not both
+/// vanish.
 template <class A, class B, class X>
 KOKKOS_INLINE_FUNCTION Sweep<X> atan2(const Expression<A, X>& ey, const Expression<B, X>& ex) {
   const auto& y = detail::variable(ey.self());
