@@ -53,20 +53,9 @@ struct SaintVenantKirchhoff {
   }
   /// Cauchy stress F S F^T / det F.
   KOKKOS_INLINE_FUNCTION void observe(const double* H, const double*, double* sigma) const {
-    double P[9], F[9];
+    double P[9];
     (*this)(H, static_cast<const double*>(nullptr), P);
-    for (int i = 0; i < 9; ++i) F[i] = H[i] + (i % 4 == 0);
-    const double J = F[0] * (F[4] * F[8] - F[5] * F[7]) - F[1] * (F[3] * F[8] - F[5] * F[6]) +
-                     F[2] * (F[3] * F[7] - F[4] * F[6]);
-    const auto component = [&](int i, int j) {
-      return (P[3 * i] * F[3 * j] + P[3 * i + 1] * F[3 * j + 1] + P[3 * i + 2] * F[3 * j + 2]) / J;
-    };
-    sigma[0] = component(0, 0);
-    sigma[1] = component(1, 1);
-    sigma[2] = component(2, 2);
-    sigma[3] = component(0, 1);
-    sigma[4] = component(1, 2);
-    sigma[5] = component(2, 0);
+    cauchyStress(P, H, sigma);
   }
 };
 
