@@ -182,20 +182,11 @@ class EnhancedTerm final : public Term {
           for (int n = 0; n < 3 * a.N; ++n) force[n] = Pack(0.0);
           a.inputs(b, u, in);
           for (int q = 0; q < a.Q; ++q) {
-            for (int lane = 0; lane < L; ++lane) {
-              double one[J], data[D + 1], result[J];
-              a.lanesOf(in + q * J, J, lane, one);
-              a.lanesOf(a.dataAt(b, q), D, lane, data);
-              taylor::value(a.law, one, data, result);
-              for (int m = 0; m < J; ++m) out[m][lane] = result[m];
-            }
+            a.evaluate(b, q, in + q * J, out);
             a.accumulate(b, q, out, force);
           }
           a.scatter(b, force, f);
-          double sum = 0;
-          for (int n = 0; n < 3 * a.N; ++n)
-            for (int lane = 0; lane < L; ++lane) sum += force[n][lane] * force[n][lane];
-          squares(b) = sum;  // padding lanes have weight, hence force, zero
+          squares(b) = a.squares(force);
         });
     return sumOf(squares);
   }

@@ -127,6 +127,25 @@ struct LawArrays {
     for (int m = 0; m < count; ++m) one[m] = in[m][lane];
   }
 
+  /// The law's values at point q, lane by lane.
+  KOKKOS_INLINE_FUNCTION void evaluate(int b, int q, const Pack* in, Pack* out) const {
+    for (int lane = 0; lane < L; ++lane) {
+      double one[Law::numInputs], datum[D + 1], result[Law::numOutputs];
+      lanesOf(in, Law::numInputs, lane, one);
+      lanesOf(dataAt(b, q), D, lane, datum);
+      taylor::value(law, one, datum, result);
+      for (int m = 0; m < Law::numOutputs; ++m) out[m][lane] = result[m];
+    }
+  }
+
+  /// Sum of squares of a batch's nodal forces; padding lanes have weight, hence force, zero.
+  KOKKOS_INLINE_FUNCTION double squares(const Pack* force) const {
+    double sum = 0;
+    for (int n = 0; n < 3 * N; ++n)
+      for (int lane = 0; lane < L; ++lane) sum += force[n][lane] * force[n][lane];
+    return sum;
+  }
+
   /// K += B^T moduli B + correction. `moduli` are those of the law times the point's weight, [q][out][in];
   /// correction(na, nb, block) sets what else belongs to the 3 x 3 block of two nodes.
   template <class Correction>

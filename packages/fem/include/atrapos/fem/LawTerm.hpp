@@ -61,20 +61,11 @@ class LawTerm final : public Term {
           for (int q = 0; q < a.Q; ++q) {
             a.interpolate(b, q, local, in);
             a.addOffset(b, q, in);
-            for (int lane = 0; lane < L; ++lane) {
-              double one[I], data[D + 1], result[I];
-              a.lanesOf(in, I, lane, one);
-              a.lanesOf(a.dataAt(b, q), D, lane, data);
-              taylor::value(a.law, one, data, result);
-              for (int m = 0; m < I; ++m) out[m][lane] = result[m];
-            }
+            a.evaluate(b, q, in, out);
             a.accumulate(b, q, out, force);
           }
           a.scatter(b, force, f);
-          double sum = 0;
-          for (int n = 0; n < 3 * a.N; ++n)
-            for (int lane = 0; lane < L; ++lane) sum += force[n][lane] * force[n][lane];
-          squares(b) = sum;  // padding lanes have weight, hence force, zero
+          squares(b) = a.squares(force);
         });
     return sumOf(squares);
   }

@@ -31,7 +31,6 @@ using TermIndices = std::make_index_sequence<Terms::list.size()>;
 template <int N>
 using Entries = std::make_index_sequence<N>;
 
-// Loops over the entries of local arrays are written as folds: only then do the arrays become registers.
 // A value loaded once and held in a register; GCC would load it again for each of its uses.
 template <int L>
 KOKKOS_FORCEINLINE_FUNCTION Lanes<L> held(Lanes<L> a) {
@@ -41,6 +40,7 @@ KOKKOS_FORCEINLINE_FUNCTION Lanes<L> held(Lanes<L> a) {
   return a;
 }
 
+// Loops over the entries of local arrays are written as folds: only then do the arrays become registers.
 template <int L, std::size_t... n>
 KOKKOS_FORCEINLINE_FUNCTION void loadBlock(const double* p, Lanes<L>* a, std::index_sequence<n...>) {
   ((a[n] = held(Lanes<L>::load(p + n * L))), ...);

@@ -64,9 +64,6 @@ class Sweep : public Expression<Sweep<X>, X> {
     return slot_;
   }
 
-  /// The same with a slot in a block that the caller has taken and recorded.
-  KOKKOS_FORCEINLINE_FUNCTION void adopt(double* slot) const { slot_ = slot; }
-
   /// The same quantity (same slot, or still none) with another value in this pass; nothing is recorded.
   KOKKOS_FORCEINLINE_FUNCTION Sweep withValue(const LanesOf<X>& value) const {
     return {value, context_, slot_};
