@@ -284,8 +284,11 @@ struct Monitor {
 };
 
 struct Output {
+  /// What the result file has of shells: their middle surfaces, or solids with their thickness.
+  enum class Shells { Surface, Body };
   int pointsPerStep = 5;            ///< states written per step, its end included
   std::vector<OutputField> fields;  ///< never empty after readDeck
+  Shells shells = Shells::Surface;
   std::vector<Monitor> monitors;
 };
 
