@@ -8,6 +8,7 @@
 #include <limits>
 #include <numeric>
 
+#include "FollowerLoads.hpp"
 #include "Registry.hpp"
 #include "atrapos/fem/ReferenceCell.hpp"
 #include "atrapos/fem/ShellFaces.hpp"
@@ -23,14 +24,18 @@ Scene::Scene(const deck::Deck& deck, fem::Mesh mesh) : deck_(deck), mesh_(std::m
     body_ = fem::shellBody(mesh_, shells_.geometry);
   }
   fem::FeModel model;
-  model.numNodes = shells_.geometry.numNodes();
+  const bool following = std::any_of(deck_.loads.begin(), deck_.loads.end(), followers::isFollower);
+  // Followers take the load factor from a node of their own.
+  model.numNodes = shells_.geometry.numNodes() + (following ? 1 : 0);
   addMaterials(model);
   model.supports = fem::Supports(model.numNodes);
   addSupports(model);
   addLoads(model);
+  addFollowers(model);
   addContacts(model);
   requireSupport(model.supports);
   requireEffect(model);
+  if (following) solid::prescribeLoadFactor(model.supports, shells_.geometry.numNodes());
   problem_ = std::make_unique<fem::FeProblem>(std::move(model));
   addMonitors();
 }
@@ -182,6 +187,8 @@ void Scene::requireSupport(const fem::Supports& supports) const {
 
 void Scene::requireEffect(const fem::FeModel& model) const {
   if (model.supports.driven()) return;
+  for (const deck::Load& load : deck_.loads)
+    if (followers::isFollower(load) && !load.constant) return;
   for (std::size_t dof = 0; dof < model.load.size(); ++dof)
     if (model.load[dof] != 0 && !model.supports.fixed(static_cast<int>(dof))) return;
   fail("loads", "without effect: all that depends on the load factor acts on supported displacements");
