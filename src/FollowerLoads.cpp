@@ -15,7 +15,6 @@ struct Maker {
   const fem::Mesh& mesh;
   const SceneShells& shells;
   bool constant;
-  int loadFactorNode;
 
   solid::LoadAmount amount(double value) const {
     return constant ? solid::LoadAmount{value, 0} : solid::LoadAmount{0, value};
@@ -42,8 +41,7 @@ struct Maker {
     for (std::size_t k = 0; k < loaded.size(); ++k)
       if (!loaded[k].empty())
         result.push_back(solid::followerPressure(shells.elements[k / 2], loaded[k], zetaOf(load.at),
-                                                 amount(k % 2 == 0 ? load.pressure : -load.pressure),
-                                                 loadFactorNode));
+                                                 amount(k % 2 == 0 ? load.pressure : -load.pressure)));
     return result;
   }
 
@@ -66,8 +64,7 @@ struct Maker {
                                   const std::vector<solid::ShellEdge>& edges) const {
     const deck::Vector3& v = load.vector;
     if (load.kind == deck::EdgeLoad::Kind::Moment)
-      return solid::deadEdgeMoment(elements, edges, {amount(v[0]), amount(v[1]), amount(v[2])},
-                                   loadFactorNode);
+      return solid::deadEdgeMoment(elements, edges, {amount(v[0]), amount(v[1]), amount(v[2])});
     solid::FollowerEdgeLoad follower;
     if (load.kind == deck::EdgeLoad::Kind::FollowerMoment) {
       follower.moment = amount(load.moment);
@@ -76,7 +73,7 @@ struct Maker {
       follower.outward = amount(v[1]);
       follower.director = amount(v[2]);
     }
-    return solid::followerEdgeLoad(elements, edges, follower, loadFactorNode);
+    return solid::followerEdgeLoad(elements, edges, follower);
   }
 
   Terms operator()(const deck::NodalLoad&) const { return {}; }
@@ -93,8 +90,8 @@ bool isFollower(const deck::Load& load) {
 }
 
 std::vector<std::unique_ptr<fem::Term>> terms(const deck::Load& load, const fem::Mesh& mesh,
-                                              const SceneShells& shells, int loadFactorNode) {
-  return std::visit(Maker{mesh, shells, load.constant, loadFactorNode}, load.load);
+                                              const SceneShells& shells) {
+  return std::visit(Maker{mesh, shells, load.constant}, load.load);
 }
 
 }  // namespace atrapos::followers

@@ -24,9 +24,7 @@ Scene::Scene(const deck::Deck& deck, fem::Mesh mesh) : deck_(deck), mesh_(std::m
     body_ = fem::shellBody(mesh_, shells_.geometry);
   }
   fem::FeModel model;
-  const bool following = std::any_of(deck_.loads.begin(), deck_.loads.end(), followers::isFollower);
-  // Followers take the load factor from a node of their own.
-  model.numNodes = shells_.geometry.numNodes() + (following ? 1 : 0);
+  model.numNodes = shells_.geometry.numNodes();
   addMaterials(model);
   model.supports = fem::Supports(model.numNodes);
   addSupports(model);
@@ -35,7 +33,6 @@ Scene::Scene(const deck::Deck& deck, fem::Mesh mesh) : deck_(deck), mesh_(std::m
   addContacts(model);
   requireSupport(model.supports);
   requireEffect(model);
-  if (following) solid::prescribeLoadFactor(model.supports, shells_.geometry.numNodes());
   problem_ = std::make_unique<fem::FeProblem>(std::move(model));
   addMonitors();
 }

@@ -64,12 +64,13 @@ class Scene {
   /// Values of the monitors, in the deck's order.
   std::vector<double> monitors(const path::Vector& u, double lambda) const;
 
-  ContactState contactState(const ContactPoints& contact, const path::Vector& u) const;
+  ContactState contactState(const ContactPoints& contact, const path::Vector& u, double lambda) const;
   /// Normal force of a contact's point that is nearest to a place of the reference configuration.
-  double contactForceNear(const ContactPoints& contact, const deck::Vector3& place,
-                          const path::Vector& u) const;
+  double contactForceNear(const ContactPoints& contact, const deck::Vector3& place, const path::Vector& u,
+                          double lambda) const;
   /// Total force of a contact on the body.
-  std::array<double, 3> contactResultant(const ContactPoints& contact, const path::Vector& u) const;
+  std::array<double, 3> contactResultant(const ContactPoints& contact, const path::Vector& u,
+                                         double lambda) const;
 
   /// The mesh on which results are: the deck's own, or with the bodies of shells as solids.
   const fem::Mesh& resultMesh() const { return body_ ? body_->mesh : mesh_; }
@@ -78,7 +79,7 @@ class Scene {
   /// [variable][node of the result mesh]
   std::vector<std::vector<double>> nodalValues(const path::Vector& u, double lambda) const;
   /// [variable][element over all blocks]
-  std::vector<std::vector<double>> elementValues(const path::Vector& u) const;
+  std::vector<std::vector<double>> elementValues(const path::Vector& u, double lambda) const;
 
  private:
   std::vector<int> nodesOf(const std::string& set) const;
@@ -96,10 +97,10 @@ class Scene {
   [[noreturn]] void fail(const std::string& key, const std::string& problem) const;
   bool writes(deck::OutputField field) const;
   /// Calls f(term of the contact, point, gap and pressure) at all points.
-  void forEachContactPoint(const ContactPoints& contact, const path::Vector& u,
+  void forEachContactPoint(const ContactPoints& contact, const path::Vector& u, double lambda,
                            const std::function<void(std::size_t, int, const double*)>& f) const;
-  std::vector<std::vector<double>> nodalContact(const path::Vector& u) const;
-  std::vector<std::vector<double>> nodalStress(const path::Vector& u) const;
+  std::vector<std::vector<double>> nodalContact(const path::Vector& u, double lambda) const;
+  std::vector<std::vector<double>> nodalStress(const path::Vector& u, double lambda) const;
   std::vector<double> onResultNodes(std::vector<double> ofMesh) const;
 
   deck::Deck deck_;

@@ -110,18 +110,18 @@ std::vector<std::vector<double>> Scene::nodalValues(const path::Vector& u, doubl
     split(body_ ? body_->forces(shells_.geometry, reactions) : reactions);
   }
   if (writes(deck::OutputField::Contact) && !contacts_.empty())
-    for (auto& variable : nodalContact(u)) result.push_back(onResultNodes(std::move(variable)));
-  if (writes(deck::OutputField::NodalStress)) append(nodalStress(u), result);
+    for (auto& variable : nodalContact(u, lambda)) result.push_back(onResultNodes(std::move(variable)));
+  if (writes(deck::OutputField::NodalStress)) append(nodalStress(u, lambda), result);
   return result;
 }
 
-std::vector<std::vector<double>> Scene::nodalContact(const path::Vector& u) const {
+std::vector<std::vector<double>> Scene::nodalContact(const path::Vector& u, double lambda) const {
   // Point values to nodes: means weighted by weight * N^2 (positive, also at the corners of serendipity
   // faces). Nodes that carry no contact show zero; so do directors, whose nodes show it.
   const int numNodes = mesh_.numNodes();
   std::vector<double> gap(numNodes, 0.0), pressure(numNodes, 0.0), share(numNodes, 0.0);
   for (const ContactPoints& contact : contacts_)
-    forEachContactPoint(contact, u, [&](std::size_t t, int p, const double* gapAndPressure) {
+    forEachContactPoint(contact, u, lambda, [&](std::size_t t, int p, const double* gapAndPressure) {
       const fem::PointSet& points = contact.points[t];
       const int N = points.nodesPerEntity, e = p / points.pointsPerEntity;
       for (int n = 0; n < N; ++n) {
@@ -142,7 +142,7 @@ std::vector<std::vector<double>> Scene::nodalContact(const path::Vector& u) cons
   return {std::move(gap), std::move(pressure)};
 }
 
-std::vector<std::vector<double>> Scene::nodalStress(const path::Vector& u) const {
+std::vector<std::vector<double>> Scene::nodalStress(const path::Vector& u, double lambda) const {
   // Each element's cubature values fitted and taken to its nodes, then the mean over the elements at a node.
   // With bodies of shells each of their nodes has its own; otherwise a node has middle, top and bottom.
   const std::size_t meshNodes = mesh_.numNodes();
@@ -152,7 +152,7 @@ std::vector<std::vector<double>> Scene::nodalStress(const path::Vector& u) const
     const BodyBlock& body = bodies_[b];
     const fem::Block& block = mesh_.blocks[b];
     const fem::Term& term = problem_->term(body.term);
-    const auto observed = term.observe(fem::field(u));
+    const auto observed = term.observe(fem::field(u), lambda);
     const int N = fem::nodesPerElement(block.topology), Q = static_cast<int>(body.toNodes.size()) / N;
     for (int layer = 0; layer < 3; ++layer) {
       constexpr double zetas[3] = {solid::midSurface, solid::topSurface, solid::bottomSurface};
@@ -177,7 +177,7 @@ std::vector<std::vector<double>> Scene::nodalStress(const path::Vector& u) const
   return result;
 }
 
-std::vector<std::vector<double>> Scene::elementValues(const path::Vector& u) const {
+std::vector<std::vector<double>> Scene::elementValues(const path::Vector& u, double lambda) const {
   if (!writes(deck::OutputField::Stress)) return {};
   Fields result(elementNames().size());
   const auto add = [&](std::size_t first, const std::vector<double>& values, std::size_t each) {
@@ -186,7 +186,7 @@ std::vector<std::vector<double>> Scene::elementValues(const path::Vector& u) con
   const std::vector<double> state = fem::FeProblem::values(u);
   for (const BodyBlock& body : bodies_) {
     const fem::Term& term = problem_->term(body.term);
-    const fem::PointValues observed = term.observe(fem::field(u));
+    const fem::PointValues observed = term.observe(fem::field(u), lambda);
     const std::size_t elements = term.numEntities();
     if (body.shells >= 0) {
       add(0, meanSurfaceStress(observed, solid::midSurface), 6);

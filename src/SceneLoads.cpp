@@ -83,12 +83,10 @@ void Scene::addLoads(fem::FeModel& model) const {
 }
 
 void Scene::addFollowers(fem::FeModel& model) const {
-  const int loadFactorNode = shells_.geometry.numNodes();
   for (const deck::Load& load : deck_.loads) {
     if (!followers::isFollower(load)) continue;
     try {
-      for (auto& term : followers::terms(load, mesh_, shells_, loadFactorNode))
-        model.terms.push_back(std::move(term));
+      for (auto& term : followers::terms(load, mesh_, shells_)) model.terms.push_back(std::move(term));
     } catch (const std::invalid_argument& e) {
       fail("loads/" + load.name, e.what());
     }

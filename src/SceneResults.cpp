@@ -46,21 +46,21 @@ std::vector<std::string> Scene::monitorNames() const {
   return names;
 }
 
-void Scene::forEachContactPoint(const ContactPoints& contact, const path::Vector& u,
+void Scene::forEachContactPoint(const ContactPoints& contact, const path::Vector& u, double lambda,
                                 const std::function<void(std::size_t, int, const double*)>& f) const {
   for (std::size_t t = 0; t < contact.terms.size(); ++t) {
-    const fem::PointValues observed = problem_->term(contact.terms[t]).observe(fem::field(u));
+    const fem::PointValues observed = problem_->term(contact.terms[t]).observe(fem::field(u), lambda);
     const int M = static_cast<int>(observed.names.size());
     for (int p = 0; p < contact.points[t].numPoints(); ++p)
       f(t, p, &observed.values[static_cast<std::size_t>(p) * M]);
   }
 }
 
-ContactState Scene::contactState(const ContactPoints& contact, const path::Vector& u) const {
+ContactState Scene::contactState(const ContactPoints& contact, const path::Vector& u, double lambda) const {
   const auto& entry = *std::find_if(deck_.contacts.begin(), deck_.contacts.end(),
                                     [&](const deck::Contact& c) { return c.name == contact.name; });
   ContactState state;
-  forEachContactPoint(contact, u, [&](std::size_t t, int p, const double* gapAndPressure) {
+  forEachContactPoint(contact, u, lambda, [&](std::size_t t, int p, const double* gapAndPressure) {
     const double gap = gapAndPressure[0], pressure = gapAndPressure[1];
     const double turn =
         entry.stiffness ? 2 * entry.regularisation / *entry.stiffness : 1e-3 * contact.gaps[t][p];
@@ -71,9 +71,9 @@ ContactState Scene::contactState(const ContactPoints& contact, const path::Vecto
 }
 
 double Scene::contactForceNear(const ContactPoints& contact, const deck::Vector3& place,
-                               const path::Vector& u) const {
+                               const path::Vector& u, double lambda) const {
   double nearest = std::numeric_limits<double>::infinity(), force = 0;
-  forEachContactPoint(contact, u, [&](std::size_t t, int p, const double* gapAndPressure) {
+  forEachContactPoint(contact, u, lambda, [&](std::size_t t, int p, const double* gapAndPressure) {
     const double* x = &contact.points[t].positions[3 * static_cast<std::size_t>(p)];
     const double distance = std::hypot(x[0] - place[0], x[1] - place[1], x[2] - place[2]);
     if (!(distance < nearest)) return;
@@ -83,10 +83,11 @@ double Scene::contactForceNear(const ContactPoints& contact, const deck::Vector3
   return force;
 }
 
-std::array<double, 3> Scene::contactResultant(const ContactPoints& contact, const path::Vector& u) const {
+std::array<double, 3> Scene::contactResultant(const ContactPoints& contact, const path::Vector& u,
+                                              double lambda) const {
   std::array<double, 3> resultant{0, 0, 0};
   for (int t : contact.terms) {
-    const auto force = problem_->forces(problem_->term(t), u);
+    const auto force = problem_->forces(problem_->term(t), u, lambda);
     // Forces on the nodes of the mesh: those on directors are couples' arms.
     for (std::size_t d = 0; d < mesh_.coordinates.size(); ++d) resultant[d % 3] -= force[d];
   }
@@ -104,10 +105,10 @@ std::vector<double> Scene::monitors(const path::Vector& u, double lambda) const 
     double operator()(const deck::ContactForceMonitor& m) const {
       for (const ContactPoints& contact : scene.contacts_)
         if (contact.name == m.contact)
-          return m.near ? scene.contactForceNear(contact, *m.near, u)
+          return m.near ? scene.contactForceNear(contact, *m.near, u, lambda)
                  : m.component == deck::Component::Normal
-                     ? scene.contactState(contact, u).normalForce
-                     : scene.contactResultant(contact, u)[componentIndex(m.component)];
+                     ? scene.contactState(contact, u, lambda).normalForce
+                     : scene.contactResultant(contact, u, lambda)[componentIndex(m.component)];
       return 0;
     }
     double operator()(const deck::ReactionMonitor& m) const {
