@@ -8,6 +8,7 @@
 #include <limits>
 #include <numeric>
 
+#include "FollowerLoads.hpp"
 #include "Registry.hpp"
 #include "atrapos/fem/ReferenceCell.hpp"
 #include "atrapos/fem/ShellFaces.hpp"
@@ -28,6 +29,7 @@ Scene::Scene(const deck::Deck& deck, fem::Mesh mesh) : deck_(deck), mesh_(std::m
   model.supports = fem::Supports(model.numNodes);
   addSupports(model);
   addLoads(model);
+  addFollowers(model);
   addContacts(model);
   requireSupport(model.supports);
   requireEffect(model);
@@ -182,6 +184,8 @@ void Scene::requireSupport(const fem::Supports& supports) const {
 
 void Scene::requireEffect(const fem::FeModel& model) const {
   if (model.supports.driven()) return;
+  for (const deck::Load& load : deck_.loads)
+    if (followers::isFollower(load) && !load.constant) return;
   for (std::size_t dof = 0; dof < model.load.size(); ++dof)
     if (model.load[dof] != 0 && !model.supports.fixed(static_cast<int>(dof))) return;
   fail("loads", "without effect: all that depends on the load factor acts on supported displacements");

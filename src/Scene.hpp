@@ -65,6 +65,9 @@ class Scene {
   std::vector<double> monitors(const path::Vector& u, double lambda) const;
 
   ContactState contactState(const ContactPoints& contact, const path::Vector& u, double lambda) const;
+  /// Normal force of a contact's point that is nearest to a place of the reference configuration.
+  double contactForceNear(const ContactPoints& contact, const deck::Vector3& place, const path::Vector& u,
+                          double lambda) const;
   /// Total force of a contact on the body.
   std::array<double, 3> contactResultant(const ContactPoints& contact, const path::Vector& u,
                                          double lambda) const;
@@ -85,7 +88,7 @@ class Scene {
   BodyBlock addShell(const deck::Material& material, int shells, fem::FeModel& model) const;
   void addSupports(fem::FeModel& model) const;
   void addLoads(fem::FeModel& model) const;
-  void refuseFollower(const deck::Load& load) const;
+  void addFollowers(fem::FeModel& model) const;
   void addContacts(fem::FeModel& model);
   void addMonitors();
   const deck::Tool& toolOf(const deck::Contact& contact) const;

@@ -1,5 +1,6 @@
 #include <functional>
 
+#include "FollowerLoads.hpp"
 #include "Scene.hpp"
 #include "atrapos/fem/Loads.hpp"
 #include "atrapos/fem/ShellFaces.hpp"
@@ -70,7 +71,7 @@ void Scene::addLoads(fem::FeModel& model) const {
   model.load.assign(dofs, 0.0);
   model.constantLoad.assign(dofs, 0.0);
   for (const deck::Load& load : deck_.loads) {
-    refuseFollower(load);
+    if (followers::isFollower(load)) continue;
     std::vector<double>& force = load.constant ? model.constantLoad : model.load;
     try {
       std::visit(DeadLoads{mesh_, shells_, [&](const std::string& set) { return nodesOf(set); }, force},
@@ -81,15 +82,15 @@ void Scene::addLoads(fem::FeModel& model) const {
   }
 }
 
-void Scene::refuseFollower(const deck::Load& load) const {
-  const std::string key = "loads/" + load.name;
-  const auto* surface = std::get_if<deck::SurfaceLoad>(&load.load);
-  const auto* edge = std::get_if<deck::EdgeLoad>(&load.load);
-  if (surface != nullptr && surface->follower)
-    fail(key + "/follower", "pressures that follow cannot be run yet; accepted is false");
-  if (edge != nullptr && edge->kind != deck::EdgeLoad::Kind::Total &&
-      edge->kind != deck::EdgeLoad::Kind::Force)
-    fail(key, "moments on edges and forces that follow cannot be run yet; accepted are total and force");
+void Scene::addFollowers(fem::FeModel& model) const {
+  for (const deck::Load& load : deck_.loads) {
+    if (!followers::isFollower(load)) continue;
+    try {
+      for (auto& term : followers::terms(load, mesh_, shells_)) model.terms.push_back(std::move(term));
+    } catch (const std::invalid_argument& e) {
+      fail("loads/" + load.name, e.what());
+    }
+  }
 }
 
 }  // namespace atrapos

@@ -1,6 +1,7 @@
 #include <Tpetra_Vector.hpp>
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 
 #include "Scene.hpp"
@@ -69,6 +70,19 @@ ContactState Scene::contactState(const ContactPoints& contact, const path::Vecto
   return state;
 }
 
+double Scene::contactForceNear(const ContactPoints& contact, const deck::Vector3& place,
+                               const path::Vector& u, double lambda) const {
+  double nearest = std::numeric_limits<double>::infinity(), force = 0;
+  forEachContactPoint(contact, u, lambda, [&](std::size_t t, int p, const double* gapAndPressure) {
+    const double* x = &contact.points[t].positions[3 * static_cast<std::size_t>(p)];
+    const double distance = std::hypot(x[0] - place[0], x[1] - place[1], x[2] - place[2]);
+    if (!(distance < nearest)) return;
+    nearest = distance;
+    force = contact.points[t].weights[p] * gapAndPressure[1];
+  });
+  return force;
+}
+
 std::array<double, 3> Scene::contactResultant(const ContactPoints& contact, const path::Vector& u,
                                               double lambda) const {
   std::array<double, 3> resultant{0, 0, 0};
@@ -91,7 +105,8 @@ std::vector<double> Scene::monitors(const path::Vector& u, double lambda) const 
     double operator()(const deck::ContactForceMonitor& m) const {
       for (const ContactPoints& contact : scene.contacts_)
         if (contact.name == m.contact)
-          return m.component == deck::Component::Normal
+          return m.near ? scene.contactForceNear(contact, *m.near, u, lambda)
+                 : m.component == deck::Component::Normal
                      ? scene.contactState(contact, u, lambda).normalForce
                      : scene.contactResultant(contact, u, lambda)[componentIndex(m.component)];
       return 0;
