@@ -1,5 +1,5 @@
-// The problem of ../own_loop, given to LOCA: any path::Problem is a Thyra model evaluator. LOCA follows the branch by Newton
-// arc-length steps; the same branch by series is beside it. Both turn at the same fold.
+// The problem of ../own_loop, given to LOCA: any path::Problem is a Thyra model evaluator. LOCA follows the
+// branch by Newton arc-length steps; the same branch by series is beside it. Both turn at the same fold.
 #include <LOCA.H>
 #include <LOCA_Thyra.H>
 #include <NOX.H>
@@ -62,7 +62,8 @@ static int compare() {
   LOCA::ParameterVector parameters;
   parameters.addParameter("load factor", 0.0);
   const NOX::Thyra::Vector guess(*model->getNominalValues().get_x());
-  const auto group = rcp(new LOCA::Thyra::Group(globals, guess, model, parameters, 0, /*implement_dfdp*/ true));
+  const auto group =
+      rcp(new LOCA::Thyra::Group(globals, guess, model, parameters, 0, /*implement_dfdp*/ true));
   const auto loads = rcp(new LoadFactors);
   group->setSaveDataStrategy(loads);
   const auto test = rcp(new NOX::StatusTest::Combo(NOX::StatusTest::Combo::OR));
@@ -78,14 +79,16 @@ static int compare() {
   path::Stops stops;
   stops.pathLength = 20;
   const auto own = linear::makeTangentSolver({});
-  const auto outcome =
-      path::PathFollower(problem, *own, {}, stops).run({rcp(new host::Vector(start, Teuchos::Copy)), 0.0}, folds);
+  const auto outcome = path::PathFollower(problem, *own, {}, stops)
+                           .run({rcp(new host::Vector(start, Teuchos::Copy)), 0.0}, folds);
   std::printf("LOCA: %d points, %lld factorizations, highest load factor %.6f\n",
               static_cast<int>(loads->values.size()), factorizations, highest);
   std::printf("series: %d steps, %d factorizations, fold %.6f\n", outcome.steps, outcome.factorizations,
               folds.lambda.empty() ? 0.0 : folds.lambda[0]);
-  // The highest point lies below the fold by its curvature times half a step squared: points are 0.3 apart at most.
-  return folds.lambda.size() == 1 && highest < folds.lambda[0] + 1e-6 && highest > folds.lambda[0] - 0.3 ? 0 : 1;
+  // The highest point lies below the fold by its curvature times half a step squared: points are 0.3 apart at
+  // most.
+  return folds.lambda.size() == 1 && highest < folds.lambda[0] + 1e-6 && highest > folds.lambda[0] - 0.3 ? 0
+                                                                                                         : 1;
 }
 
 int main(int argc, char** argv) {

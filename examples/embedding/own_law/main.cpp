@@ -1,5 +1,5 @@
-// A rubber block is pressed on an ellipsoid. The law, the tool and the observer that ends the run are the application's: one
-// struct each, registered nowhere.
+// A rubber block is pressed on an ellipsoid. The law, the tool and the observer that ends the run are the
+// application's: one struct each, registered nowhere.
 #include <Tpetra_Core.hpp>
 #include <Tpetra_Vector.hpp>
 #include <cmath>
@@ -77,7 +77,8 @@ struct Ellipsoid {
   }
 };
 
-/// Ends the run where the force on the tool reaches a value, and finds the place inside the step from its series.
+/// Ends the run where the force on the tool reaches a value, and finds the place inside the step from its
+/// series.
 class ForceLimit : public path::Observer {
  public:
   ForceLimit(fem::FeProblem& problem, double limit) : problem_(problem), limit_(limit) {}
@@ -109,7 +110,8 @@ class ForceLimit : public path::Observer {
   double limit_;
 };
 
-/// The block is 2 x 2 x 1 mm, its lower face 0.1 mm over the ellipsoid; the load factor is the travel of its upper face.
+/// The block is 2 x 2 x 1 mm, its lower face 0.1 mm over the ellipsoid; the load factor is the travel of its
+/// upper face.
 static int press() {
   fem::BoxOptions box;
   box.lengths = {2, 2, 1};
@@ -148,8 +150,8 @@ static int press() {
   ForceLimit observer(problem, 1.0);  // N
   const auto outcome =
       path::PathFollower(problem, *solver, {}, stops).run({problem.initialState(0.0), 0.0}, observer);
-  std::printf("%s after %d steps; 1 N at a travel of %.8f mm, in the last step to %.8f mm\n", outcome.text.c_str(),
-              outcome.steps, observer.travel, outcome.final.lambda);
+  std::printf("%s after %d steps; 1 N at a travel of %.8f mm, in the last step to %.8f mm\n",
+              outcome.text.c_str(), outcome.steps, observer.travel, outcome.final.lambda);
   // Equilibrium: the tool's force is what the supports of the upper face bear.
   double support = 0;
   const auto reactions = problem.reactions(*outcome.final.u, outcome.final.lambda);

@@ -3,8 +3,8 @@
 //
 //     -div grad u = lambda exp(u) on the unit square, u = 0 on its boundary,
 //
-// with bilinear elements on a uniform grid, its unknowns distributed over the ranks by its own Tpetra map. Each element is
-// computed by one rank, which imports the values it needs and exports the forces it makes.
+// with bilinear elements on a uniform grid, its unknowns distributed over the ranks by its own Tpetra map.
+// Each element is computed by one rank, which imports the values it needs and exports the forces it makes.
 
 #include <Sacado.hpp>
 #include <Teuchos_OrdinalTraits.hpp>

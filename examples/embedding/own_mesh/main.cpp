@@ -1,5 +1,6 @@
-// A cantilever whose mesh the application holds in memory, as Exodus has it: coordinates in three arrays, connectivity by
-// element block and sides of elements, numbers from 1. It is handed over without a file; results go back by node number.
+// A cantilever whose mesh the application holds in memory, as Exodus has it: coordinates in three arrays,
+// connectivity by element block and sides of elements, numbers from 1. It is handed over without a file;
+// results go back by node number.
 #include <Tpetra_Core.hpp>
 #include <Tpetra_Vector.hpp>
 #include <cmath>
@@ -38,8 +39,8 @@ struct HostMesh {
   std::vector<SideSet> sideSets;
 };
 
-/// A bar of nx cells along x, 10 x 1 x 1, in the application's own numbering: cells and nodes in two blocks, the second
-/// half first.
+/// A bar of nx cells along x, 10 x 1 x 1, in the application's own numbering: cells and nodes in two blocks,
+/// the second half first.
 static HostMesh hostBar(int nx) {
   HostMesh mesh;
   for (int j = 0; j < 4; ++j)  // node numbers run along the bar
@@ -60,8 +61,8 @@ static HostMesh hostBar(int nx) {
     if (j == 0) mesh.nodeSets.push_back({1, {}});
     mesh.nodeSets[0].nodes.push_back(node(0, j));
   }
-  const int last = nx - nx / 2;                // the bar's last cell ends the first block
-  mesh.sideSets.push_back({2, {last}, {2}});   // side 2 of a HEX8 lies at its largest x here
+  const int last = nx - nx / 2;               // the bar's last cell ends the first block
+  mesh.sideSets.push_back({2, {last}, {2}});  // side 2 of a HEX8 lies at its largest x here
   return mesh;
 }
 
@@ -87,7 +88,8 @@ static fem::Mesh handOver(const HostMesh& host) {
   for (const auto& s : host.sideSets) {
     fem::SideSet set;
     set.id = s.id;
-    for (std::size_t i = 0; i < s.elements.size(); ++i) set.sides.push_back({s.elements[i] - 1, s.sides[i] - 1});
+    for (std::size_t i = 0; i < s.elements.size(); ++i)
+      set.sides.push_back({s.elements[i] - 1, s.sides[i] - 1});
     mesh.sideSets.push_back(set);
   }
   return mesh;
@@ -97,14 +99,16 @@ struct Silent : path::Observer {
   bool onStep(const path::StepReport&, const path::Series&) override { return true; }
 };
 
-/// Deflection of the node at (10, 0, 0) under a force at the end, held at these nodes and loaded on this side set.
+/// Deflection of the node at (10, 0, 0) under a force at the end, held at these nodes and loaded on this side
+/// set.
 static double deflection(const fem::Mesh& mesh, const std::vector<int>& held, const fem::SideSet& loaded) {
   const auto law = solid::SaintVenantKirchhoff::fromYoung(1000, 0);
   fem::FeModel model;
   model.numNodes = mesh.numNodes();
   for (const auto& block : mesh.blocks)
-    model.terms.push_back(std::make_unique<fem::LawTerm<solid::SaintVenantKirchhoff, fem::DisplacementGradient>>(
-        law, fem::volumePoints(mesh, block, fem::tabulate(block.topology))));
+    model.terms.push_back(
+        std::make_unique<fem::LawTerm<solid::SaintVenantKirchhoff, fem::DisplacementGradient>>(
+            law, fem::volumePoints(mesh, block, fem::tabulate(block.topology))));
   model.supports = fem::Supports(mesh.numNodes());
   for (const int n : held)
     for (int i = 0; i < 3; ++i) model.supports.prescribe(n, i, 0, 0);

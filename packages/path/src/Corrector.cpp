@@ -75,6 +75,7 @@ Corrector::Result Corrector::correct(State& state, Vector& r, const Augmented& d
       }
       before = size;
     } catch (const PathError& error) {
+      if (error.reason() == EndReason::solverFailed) throw;  // a shorter step does not help
       return fail(error.what());
     }
   }

@@ -413,6 +413,17 @@ TEST(Newton, EndsWithAReason) {
   EXPECT_EQ(outcome.reason, EndReason::stepTooSmall);
   EXPECT_NE(outcome.text.find("element 7 is inverted"), std::string::npos) << outcome.text;
 
+  struct OutOfMemory : DenseSolver {
+    void factor(const Teuchos::RCP<const CrsMatrix>& K) override {
+      if (counters().factorizations == 4) throw atrapos::linear::SolverError("no memory left");
+      DenseSolver::factor(K);
+    }
+  } broke;
+  JetProblem<TrussOnSpring> again(law);
+  outcome = NewtonFollower(again, broke, NewtonOptions{}).run({again.vector({}), 0}, another);
+  EXPECT_EQ(outcome.reason, EndReason::solverFailed);
+  EXPECT_EQ(outcome.text, "no memory left");
+
   // A bound below rounding cannot be met.
   NewtonOptions tiny;
   tiny.residualBound = 1e-30;

@@ -4,8 +4,8 @@
 
 namespace atrapos::solid::test {
 
-/// A quarter of the cylindrical roof of Sze, Liu and Lo (2004), 3.8: hinged along its straight edges, free along the
-/// curved ones, load 3000 N at its centre at load factor 1. n x n shells.
+/// A quarter of the cylindrical roof of Sze, Liu and Lo (2004), 3.8: hinged along its straight edges, free
+/// along the curved ones, load 3000 N at its centre at load factor 1. n x n shells.
 struct HingedRoof {
   std::unique_ptr<fem::FeProblem> problem;
   int centreDof = 0;  ///< vertical displacement of the centre

@@ -47,9 +47,19 @@ struct PathModel::Impl {
   }
 };
 
-PathModel::PathModel(path::Problem& problem, linear::TangentSolver* solver, const Vector& start, double lambda)
-    : impl_(new Impl{problem, solver, ::Thyra::createVectorSpace<double>(problem.map()), Teuchos::null, Teuchos::null, lambda,
-                     {}, {}, Teuchos::null, Teuchos::null, Teuchos::null}) {
+PathModel::PathModel(path::Problem& problem, linear::TangentSolver* solver, const Vector& start,
+                     double lambda)
+    : impl_(new Impl{problem,
+                     solver,
+                     ::Thyra::createVectorSpace<double>(problem.map()),
+                     Teuchos::null,
+                     Teuchos::null,
+                     lambda,
+                     {},
+                     {},
+                     Teuchos::null,
+                     Teuchos::null,
+                     Teuchos::null}) {
   if (!start.getMap()->isSameAs(*problem.map()))
     throw std::invalid_argument("PathModel: the start is not on the Problem's map");
   impl_->start = rcp(new Vector(start, Teuchos::Copy));
@@ -116,8 +126,7 @@ const path::ResidualNorm& PathModel::lastResidual() const { return impl_->residu
 
 void PathModel::evalModelImpl(const Base::InArgs<double>& in, const Base::OutArgs<double>& out) const {
   const auto u = Extraction::getConstTpetraVector(in.get_x());
-  const double lambda =
-      in.get_p(0).is_null() ? impl_->startLambda : ::Thyra::get_ele(*in.get_p(0), 0);
+  const double lambda = in.get_p(0).is_null() ? impl_->startLambda : ::Thyra::get_ele(*in.get_p(0), 0);
   if (const RCP<::Thyra::VectorBase<double>> f = out.get_f(); !f.is_null()) {
     ++impl_->counters.residuals;
     impl_->residual = impl_->problem.residual(*u, lambda, *Extraction::getTpetraVector(f));

@@ -79,9 +79,9 @@ Teuchos::RCP<::Thyra::LinearOpWithSolveBase<double>> TangentInverseFactory::crea
   return Teuchos::rcp(new TangentInverse(solver_));
 }
 
-void TangentInverseFactory::initializeOp(const Teuchos::RCP<const ::Thyra::LinearOpSourceBase<double>>& source,
-                                         ::Thyra::LinearOpWithSolveBase<double>* op,
-                                         ::Thyra::ESupportSolveUse) const {
+void TangentInverseFactory::initializeOp(
+    const Teuchos::RCP<const ::Thyra::LinearOpSourceBase<double>>& source,
+    ::Thyra::LinearOpWithSolveBase<double>* op, ::Thyra::ESupportSolveUse) const {
   try {
     dynamic_cast<TangentInverse&>(*op).initialize(source->getOp());
   } catch (const linear::SingularTangentError&) {
@@ -89,11 +89,12 @@ void TangentInverseFactory::initializeOp(const Teuchos::RCP<const ::Thyra::Linea
   }
 }
 
-void TangentInverseFactory::uninitializeOp(::Thyra::LinearOpWithSolveBase<double>* op,
-                                           Teuchos::RCP<const ::Thyra::LinearOpSourceBase<double>>* source,
-                                           Teuchos::RCP<const ::Thyra::PreconditionerBase<double>>* preconditioner,
-                                           Teuchos::RCP<const ::Thyra::LinearOpSourceBase<double>>* approximate,
-                                           ::Thyra::ESupportSolveUse* use) const {
+void TangentInverseFactory::uninitializeOp(
+    ::Thyra::LinearOpWithSolveBase<double>* op,
+    Teuchos::RCP<const ::Thyra::LinearOpSourceBase<double>>* source,
+    Teuchos::RCP<const ::Thyra::PreconditionerBase<double>>* preconditioner,
+    Teuchos::RCP<const ::Thyra::LinearOpSourceBase<double>>* approximate,
+    ::Thyra::ESupportSolveUse* use) const {
   auto& inverse = dynamic_cast<TangentInverse&>(*op);
   if (source)
     *source = inverse.op().is_null() ? Teuchos::null : ::Thyra::defaultLinearOpSource<double>(inverse.op());

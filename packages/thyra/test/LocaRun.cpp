@@ -1,8 +1,11 @@
 #include "LocaRun.hpp"
 
 #include <LOCA.H>
+#include <LOCA_Parameter_SublistParser.H>
 #include <LOCA_StatusTest_Abstract.H>
 #include <LOCA_Thyra.H>
+#include <LOCA_TurningPoint_MooreSpence_ExtendedGroup.H>
+#include <LOCA_TurningPoint_MooreSpence_ExtendedVector.H>
 #include <NOX.H>
 #include <NOX_Thyra.H>
 
@@ -19,6 +22,7 @@ namespace {
 
 using Teuchos::RCP;
 using Teuchos::rcp;
+using Extraction = ::Thyra::TpetraOperatorVectorExtraction<double, linear::LocalIndex, linear::GlobalIndex>;
 
 /// Converged where the Problem's own relative residual keeps the bound.
 class RelativeResidual final : public NOX::StatusTest::Generic {
@@ -26,9 +30,9 @@ class RelativeResidual final : public NOX::StatusTest::Generic {
   RelativeResidual(const PathModel& model, double bound) : model_(model), bound_(bound) {}
   NOX::StatusTest::StatusType checkStatus(const NOX::Solver::Generic&, NOX::StatusTest::CheckType) override {
     const double r = model_.lastResidual().relative();
-    status_ = r <= bound_           ? NOX::StatusTest::Converged
-              : std::isfinite(r)    ? NOX::StatusTest::Unconverged
-                                    : NOX::StatusTest::Failed;
+    status_ = r <= bound_        ? NOX::StatusTest::Converged
+              : std::isfinite(r) ? NOX::StatusTest::Unconverged
+                                 : NOX::StatusTest::Failed;
     return status_;
   }
   NOX::StatusTest::StatusType getStatus() const override { return status_; }
@@ -45,7 +49,6 @@ class Keep final : public LOCA::Thyra::SaveDataStrategy {
  public:
   explicit Keep(LocaRun& run) : run_(run) {}
   void saveSolution(const NOX::Abstract::Vector& x, double lambda) override {
-    using Extraction = ::Thyra::TpetraOperatorVectorExtraction<double, linear::LocalIndex, linear::GlobalIndex>;
     const auto& thyra = dynamic_cast<const NOX::Thyra::Vector&>(x);
     const auto u = Extraction::getConstTpetraVector(thyra.getThyraRCPVector());
     run_.points.push_back({rcp(new path::Vector(*u, Teuchos::Copy)), lambda});
@@ -134,21 +137,53 @@ LocaRun followWithLoca(path::Problem& problem, linear::TangentSolver& solver, co
   return run;
 }
 
-double foldOf(const std::vector<path::State>& points, double sign) {
-  std::size_t best = 0;
-  for (std::size_t i = 1; i < points.size(); ++i)
+LocaFold foldByLoca(path::Problem& problem, linear::TangentSolver& solver,
+                    const std::vector<path::State>& points, double sign, double tolerance) {
+  std::size_t best = 1;
+  for (std::size_t i = 1; i + 1 < points.size(); ++i)
     if (sign * points[i].lambda > sign * points[best].lambda) best = i;
-  if (best == 0 || best + 1 == points.size()) return points[best].lambda;
-  const auto distance = [&](std::size_t i, std::size_t j) {
-    path::Vector d(*points[i].u, Teuchos::Copy);
-    d.update(-1, *points[j].u, 1);
-    return d.norm2();
-  };
-  const double h0 = distance(best, best - 1), h1 = distance(best + 1, best);
-  const double f0 = points[best - 1].lambda, f1 = points[best].lambda, f2 = points[best + 1].lambda;
-  const double d0 = (f1 - f0) / h0, d1 = (f2 - f1) / h1;
-  const double second = (d1 - d0) / (h0 + h1), first = d0 + second * h0;
-  return f1 - first * first / (4 * second);
+  const auto& start = points.at(best);
+  const auto model = rcp(new PathModel(problem, &solver, *start.u, start.lambda));
+  const auto list = Teuchos::parameterList();
+  list->sublist("NOX").sublist("Printing").set("Output Information", 0);
+  auto globals = LOCA::createGlobalData(list);
+  const auto parser = rcp(new LOCA::Parameter::SublistParser(globals));
+  parser->parseSublists(list);
+  LOCA::ParameterVector p;
+  p.addParameter("load factor", start.lambda);
+  const auto nominal = model->getNominalValues();
+  const NOX::Thyra::Vector guess(*nominal.get_x());
+  const auto group = rcp(new LOCA::Thyra::Group(globals, guess, model, p, 0, /*implement_dfdp*/ true));
+
+  path::Vector phi(*points.at(best + 1).u, Teuchos::Copy);
+  phi.update(-1, *points.at(best - 1).u, 1);
+  phi.scale(std::sqrt(phi.getGlobalLength()) / phi.norm2());
+  const auto phiThyra = ::Thyra::createMember(*model->get_x_space());
+  Tpetra::deep_copy(*Extraction::getTpetraVector(phiThyra), phi);
+  const RCP<NOX::Abstract::Vector> null = rcp(new NOX::Thyra::Vector(*phiThyra));
+  const auto fold = Teuchos::parameterList();
+  fold->set("Bifurcation Parameter", "load factor");
+  fold->set("Length Normalization Vector", null);
+  fold->set("Initial Null Vector", null->clone());
+  fold->set("Solver Method", "Salinger Bordering");
+  const auto extended = rcp(new LOCA::TurningPoint::MooreSpence::ExtendedGroup(globals, parser, fold, group));
+  const auto combo = rcp(new NOX::StatusTest::Combo(NOX::StatusTest::Combo::OR));
+  combo->addStatusTest(rcp(new NOX::StatusTest::NormF(*extended, tolerance)));
+  combo->addStatusTest(rcp(new NOX::StatusTest::MaxIters(30)));
+  auto nox = Teuchos::parameterList();
+  nox->set("Nonlinear Solver", "Line Search Based");
+  nox->sublist("Line Search").set("Method", "Full Step");
+  nox->sublist("Printing").set("Output Information", 0);
+  const auto newton = NOX::Solver::buildSolver(extended, combo, nox);
+  LocaFold result;
+  result.converged = newton->solve() == NOX::StatusTest::Converged;
+  const auto& x =
+      dynamic_cast<const LOCA::TurningPoint::MooreSpence::ExtendedVector&>(newton->getSolutionGroup().getX());
+  const auto u = dynamic_cast<const NOX::Thyra::Vector&>(*x.getXVec()).getThyraRCPVector();
+  result.lambda = x.getBifParam();
+  result.state = {rcp(new path::Vector(*Extraction::getConstTpetraVector(u), Teuchos::Copy)), result.lambda};
+  LOCA::destroyGlobalData(globals);
+  return result;
 }
 
 }  // namespace atrapos::thyra::test

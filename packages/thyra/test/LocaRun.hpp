@@ -35,8 +35,17 @@ struct LocaRun {
 LocaRun followWithLoca(path::Problem& problem, linear::TangentSolver& solver, const path::State& start,
                        const LocaOptions& options);
 
-/// Extremum of lambda: the vertex of the parabola through the three points around the largest lambda, in the
-/// distance along the path; `sign` -1: the smallest. Error of third order in the steps.
-double foldOf(const std::vector<path::State>& points, double sign);
+/// A limit point of the load by LOCA's own means: Newton's method on the system of Moore and Spence, R = 0,
+/// K phi = 0, l . phi = 1.
+struct LocaFold {
+  bool converged = false;
+  double lambda = 0;
+  path::State state;
+};
+
+/// Started from the point of the run with the largest (`sign` 1) or smallest (-1) lambda; what it moves by
+/// between the neighbours is the first guess of phi.
+LocaFold foldByLoca(path::Problem& problem, linear::TangentSolver& solver,
+                    const std::vector<path::State>& points, double sign, double tolerance);
 
 }  // namespace atrapos::thyra::test

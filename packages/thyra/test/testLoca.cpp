@@ -6,17 +6,17 @@
 #include <Tpetra_Vector.hpp>
 #include <cmath>
 
+#include "HingedRoof.hpp"
 #include "LocaRun.hpp"
+#include "atrapos/linear/MakeTangentSolver.hpp"
 #include "atrapos/path/NewtonFollower.hpp"
 #include "atrapos/path/PathFollower.hpp"
 #include "atrapos/thyra/PathModel.hpp"
+#include "atrapos/thyra/TangentInverse.hpp"
 #include "problems/ChebyshevBratu.hpp"
 #include "problems/DenseSolver.hpp"
 #include "problems/JetProblem.hpp"
 #include "problems/Laws.hpp"
-#include "HingedRoof.hpp"
-#include "atrapos/linear/MakeTangentSolver.hpp"
-#include "atrapos/thyra/TangentInverse.hpp"
 
 using namespace atrapos;
 using namespace atrapos::thyra;
@@ -34,7 +34,8 @@ std::vector<double> numbers(const Teuchos::RCP<::Thyra::VectorBase<double>>& x) 
   return {data.begin(), data.end()};
 }
 
-/// f, W_op and DfDp are those of the Problem; the tangent's copy keeps its values, and a state is assembled once.
+/// f, W_op and DfDp are those of the Problem; the tangent's copy keeps its values, and a state is assembled
+/// once.
 TEST(PathModel, GivesWhatTheProblemGives) {
   const TrussOnSpring law{0.3};
   JetProblem<TrussOnSpring> problem(law), same(law);
@@ -126,16 +127,16 @@ void record(const std::string& who, int steps, long long factorizations, long lo
   testing::Test::RecordProperty(who + "_solves", std::to_string(solves));
 }
 
-path::Outcome withSeries(path::Problem& problem, const path::State& start, const path::Stops& stops, Limits& limits,
-                         linear::TangentSolver& solver) {
+path::Outcome withSeries(path::Problem& problem, const path::State& start, const path::Stops& stops,
+                         Limits& limits, linear::TangentSolver& solver) {
   const auto outcome = path::PathFollower(problem, solver, {}, stops).run(start, limits);
   EXPECT_EQ(outcome.reason, path::EndReason::stopReached) << outcome.text;
   record("series", outcome.steps, outcome.factorizations, outcome.solves);
   return outcome;
 }
 
-path::Outcome withNewton(path::Problem& problem, const path::State& start, const path::Stops& stops, Limits& limits,
-                         linear::TangentSolver& solver, path::NewtonOptions options) {
+path::Outcome withNewton(path::Problem& problem, const path::State& start, const path::Stops& stops,
+                         Limits& limits, linear::TangentSolver& solver, path::NewtonOptions options) {
   const auto outcome = path::NewtonFollower(problem, solver, options, stops).run(start, limits);
   EXPECT_EQ(outcome.reason, path::EndReason::stopReached) << outcome.text;
   record("newton", outcome.steps, outcome.factorizations, outcome.solves);
@@ -159,7 +160,6 @@ TEST(Loca, BratuFold) {
   options.accuracy = 1e-5;
   withNewton(problem, start, stops, newton, b, options);
   LocaOptions loca;
-  loca.maxStep = 0.3;  // for the parabola at the fold
   loca.stop = [&](const path::State& s) { return s.u->getData()[middle] > 2.5; };
   const LocaRun run = followWithLoca(problem, c, start, loca);
   EXPECT_TRUE(run.stopped);
@@ -168,8 +168,10 @@ TEST(Loca, BratuFold) {
   ASSERT_EQ(series.lambda.size(), 1u);
   EXPECT_NEAR(series.lambda[0], exact, 1e-5);  // residual bound 1e-6 x scale
   ASSERT_EQ(newton.lambda.size(), 1u);
-  EXPECT_NEAR(newton.lambda[0], exact, 2e-5);          // the cubic's accuracy
-  EXPECT_NEAR(foldOf(run.points, 1), exact, 1e-2);     // a parabola through points of steps of 0.3
+  EXPECT_NEAR(newton.lambda[0], exact, 2e-5);  // the cubic's accuracy
+  const LocaFold fold = foldByLoca(problem, c, run.points, 1, 1e-8);
+  EXPECT_TRUE(fold.converged);
+  EXPECT_NEAR(fold.lambda, exact, 1e-7);  // the discrete fold is exact to 1e-8, LOCA's residual 1e-8
 }
 
 /// Both limit points of the hinged roof and the end of the path by three codes.
@@ -178,7 +180,8 @@ TEST(Loca, HingedRoof) {
   const path::State start{roof.problem->initialState(0.0), 0.0};
   const double deflection = 30;
   const auto stops = roof.stopAtDeflection(deflection);
-  const auto a = linear::makeTangentSolver(), b = linear::makeTangentSolver(), c = linear::makeTangentSolver();
+  const auto a = linear::makeTangentSolver(), b = linear::makeTangentSolver(),
+             c = linear::makeTangentSolver();
   Limits series, newton;
   const auto bySeries = withSeries(*roof.problem, start, stops, series, *a);
   path::NewtonOptions options;
@@ -194,14 +197,23 @@ TEST(Loca, HingedRoof) {
 
   ASSERT_EQ(series.lambda.size(), 2u);
   ASSERT_EQ(newton.lambda.size(), 2u);
-  for (int i = 0; i < 2; ++i) EXPECT_NEAR(newton.lambda[i], series.lambda[i], 5e-4);  // accuracy, and some room
+  for (int i = 0; i < 2; ++i)
+    EXPECT_NEAR(newton.lambda[i], series.lambda[i], 5e-4);          // accuracy, and some room
   EXPECT_NEAR(byNewton.final.lambda, bySeries.final.lambda, 1e-4);  // residual bounds at the same deflection
 
-  // LOCA's points around its own limit points and around the end, by a parabola and a secant.
-  std::size_t turn = 0;  // the first limit point lies before the second
+  // LOCA's own limit points, from its points before and after the least load between them.
+  std::size_t turn = 0;
   while (turn + 1 < run.points.size() && run.points[turn + 1].lambda > run.points[turn].lambda) ++turn;
-  EXPECT_NEAR(foldOf({run.points.begin(), run.points.begin() + turn + 3}, 1), series.lambda[0], 2e-3);
-  EXPECT_NEAR(foldOf({run.points.begin() + turn, run.points.end()}, -1), series.lambda[1], 2e-3);
+  const std::vector<path::State> first(run.points.begin(), run.points.begin() + turn + 2),
+      second(run.points.begin() + turn, run.points.end());
+  const double signs[] = {1, -1};
+  for (int i = 0; i < 2; ++i) {
+    // Residuals in N and N/mm beside 750 N of load.
+    const LocaFold fold = foldByLoca(*roof.problem, *c, i == 0 ? first : second, signs[i], 1e-6);
+    EXPECT_TRUE(fold.converged) << i;
+    EXPECT_NEAR(fold.lambda, series.lambda[i], 2e-6) << i;  // the series' residual bound, 1e-6
+  }
+  // Its end, by a secant between the points on both sides.
   const auto& last = run.points.back();
   const auto& before = run.points[run.points.size() - 2];
   const double u0 = -before.u->getData()[roof.centreDof], u1 = -last.u->getData()[roof.centreDof];

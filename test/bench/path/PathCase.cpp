@@ -31,9 +31,9 @@ PathCase strip(int refinement) {
   for (const int node : fem::test::nodesOfSet(mesh, "x_min"))
     for (int i = 0; i < 3; ++i) model.supports.prescribe(node, i, 0, 0);
   fem::addSurfaceForce(mesh, fem::test::sideSet(mesh, "x_max"), {0, 0, -100}, model.load);
-  contact::test::addContact(model, contact::test::contactPoints(mesh, "bottom", contact::test::Where::Quadrature, 8),
-                            contact::Cylinder{{200, 0, -54.4}, {0, 1, 0}, 50},
-                            contact::RegularisedPressure{1e-3, 1e-6}, 0);
+  contact::test::addContact(
+      model, contact::test::contactPoints(mesh, "bottom", contact::test::Where::Quadrature, 8),
+      contact::Cylinder{{200, 0, -54.4}, {0, 1, 0}, 50}, contact::RegularisedPressure{1e-3, 1e-6}, 0);
   PathCase c;
   c.name = "strip";
   c.problem = std::make_unique<fem::FeProblem>(std::move(model));

@@ -18,7 +18,8 @@ struct PathCase {
 
 /// roof: hinged cylindrical roof, 12.7 mm, through both limit points of the load, shells;
 /// roof_thin: the same of 6.35 mm, which snaps back as well;
-/// strip: the strip on the roll of examples/strip_roll/solid.yaml, 400 x 20 x 0.8 mm, HEX20, to load factor 0.25.
+/// strip: the strip on the roll of examples/strip_roll/solid.yaml, 400 x 20 x 0.8 mm, HEX20, to load factor
+/// 0.25.
 const std::vector<std::string>& pathCases();
 
 /// `refinement` >= 1 multiplies the divisions. Throws std::invalid_argument on an unknown name.

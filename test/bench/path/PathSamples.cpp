@@ -22,8 +22,8 @@ bool PathSamples::onStep(const path::StepReport& report, const path::Series& ser
   }
 }
 
-double distanceToPath(path::Problem& problem, linear::TangentSolver& solver, const PathSamples::Sample& sample,
-                      double weight) {
+double distanceToPath(path::Problem& problem, linear::TangentSolver& solver,
+                      const PathSamples::Sample& sample, double weight) {
   const std::vector<double> none(problem.internalCount(), 0.0);
   const auto inner = [&](const Teuchos::RCP<Vector>& x, const Teuchos::RCP<Vector>& y) {
     return weight * problem.inner({x, none}, {y, none});
@@ -57,7 +57,8 @@ double distanceToPath(path::Problem& problem, linear::TangentSolver& solver, con
   throw std::runtime_error("a sample's distance from the path was not found");
 }
 
-double worstDistance(path::Problem& problem, linear::TangentSolver& solver, const PathSamples& samples, double weight) {
+double worstDistance(path::Problem& problem, linear::TangentSolver& solver, const PathSamples& samples,
+                     double weight) {
   double worst = 0;
   for (const auto& s : samples.samples()) worst = std::max(worst, distanceToPath(problem, solver, s, weight));
   return worst;

@@ -26,12 +26,13 @@ class PathSamples final : public path::Observer {
   std::vector<Sample> samples_;
 };
 
-/// Distance sqrt(w <dX, dX> + dlambda^2) of a sample from the path, in the plane normal to its own tangent: Newton's
-/// method to rounding. Throws std::runtime_error where it does not converge.
-double distanceToPath(path::Problem& problem, linear::TangentSolver& solver, const PathSamples::Sample& sample,
-                      double weight);
+/// Distance sqrt(w <dX, dX> + dlambda^2) of a sample from the path, in the plane normal to its own tangent:
+/// Newton's method to rounding. Throws std::runtime_error where it does not converge.
+double distanceToPath(path::Problem& problem, linear::TangentSolver& solver,
+                      const PathSamples::Sample& sample, double weight);
 
 /// The largest of all samples.
-double worstDistance(path::Problem& problem, linear::TangentSolver& solver, const PathSamples& samples, double weight);
+double worstDistance(path::Problem& problem, linear::TangentSolver& solver, const PathSamples& samples,
+                     double weight);
 
 }  // namespace atrapos::bench

@@ -1,5 +1,6 @@
-// Work against precision of whole paths: by series and by Newton arc-length steps over their tolerances, and the points of LOCA
-// where the Trilinos at hand has it. One CSV; docs/bench/path.md says what the columns mean.
+// Work against precision of whole paths: by series and by Newton arc-length steps over their tolerances, and
+// the points of LOCA where the Trilinos at hand has it. One CSV; docs/bench/path.md says what the columns
+// mean.
 //
 //     bench_path --csv path.csv
 //     bench_path --cases roof --refinement 2 --methods series newton
@@ -50,15 +51,17 @@ struct Row {
 };
 
 constexpr const char* header =
-    "case,unknowns,method,tolerance,residual_bound,setting,steps,factorizations,solves,orders,error,path_length,"
+    "case,unknowns,method,tolerance,residual_bound,setting,steps,factorizations,solves,orders,error,path_"
+    "length,"
     "tangent_s,factor_s,solve_s,order_s,residual_s,total_s,end";
 
 std::string csvLine(const Row& r) {
   const auto& s = r.seconds;
-  return fmt::format("{},{},{},{:g},{:g},{:g},{},{},{},{},{},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{}",
-                     r.name, r.unknowns, r.method, r.tolerance, r.residualBound, r.setting, r.steps, r.factorizations,
-                     r.solves, r.orders, r.error < 0 ? "" : fmt::format("{:.4g}", r.error), r.pathLength, s.tangent,
-                     s.factor, s.solve, s.orderRhs, s.residual, s.total, r.end);
+  return fmt::format(
+      "{},{},{},{:g},{:g},{:g},{},{},{},{},{},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{}", r.name,
+      r.unknowns, r.method, r.tolerance, r.residualBound, r.setting, r.steps, r.factorizations, r.solves,
+      r.orders, r.error < 0 ? "" : fmt::format("{:.4g}", r.error), r.pathLength, s.tangent, s.factor, s.solve,
+      s.orderRhs, s.residual, s.total, r.end);
 }
 
 class Bench {
@@ -95,7 +98,8 @@ class Bench {
     const auto solver = linear::makeTangentSolver({});
     bench::PathSamples none(1e300);
     const auto outcome = path::PathFollower(*case_.problem, *solver, {}, case_.stops).run(start(), none);
-    if (outcome.reason != path::EndReason::stopReached) throw std::runtime_error(case_.name + ": " + outcome.text);
+    if (outcome.reason != path::EndReason::stopReached)
+      throw std::runtime_error(case_.name + ": " + outcome.text);
     spacing_ = outcome.pathLength / options_.samples;
   }
 
@@ -140,7 +144,8 @@ class Bench {
         options.criticalPoints = options.closeEnd = false;  // Newton steps do not look for them either
         const auto solver = linear::makeTangentSolver({});
         bench::PathSamples samples(spacing_);
-        const auto outcome = path::PathFollower(*case_.problem, *solver, options, case_.stops).run(start(), samples);
+        const auto outcome =
+            path::PathFollower(*case_.problem, *solver, options, case_.stops).run(start(), samples);
         Row row;
         row.method = fmt::format("series{}", order);
         row.tolerance = tolerance;

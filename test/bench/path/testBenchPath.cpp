@@ -27,8 +27,8 @@ TEST(PathSamples, DistanceIsThatOfAKnownDisplacement) {
   path::Stops stops;
   stops.loadFactors = {0.5};
   PathSamples samples(0.2);
-  const auto outcome =
-      path::PathFollower(*c.problem, *solver, options, stops).run({c.problem->initialState(0.0), 0.0}, samples);
+  const auto outcome = path::PathFollower(*c.problem, *solver, options, stops)
+                           .run({c.problem->initialState(0.0), 0.0}, samples);
   ASSERT_GE(samples.samples().size(), 2u);
   const double own = worstDistance(*c.problem, *solver, samples, outcome.weight);
   EXPECT_LT(own, 1e-6);  // residuals of 1e-9, amplified by the membrane's stiffness over that of bending
@@ -37,7 +37,8 @@ TEST(PathSamples, DistanceIsThatOfAKnownDisplacement) {
     auto sample = samples.samples()[1];
     const auto& t = sample.tangent;
     const std::vector<double> none;
-    const double square = outcome.weight * c.problem->inner({t.x.u, none}, {t.x.u, none}) + t.lambda * t.lambda;
+    const double square =
+        outcome.weight * c.problem->inner({t.x.u, none}, {t.x.u, none}) + t.lambda * t.lambda;
     const double along = t.lambda / square;
     const auto u = Teuchos::rcp(new path::Vector(*sample.state.u, Teuchos::Copy));
     u->update(-shift * along, *t.x.u, 1);

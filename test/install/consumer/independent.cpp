@@ -1,6 +1,6 @@
-// Several problems in one process: two meshes and two communicators, one path followed inside the observer of another, and, on
-// several ranks, one on each at the same time. Each gives the same bits as alone. Prints nothing unless something is wrong, and
-// neither does the library: the test looks.
+// Several problems in one process: two meshes and two communicators, one path followed inside the observer of
+// another, and, on several ranks, one on each at the same time. Each gives the same bits as alone. Prints
+// nothing unless something is wrong, and neither does the library: the test looks.
 #include <Teuchos_DefaultMpiComm.hpp>
 #include <Tpetra_Core.hpp>
 #include <Tpetra_Vector.hpp>
@@ -44,8 +44,9 @@ struct Cantilever {
     model.comm = comm;
     model.numNodes = mesh.numNodes();
     const auto law = solid::SaintVenantKirchhoff::fromYoung(1000.0 + cells, 0.2);
-    model.terms.push_back(std::make_unique<fem::LawTerm<solid::SaintVenantKirchhoff, fem::DisplacementGradient>>(
-        law, fem::volumePoints(mesh, mesh.blocks[0], fem::tabulate(fem::Topology::Hex8))));
+    model.terms.push_back(
+        std::make_unique<fem::LawTerm<solid::SaintVenantKirchhoff, fem::DisplacementGradient>>(
+            law, fem::volumePoints(mesh, mesh.blocks[0], fem::tabulate(fem::Topology::Hex8))));
     model.supports = fem::Supports(mesh.numNodes());
     for (const int node : mesh.nodeSets[fem::findNodeSet(mesh, "x_min")].nodes)
       for (int i = 0; i < 3; ++i) model.supports.prescribe(node, i, 0, 0);

@@ -7,16 +7,16 @@
 
 namespace atrapos::thyra {
 
-/// A path::Problem as a Thyra model evaluator, for NOX, LOCA and whatever else speaks Thyra: f(x, p) = R(U, lambda)
-/// with x = U on the Problem's map and one parameter vector p of one entry, lambda.
+/// A path::Problem as a Thyra model evaluator, for NOX, LOCA and whatever else speaks Thyra: f(x, p) = R(U,
+/// lambda) with x = U on the Problem's map and one parameter vector p of one entry, lambda.
 ///
 /// Gives f, W_op = K_T (a matrix of its own: values of one evaluation are not changed by the next), W where a
-/// tangent solver is given, and DfDp = -F as a multivector of one column. Tangent and load direction come from
-/// one call of the Problem, which is remembered: asking for them one after the other at the same state costs one
-/// assembly.
+/// tangent solver is given, and DfDp = -F as a multivector of one column. Tangent and load direction come
+/// from one call of the Problem, which is remembered: asking for them one after the other at the same state
+/// costs one assembly.
 ///
-/// Problem and solver are the caller's and must outlive the model. What the Problem throws passes through. Solves
-/// with a tangent that the solver found singular come back as not converged.
+/// Problem and solver are the caller's and must outlive the model. What the Problem throws passes through.
+/// Solves with a tangent that the solver found singular come back as not converged.
 class PathModel : public ::Thyra::StateFuncModelEvaluatorBase<double> {
  public:
   /// `start`: nominal values of x and lambda. With a null solver W is not supported, W_op is.

@@ -9,13 +9,14 @@ namespace atrapos::thyra {
 
 /// A Tpetra matrix with its inverse by a linear::TangentSolver, as Thyra sees it.
 ///
-/// The solver holds one factorization: of several inverses made with one solver only the one initialised last can
-/// solve, the others throw linear::SolverError.
+/// The solver holds one factorization: of several inverses made with one solver only the one initialised last
+/// can solve, the others throw linear::SolverError.
 class TangentInverse : public ::Thyra::LinearOpWithSolveBase<double> {
  public:
   explicit TangentInverse(linear::TangentSolver& solver) : solver_(solver) {}
 
-  /// Factors the operator, which must wrap a Tpetra::CrsMatrix. The graph is analysed once per TangentInverse.
+  /// Factors the operator, which must wrap a Tpetra::CrsMatrix. The graph is analysed once per
+  /// TangentInverse.
   void initialize(const Teuchos::RCP<const ::Thyra::LinearOpBase<double>>& op);
   void uninitialize() { op_ = Teuchos::null; }
   const Teuchos::RCP<const ::Thyra::LinearOpBase<double>>& op() const { return op_; }
@@ -29,11 +30,12 @@ class TangentInverse : public ::Thyra::LinearOpWithSolveBase<double> {
                  const Teuchos::Ptr<::Thyra::MultiVectorBase<double>>& Y, double alpha,
                  double beta) const override;
   bool solveSupportsImpl(::Thyra::EOpTransp) const override { return true; }
-  bool solveSupportsNewImpl(
-      ::Thyra::EOpTransp, const Teuchos::Ptr<const ::Thyra::SolveCriteria<double>>) const override {
+  bool solveSupportsNewImpl(::Thyra::EOpTransp,
+                            const Teuchos::Ptr<const ::Thyra::SolveCriteria<double>>) const override {
     return true;
   }
-  bool solveSupportsSolveMeasureTypeImpl(::Thyra::EOpTransp, const ::Thyra::SolveMeasureType&) const override {
+  bool solveSupportsSolveMeasureTypeImpl(::Thyra::EOpTransp,
+                                         const ::Thyra::SolveMeasureType&) const override {
     return true;
   }
   ::Thyra::SolveStatus<double> solveImpl(
@@ -55,8 +57,7 @@ class TangentInverseFactory : public ::Thyra::LinearOpWithSolveFactoryBase<doubl
   bool isCompatible(const ::Thyra::LinearOpSourceBase<double>& source) const override;
   Teuchos::RCP<::Thyra::LinearOpWithSolveBase<double>> createOp() const override;
   void initializeOp(const Teuchos::RCP<const ::Thyra::LinearOpSourceBase<double>>& source,
-                    ::Thyra::LinearOpWithSolveBase<double>* op,
-                    ::Thyra::ESupportSolveUse use) const override;
+                    ::Thyra::LinearOpWithSolveBase<double>* op, ::Thyra::ESupportSolveUse use) const override;
   void uninitializeOp(::Thyra::LinearOpWithSolveBase<double>* op,
                       Teuchos::RCP<const ::Thyra::LinearOpSourceBase<double>>* source,
                       Teuchos::RCP<const ::Thyra::PreconditionerBase<double>>* preconditioner,
