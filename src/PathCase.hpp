@@ -45,7 +45,7 @@ class PathCase {
   virtual std::vector<double> monitors(const path::Vector& u, double lambda) const = 0;
 
   /// Closed contact points.
-  virtual int activeContacts(const path::Vector& /*u*/) const { return 0; }
+  virtual int activeContacts(const path::Vector& /*u*/, double /*lambda*/) const { return 0; }
   /// Null where there are no fields to write.
   virtual std::unique_ptr<FieldFile> makeFieldFile(const std::string& /*file*/) const { return nullptr; }
   /// Sizes for summary.json: name -> number.

@@ -57,7 +57,7 @@ std::string plotPath(const std::string& directory, const std::string& title,
       "set datafile separator ','\nset datafile missing NaN\nset grid\nset key off\n"
       "set multiplot layout {},{} title \"{}\"\nset ylabel 'load factor'\n",
       480 * columns, 400 * rows + 40, rows, columns, quoted(title));
-  const int stability = 5 + static_cast<int>(monitors.size());
+  const int stability = 4 + static_cast<int>(monitors.size());
   if (monitors.empty()) script += panel("path length", 2, 3, stability, branches);
   for (int m = 0; m < static_cast<int>(monitors.size()); ++m)
     script += panel(monitors[m], 4 + m, 9 + m, stability, branches);

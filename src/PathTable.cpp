@@ -47,13 +47,13 @@ std::string joined(const std::vector<std::string>& monitors) {
 }  // namespace
 
 std::string pathHeader(const std::vector<std::string>& monitors) {
-  return "step,path_length,load_factor" + joined(monitors) + ",residual,negative_eigenvalues,branch";
+  return "step,path_length,load_factor" + joined(monitors) + ",negative_eigenvalues,branch,residual";
 }
 
 std::string text(const PathRow& r) {
   std::string row = std::to_string(r.step) + exact(r.pathLength) + exact(r.loadFactor);
   for (double m : r.monitors) row += exact(m);
-  return row + fmt::format(",{:.3e},{},{}", r.residual, r.negative, r.branch);
+  return row + fmt::format(",{},{},{:.3e}", r.negative, r.branch, r.residual);
 }
 
 std::string pointHeader(const std::vector<std::string>& monitors) {

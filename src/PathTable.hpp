@@ -30,9 +30,9 @@ struct PathRow {
   int step = 0;
   double pathLength = 0, loadFactor = 0;
   std::vector<double> monitors;
-  double residual = 0;
   long long negative = -1;  ///< negative eigenvalues of the tangent; -1: not known
   int branch = 0;
+  double residual = 0;  ///< relative
 };
 std::string pathHeader(const std::vector<std::string>& monitors);
 std::string text(const PathRow& row);

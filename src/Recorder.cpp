@@ -126,7 +126,7 @@ void Recorder::writeRow(int step, double pathLength, const path::Vector& u, doub
                         long long negative) {
   const double r = case_.problem().residual(u, lambda, *residual_).relative();
   if (step > 0) worstResidual_ = std::max(worstResidual_, r);
-  path_.append(text(PathRow{step, pathLength, lambda, case_.monitors(u, lambda), r, negative, branch_}));
+  path_.append(text(PathRow{step, pathLength, lambda, case_.monitors(u, lambda), negative, branch_, r}));
 }
 
 void Recorder::writePoints(const path::StepReport& report, const path::Series& series) {
@@ -175,7 +175,7 @@ void Recorder::printStep(const path::StepReport& r) const {
   *progress_ << fmt::format(
                     "{:>5} {:>5} {:>10.3e} {:>13.6g} {:>10.3e} {:>10.2e} {:>4} {:>4} {:>8} {:>8.2f}  {}",
                     r.step, r.order, r.radius, r.lambdaEnd, r.length, r.residual, r.cutBacks, r.corrections,
-                    case_.activeContacts(*r.end.u), seconds(), events)
+                    case_.activeContacts(*r.end.u, r.end.lambda), seconds(), events)
              << std::endl;
 }
 

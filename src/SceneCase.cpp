@@ -27,9 +27,10 @@ class SceneFields final : public FieldFile {
       : owner_(owner), scene_(scene), names_(names(scene)), writer_(file, scene.mesh(), names_) {}
 
   void write(const path::Vector& u, double lambda, const StateNumbers& n) override {
-    writer_.writeStep(n.pathLength, flat(scene_.nodalValues(u, lambda)), flat(scene_.elementValues(u)),
-                      std::vector<double>{lambda, n.pathLength, n.radius, double(n.order), double(n.negative),
-                                          double(owner_.activeContacts(u)), n.residual, double(n.branch)});
+    writer_.writeStep(
+        n.pathLength, flat(scene_.nodalValues(u, lambda)), flat(scene_.elementValues(u, lambda)),
+        std::vector<double>{lambda, n.pathLength, n.radius, double(n.order), double(n.negative),
+                            double(owner_.activeContacts(u, lambda)), n.residual, double(n.branch)});
   }
 
   void copyFrom(const std::string& file, int count) override {
@@ -70,9 +71,10 @@ class SceneFields final : public FieldFile {
 
 path::State SceneCase::start() const { return {scene_.problem().initialState(0.0), 0.0}; }
 
-int SceneCase::activeContacts(const path::Vector& u) const {
+int SceneCase::activeContacts(const path::Vector& u, double lambda) const {
   int active = 0;
-  for (const ContactPoints& contact : scene_.contacts()) active += scene_.contactState(contact, u).active;
+  for (const ContactPoints& contact : scene_.contacts())
+    active += scene_.contactState(contact, u, lambda).active;
   return active;
 }
 
