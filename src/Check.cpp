@@ -22,4 +22,11 @@ void printCheck(Scene& scene, std::ostream& out) {
                      scene.deck().path.order);
 }
 
+void printCheck(const ModelCase& model, std::ostream& out) {
+  deck::describe(model.deck(), out);
+  out << fmt::format("\n# problem   {}\n", model.about());
+  out << fmt::format("# unknowns  {}\n", model.sizes()[0].second);
+  for (const std::string& name : model.monitorNames()) out << fmt::format("# monitor   {}\n", name);
+}
+
 }  // namespace atrapos

@@ -2,11 +2,15 @@
 
 #include <iosfwd>
 
+#include "ModelCase.hpp"
 #include "Scene.hpp"
 
 namespace atrapos {
 
 /// What would be solved: effective deck values, sizes, contact gaps, memory.
 void printCheck(Scene& scene, std::ostream& out);
+
+/// The same for a model problem.
+void printCheck(const ModelCase& model, std::ostream& out);
 
 }  // namespace atrapos

@@ -26,6 +26,7 @@ struct Builder {
 }  // namespace
 
 fem::Mesh generateMesh(const deck::Deck& deck) {
+  if (deck.problem) throw deck::DeckError(fmt::format("{}: problem: a model problem has no mesh", deck.file));
   if (!deck.mesh.generate)
     throw deck::DeckError(fmt::format("{}: mesh/generate: missing; `atrapos mesh` needs it to make {}",
                                       deck.file, deck.mesh.file));

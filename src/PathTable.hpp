@@ -4,24 +4,49 @@
 #include <string>
 #include <vector>
 
+#include "atrapos/path/Report.hpp"
+
 namespace atrapos {
 
-/// path.csv: one row per output point, on disk when append returns.
-class PathTable {
+/// A table of comma-separated values that grows by rows; each is on disk when append returns.
+class Table {
  public:
-  PathTable(const std::string& file, const std::vector<std::string>& monitors);
+  /// Throws std::runtime_error where the file cannot be written.
+  Table(const std::string& file, const std::string& header);
 
-  void append(int step, double pathLength, double loadFactor, const std::vector<double>& monitors,
-              double residual);
+  void append(const std::string& row);
+
+  /// Takes over the rows of an earlier table whose column `column` is at most `last`. Throws
+  /// std::invalid_argument, one line, where that table has another header.
+  void copyFrom(const std::string& file, int column, int last);
 
  private:
-  std::string file_;
+  std::string file_, header_;
   std::ofstream out_;
 };
 
-/// Draws path.csv as path.png with gnuplot: the load factor over each monitor. The script stays beside the
-/// table as path.gp. Returns an empty text, or one line that says why there is no picture.
-std::string plotPath(const std::string& directory, const std::string& title,
-                     const std::vector<std::string>& monitors);
+/// path.csv: one row per output point.
+struct PathRow {
+  int step = 0;
+  double pathLength = 0, loadFactor = 0;
+  std::vector<double> monitors;
+  long long negative = -1;  ///< negative eigenvalues of the tangent; -1: not known
+  int branch = 0;
+  double residual = 0;  ///< relative
+};
+std::string pathHeader(const std::vector<std::string>& monitors);
+std::string text(const PathRow& row);
+
+/// points.csv: one row per limit or bifurcation point.
+struct PointRow {
+  int step = 0, branch = 0;
+  double pathLength = 0, loadFactor = 0;
+  std::string kind;
+  int negativeChange = 0, nullity = 0;
+  double uncertainty = 0;
+  std::vector<double> monitors;
+};
+std::string pointHeader(const std::vector<std::string>& monitors);
+std::string text(const PointRow& row);
 
 }  // namespace atrapos

@@ -1,25 +1,29 @@
 #pragma once
 
 #include <iosfwd>
+#include <optional>
 #include <string>
 
-#include "Scene.hpp"
+#include "PathCase.hpp"
 
 namespace atrapos {
 
 struct RunOptions {
   std::string directory;             ///< where results go; made if missing
   std::ostream* progress = nullptr;  ///< one line a step; none where null
+  std::string restart;               ///< folder with the results of a run that goes on; empty: a new run
+  std::optional<int> fromStep;       ///< where it goes on; empty: behind its last step
 };
 
 /// How a run ended.
 struct RunResult {
-  bool reachedStop = false;  ///< false: the path could not be continued to a stop of the deck
+  bool reachedStop = false;  ///< false: a path could not be continued to a stop of the deck
   std::string text;          ///< one line
 };
 
-/// Follows the scene's path and writes results.exo, path.csv, summary.json and path.png into the directory.
-/// Every finished step is on disk before the next one begins.
-RunResult runScene(Scene& scene, const RunOptions& options);
+/// Follows a path, and the branches that the deck asks for, and writes path.csv, points.csv, branches.csv,
+/// summary.json, path.png, restart.bin and, where there are fields, results.exo and results_branch<n>.exo
+/// into the directory. Every finished step is on disk before the next one begins.
+RunResult runPath(PathCase& pathCase, const RunOptions& options);
 
 }  // namespace atrapos

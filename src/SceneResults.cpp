@@ -31,12 +31,13 @@ void Scene::addMonitors() {
 path::Stops Scene::stops() const {
   path::Stops stops;
   const deck::Stop& stop = deck_.path.stop;
-  if (stop.loadFactor) stops.loadFactors.push_back(*stop.loadFactor);
+  stops.loadFactors = stop.loadFactors;
   if (stop.pathLength) stops.pathLength = *stop.pathLength;
-  for (const auto& [name, value] : stop.displacement)
+  for (const auto& [name, values] : stop.monitors)
     for (std::size_t i = 0; i < displacementWeights_.size(); ++i)
       if (deck_.output.monitors[i].name == name)
-        stops.functionals.push_back({name, displacementWeights_[i], value});
+        for (const double value : values)
+          stops.functionals.push_back({name, displacementWeights_[i], value});
   return stops;
 }
 

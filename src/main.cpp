@@ -10,10 +10,15 @@
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>
+#include <memory>
+#include <vector>
 
 #include "Check.hpp"
+#include "MapCommand.hpp"
 #include "MeshCommand.hpp"
+#include "ModelCase.hpp"
 #include "Run.hpp"
+#include "SceneCase.hpp"
 #include "Version.hpp"
 #include "atrapos/exodus/MeshFile.hpp"
 #include "atrapos/linear/BlasThreads.hpp"
@@ -48,22 +53,62 @@ std::string defaultDirectory(const std::string& deck) {
   return std::filesystem::path(deck).stem().string() + "_results";
 }
 
-int run(const std::string& deckFile, const std::string& output, int threads, bool quiet) {
-  const auto deck = atrapos::deck::readDeck(deckFile);
+struct RunWords {
+  std::string deck, output, restart;
+  int fromStep = -1;  ///< -1: not given
+  int threads = 0;
+  bool quiet = false;
+};
+
+int run(const RunWords& words) {
+  const int threads = words.threads;
+  const auto deck = atrapos::deck::readDeck(words.deck);
   Runtime runtime(threads);
   if (threads > 1 && !(Kokkos::DefaultExecutionSpace::concurrency() > 1))
     throw atrapos::deck::DeckError(fmt::format("atrapos: --threads {}: this build runs on {} (one thread)",
                                                threads, Kokkos::DefaultExecutionSpace::name()));
-  atrapos::Scene scene(deck, atrapos::readDeckMesh(deck));
   atrapos::RunOptions options;
-  options.directory = output.empty() ? defaultDirectory(deckFile) : output;
-  options.progress = quiet ? nullptr : &std::cout;
-  if (!quiet) std::cout << fmt::format("{}\n{}\n", deck.title, atrapos::describeMesh(scene.mesh()));
-  const auto result = atrapos::runScene(scene, options);
-  if (!quiet || !result.reachedStop)
-    (result.reachedStop ? std::cout : std::cerr)
-        << fmt::format("{}\nresults in {}\n", result.text, options.directory);
-  return result.reachedStop ? 0 : kCannotContinue;
+  options.restart = words.restart;
+  if (words.fromStep >= 0) options.fromStep = words.fromStep;
+  options.directory = !words.output.empty()    ? words.output
+                      : !words.restart.empty() ? words.restart
+                                               : defaultDirectory(words.deck);
+  options.progress = words.quiet ? nullptr : &std::cout;
+  const auto follow = [&](atrapos::PathCase& pathCase, const std::string& about) {
+    if (!words.quiet) std::cout << fmt::format("{}\n{}\n", deck.title, about);
+    const auto result = atrapos::runPath(pathCase, options);
+    if (!words.quiet || !result.reachedStop)
+      (result.reachedStop ? std::cout : std::cerr)
+          << fmt::format("{}\nresults in {}\n", result.text, options.directory);
+    return result.reachedStop ? 0 : kCannotContinue;
+  };
+  if (deck.problem) {
+    atrapos::ModelCase model(deck);
+    return follow(model, model.about());
+  }
+  atrapos::Scene scene(deck, atrapos::readDeckMesh(deck));
+  atrapos::SceneCase pathCase(scene);
+  return follow(pathCase, atrapos::describeMesh(scene.mesh()));
+}
+
+int map(const atrapos::MapWords& words) {
+  atrapos::MapOptions options = atrapos::mapOptions(words);
+  options.progress = words.quiet ? nullptr : &std::cout;
+  std::vector<atrapos::deck::Deck> decks;
+  for (const std::string& deck : words.decks) decks.push_back(atrapos::deck::readDeck(deck));
+  Runtime runtime(0);
+  std::vector<std::unique_ptr<atrapos::Scene>> scenes;
+  std::vector<std::unique_ptr<atrapos::PathCase>> cases;
+  for (const auto& deck : decks) {
+    if (deck.problem) {
+      cases.push_back(std::make_unique<atrapos::ModelCase>(deck));
+      continue;
+    }
+    scenes.push_back(std::make_unique<atrapos::Scene>(deck, atrapos::readDeckMesh(deck)));
+    cases.push_back(std::make_unique<atrapos::SceneCase>(*scenes.back()));
+  }
+  atrapos::writeMap(cases, options);
+  return 0;
 }
 
 int makeMesh(const std::string& deckFile, const std::string& output, bool quiet) {
@@ -78,6 +123,10 @@ int makeMesh(const std::string& deckFile, const std::string& output, bool quiet)
 int check(const std::string& deckFile) {
   const auto deck = atrapos::deck::readDeck(deckFile);
   Runtime runtime(0);
+  if (deck.problem) {
+    atrapos::printCheck(atrapos::ModelCase(deck), std::cout);
+    return 0;
+  }
   atrapos::Scene scene(deck, atrapos::readDeckMesh(deck));
   atrapos::printCheck(scene, std::cout);
   return 0;
@@ -94,6 +143,7 @@ int main(int argc, char** argv) {
   std::string deck, output;
   int threads = 0;
   bool quiet = false;
+  RunWords words;
 
   auto* runCommand = app.add_subcommand("run", "follow the path of a deck");
   runCommand->add_option("DECK", deck, "YAML deck (docs/deck.md)")->required();
@@ -101,6 +151,11 @@ int main(int argc, char** argv) {
   runCommand->add_option("-t,--threads", threads, "threads of the element loops (default: OMP_NUM_THREADS)")
       ->check(CLI::Range(1, 4096));
   runCommand->add_flag("-q,--quiet", quiet, "no progress lines");
+  auto* restartOption = runCommand->add_option(
+      "--restart", words.restart, "go on with the run whose results are in this folder (default output)");
+  runCommand->add_option("--from", words.fromStep, "with --restart: behind this step (default: its last)")
+      ->check(CLI::Range(1, 1000000000))
+      ->needs(restartOption);
 
   auto* meshCommand = app.add_subcommand("mesh", "make the mesh file that a deck describes");
   meshCommand->add_option("DECK", deck, "YAML deck with mesh/generate")->required();
@@ -110,6 +165,25 @@ int main(int argc, char** argv) {
   auto* checkCommand =
       app.add_subcommand("check", "validate a deck and its mesh, print what would be solved");
   checkCommand->add_option("DECK", deck, "YAML deck")->required();
+
+  atrapos::MapWords mapWords;
+  auto* mapCommand =
+      app.add_subcommand("map", "follow decks' paths under many settings: where do runs fail?");
+  mapCommand->add_option("DECK", mapWords.decks, "YAML decks")->required();
+  mapCommand->add_option("--orders", mapWords.orders, "orders, or auto (default: 5,10,15,20,30,40)")
+      ->delimiter(',')
+      ->expected(1)
+      ->take_all();
+  mapCommand->add_option("--deltas", mapWords.deltas, "accuracies (default: 1e-2,1e-4,1e-6,1e-8,1e-10)")
+      ->delimiter(',')
+      ->expected(1)
+      ->take_all();
+  mapCommand->add_option("--pade", mapWords.pades, "off, automatic, on (default: off,automatic)")
+      ->delimiter(',')
+      ->expected(1)
+      ->take_all();
+  mapCommand->add_option("-o,--output", mapWords.output, "table (default: map.csv)");
+  mapCommand->add_flag("-q,--quiet", mapWords.quiet, "print nothing");
 
   try {
     app.parse(argc, argv);
@@ -123,17 +197,25 @@ int main(int argc, char** argv) {
   const bool hasCommand = !app.get_subcommands().empty();
   const auto extras = app.remaining(true);
   if (!hasCommand || !extras.empty()) {
-    std::cerr << (extras.empty() ? "atrapos: a command is needed: run, mesh or check"
-                  : hasCommand
-                      ? fmt::format("atrapos: '{}' is not expected", extras.front())
-                      : fmt::format("atrapos: '{}' is not a command: run, mesh or check", extras.front()))
+    std::cerr << (extras.empty() ? "atrapos: a command is needed: run, mesh, check or map"
+                  : hasCommand   ? fmt::format("atrapos: '{}' is not expected", extras.front())
+                                 : fmt::format("atrapos: '{}' is not a command: run, mesh, check or map",
+                                               extras.front()))
               << " (see atrapos --help)\n";
     return kBadInput;
   }
+  const std::string named = deck.empty() ? "atrapos: " : deck + ": ";
   try {
-    if (*runCommand) return run(deck, output, threads, quiet);
+    if (*runCommand) {
+      words.deck = deck;
+      words.output = output;
+      words.threads = threads;
+      words.quiet = quiet;
+      return run(words);
+    }
     if (*meshCommand) return makeMesh(deck, output, quiet);
     if (*checkCommand) return check(deck);
+    if (*mapCommand) return map(mapWords);
   } catch (const atrapos::deck::DeckError& e) {
     std::cerr << e.what() << '\n';
     return kBadInput;
@@ -141,10 +223,10 @@ int main(int argc, char** argv) {
     std::cerr << e.what() << '\n';
     return kBadInput;
   } catch (const std::invalid_argument& e) {
-    std::cerr << deck << ": " << e.what() << '\n';
+    std::cerr << named << e.what() << '\n';
     return kBadInput;
   } catch (const std::exception& e) {
-    std::cerr << deck << ": " << e.what() << '\n';
+    std::cerr << named << e.what() << '\n';
     return kInternalError;
   }
   return kInternalError;

@@ -11,6 +11,7 @@
 
 #include "atrapos/fem/StructuredMesh.hpp"
 #include "atrapos/fem/StructuredShell.hpp"
+#include "atrapos/path/Branches.hpp"
 
 /// The deck: the input of the `atrapos` command, as plain data. docs/deck.md explains every key.
 /// Units are the user's own, consistent ones; "force", "length", "pressure" below mean those.
@@ -223,19 +224,33 @@ struct Contact {
 
 // ----------------------------------------------------------------------------------------------- path
 
-/// The path ends at whichever comes first; a deck gives at least one.
+/// A path, or a branch, ends at whichever comes first; a deck gives at least one.
 struct Stop {
-  std::optional<double> loadFactor;
+  std::vector<double> loadFactors;
   int steps = 1000;
   std::optional<double> pathLength;
-  std::map<std::string, double> displacement;  ///< name of a displacement monitor -> value
+  std::map<std::string, std::vector<double>> monitors;  ///< name -> values
 };
 
 struct Path {
-  int order = 20;          ///< K, 1..60
-  double accuracy = 1e-6;  ///< delta of eq. (36)
-  double residual = 1e-6;  ///< bound of the relative residual
-  int direction = 1;       ///< sign of the load factor's first change
+  /// Which bifurcation points are looked for.
+  enum class Critical {
+    Off,
+    Automatic,  ///< those that the number of negative eigenvalues tells of
+    EveryStep   ///< all
+  };
+  int order = 20;                ///< K, 1..60
+  bool autoOrder = false;        ///< K is chosen while running; `order` is that of the first step
+  double accuracy = 1e-6;        ///< delta of eq. (36)
+  double residual = 1e-6;        ///< bound of the relative residual
+  int direction = 1;             ///< sign of the load factor's first change
+  std::optional<double> weight;  ///< w of the path parameter, > 0; empty = by the first step
+  path::PadeUse pade = path::Options{}.pade;
+  Critical criticalPoints = Critical::Automatic;
+  path::Follow branches = path::Follow::none;
+  int branchDepth = 4;   ///< bifurcations between the first path and a branch
+  int branchCount = 20;  ///< half-branches followed besides the first path
+  bool restart = true;   ///< keeps what a restart needs at every step
   Stop stop;
 };
 
@@ -296,10 +311,17 @@ struct Output {
 
 // ----------------------------------------------------------------------------------------------- deck
 
+/// A small problem of the models library (atrapos/models/Models.hpp) instead of a mesh.
+struct ModelProblem {
+  std::string name;
+  std::map<std::string, double> parameters;  ///< those that are not its defaults
+};
+
 struct Deck {
   std::string file;  ///< as named by the caller; begins every message
   std::string text;  ///< the whole file, for the result file's info records
   std::string title;
+  std::optional<ModelProblem> problem;  ///< then of what follows only path, solver, output/points_per_step
   MeshInput mesh;
   std::vector<Material> materials;  ///< all entries in the deck's order
   Shells shells;

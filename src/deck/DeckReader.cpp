@@ -76,6 +76,15 @@ Deck readDeckText(const std::string& text, const std::string& file) {
   Deck deck;
   deck.file = file;
   deck.text = text;
+  const std::filesystem::path path(file);
+  if (root.has("problem")) {
+    read(problemDeckTable(), root, deck);
+    checkBranches(root, deck);
+    if (deck.title.empty()) {
+      deck.title = path.stem().string();
+    }
+    return deck;
+  }
   read(deckTable(), root, deck);
   if (deck.output.fields.empty()) {
     deck.output.fields = {OutputField::Displacement, OutputField::Stress, OutputField::Reaction};
@@ -85,7 +94,6 @@ Deck readDeckText(const std::string& text, const std::string& file) {
   }
   checkReferences(root, deck);
 
-  const std::filesystem::path path(file);
   if (deck.title.empty()) {
     deck.title = path.stem().string();
   }

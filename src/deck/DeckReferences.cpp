@@ -76,7 +76,7 @@ void checkMonitor(const Value& v, const Monitor& monitor, const Deck& deck) {
 }
 
 void checkStop(const Value& stop, const Deck& deck) {
-  for (const auto& [name, value] : deck.path.stop.displacement) {
+  for (const auto& [name, values] : deck.path.stop.monitors) {
     const Value v = stop.at("displacement").at(name);
     const auto& monitor = find(v, name, deck.output.monitors, "output/monitors");
     if (!std::holds_alternative<DisplacementMonitor>(monitor.quantity)) {
@@ -123,6 +123,17 @@ void checkSomethingIsDriven(const Value& root, const Deck& deck) {
 
 }  // namespace
 
+void checkBranches(const Value& root, const Deck& deck) {
+  if (deck.path.branches != path::Follow::none && deck.solver.type != Solver::Type::Mumps) {
+    root.at("path")
+        .at("branches")
+        .fail("branches are found by the number of negative eigenvalues, which needs solver/type: mumps");
+  }
+  if (deck.path.branches != path::Follow::none && deck.path.criticalPoints == Path::Critical::Off) {
+    root.at("path").at("branches").fail("needs critical_points: automatic or every_step");
+  }
+}
+
 void checkReferences(const Value& root, const Deck& deck) {
   checkMaterials(root.at("materials"), deck);
   checkSections(root, deck);
@@ -133,6 +144,7 @@ void checkReferences(const Value& root, const Deck& deck) {
     checkMonitor(root.at("output").at("monitors").at(monitor.name), monitor, deck);
   }
   checkStop(root.at("path").at("stop"), deck);
+  checkBranches(root, deck);
   const auto& fields = deck.output.fields;
   if (deck.contacts.empty() &&
       std::find(fields.begin(), fields.end(), OutputField::Contact) != fields.end()) {

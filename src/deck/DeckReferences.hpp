@@ -9,4 +9,7 @@ namespace atrapos::deck {
 /// Throws DeckError.
 void checkReferences(const Value& root, const Deck& deck);
 
+/// Checks that what the deck asks for at bifurcation points can be done. Throws DeckError.
+void checkBranches(const Value& root, const Deck& deck);
+
 }  // namespace atrapos::deck

@@ -53,6 +53,17 @@ const Table<Output>& outputTable() {
   return table;
 }
 
+Field<Deck> solverField() {
+  auto solver = block("solver", optional, &Deck::solver, solverTable(), "factors the tangent");
+  solver.read = [inner = solver.read](const Value& v, Deck& deck) {
+    inner(v, deck);
+    if (deck.solver.type == Solver::Type::Amesos2 && deck.solver.name.empty()) {
+      v.failMissing("name", "Amesos2's name of a solver, for example klu2");
+    }
+  };
+  return solver;
+}
+
 const Table<Deck>& deckTable() {
   static const Table<Deck> table = [] {
     auto title = text("title", optional, &Deck::title, "a text", "of the result file");
@@ -76,13 +87,6 @@ const Table<Deck>& deckTable() {
       const bool plain = deck.shells.sections.empty() && deck.shells.foldAngle == Shells{}.foldAngle;
       return plain ? Node{} : inner(deck);
     };
-    auto solver = block("solver", optional, &Deck::solver, solverTable(), "factors the tangent");
-    solver.read = [inner = solver.read](const Value& v, Deck& deck) {
-      inner(v, deck);
-      if (deck.solver.type == Solver::Type::Amesos2 && deck.solver.name.empty()) {
-        v.failMissing("name", "Amesos2's name of a solver, for example klu2");
-      }
-    };
     return Table<Deck>{
         title,
         block("mesh", required, &Deck::mesh, meshTable(), "the body's mesh"),
@@ -96,7 +100,7 @@ const Table<Deck>& deckTable() {
         entries("contact", optional, &Deck::contacts, contactTable(), "each with tool, set, stiffness, ...",
                 "which part of the body may touch which tool"),
         block("path", required, &Deck::path, pathTable(), "how to follow the path and where to end"),
-        solver,
+        solverField(),
         block("output", optional, &Deck::output, outputTable(), "what to write")};
   }();
   return table;

@@ -22,11 +22,18 @@ const Variants<Tool, decltype(Tool::surface)>& toolVariants();
 const Table<Contact>& contactTable();
 const Table<Stop>& stopTable();
 const Table<Path>& pathTable();
+/// The same for model problems, which bring stops of their own.
+const Table<Path>& modelPathTable();
 const Table<Solver>& solverTable();
 const Variants<Monitor, decltype(Monitor::quantity)>& monitorVariants();
 const Table<Output>& outputTable();
 const Table<MeshInput>& meshTable();
 const Table<Deck>& deckTable();
+const Table<ModelProblem>& modelTable();
+/// The keys of decks with a model problem.
+const Table<Deck>& problemDeckTable();
+/// The block solver of both kinds of decks.
+Field<Deck> solverField();
 
 /// Where in a shell's thickness, with their words.
 const Choices<ShellPlace>& shellPlaces();

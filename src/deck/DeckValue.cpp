@@ -20,6 +20,7 @@ const Check positive{[](double x) { return x > 0; }, "positive"};
 const Check nonzero{[](double x) { return x != 0; }, "different from zero"};
 const Check fraction{[](double x) { return x > 0 && x < 1; }, "above 0 and below 1"};
 const Check count{[](double x) { return x >= 1; }, "at least 1"};
+const Check natural{[](double x) { return x >= 0; }, "at least 0"};
 const Check order{[](double x) { return x >= 1 && x <= 60; }, "from 1 to 60"};
 const Check degree{[](double x) { return x >= 1 && x <= 20; }, "from 1 to 20"};
 const Check direction{[](double x) { return x == 1 || x == -1; }, "1 or -1"};
@@ -110,6 +111,8 @@ void Value::failMissing(const std::string& key, const std::string& accepts) cons
 }
 
 bool Value::isText() const { return as<std::string>(entry_) != nullptr; }
+
+bool Value::isList() const { return entry_ != nullptr && entry_->isArray(); }
 
 std::vector<std::string> Value::keys() const {
   if (!isMap()) {

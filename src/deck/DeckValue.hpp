@@ -15,7 +15,7 @@ struct Check {
 };
 
 namespace check {
-extern const Check any, positive, nonzero, fraction, count, order, degree, direction, poissonsRatio,
+extern const Check any, positive, nonzero, fraction, count, natural, order, degree, direction, poissonsRatio,
     acuteAngle, slopeAngle;
 }
 
@@ -27,6 +27,8 @@ class Value {
   bool isMap() const { return list_ != nullptr; }
   bool isEmptyMap() const { return list_ != nullptr && list_->numParams() == 0; }
   bool isText() const;
+  /// A list of numbers or texts.
+  bool isList() const;
 
   /// Keys of a map, in the deck's order.
   std::vector<std::string> keys() const;

@@ -94,7 +94,9 @@ void printKeys(const std::string& path, const Variants<E, Variant>& variants, st
 
 }  // namespace
 
-void describe(const Deck& deck, std::ostream& out) { printLines(print(deckTable(), deck), 0, out); }
+void describe(const Deck& deck, std::ostream& out) {
+  printLines(print(deck.problem ? problemDeckTable() : deckTable(), deck), 0, out);
+}
 
 void describeKeys(std::ostream& out) {
   printKeys("", deckTable(), out);
@@ -109,6 +111,7 @@ void describeKeys(std::ostream& out) {
   printKeys("contact/NAME/", contactTable(), out);
   printKeys("path/", pathTable(), out);
   printKeys("path/stop/", stopTable(), out);
+  printKeys("problem/", modelTable(), out);
   printKeys("solver/", solverTable(), out);
   printKeys("output/", outputTable(), out);
   printKeys("output/monitors/NAME/", monitorVariants(), out);

@@ -1,5 +1,5 @@
 // Keys of the blocks that say how to go along the path and what to write: path, solver, output.
-#include <set>
+#include <vector>
 
 #include "deck/DeckTables.hpp"
 
@@ -34,23 +34,126 @@ Field<ContactForceMonitor> nearestPoint() {
           }};
 }
 
-Field<Stop> stopDisplacement() {
-  return {"displacement",
+/// One number, or a list of them.
+std::vector<double> oneOrMore(const Value& v, const Check& check) {
+  if (!v.isList()) {
+    return {v.real(check)};
+  }
+  const auto values = v.reals();
+  for (const double value : values) {
+    if (!check.holds(value)) {
+      v.fail(fmt::format("must be {}, got {}", check.words, value));
+    }
+  }
+  return values;
+}
+
+Node oneOrMore(const std::vector<double>& values) {
+  return values.size() == 1 ? Node{yaml(values[0]), {}} : Node{yamlList(values), {}};
+}
+
+Field<Stop> stopLoadFactor() {
+  return {"load_factor",
           false,
-          "a map of displacement monitors' names to values",
-          "ends where a monitor takes its value",
+          "a number or a list of numbers, different from zero",
+          "ends where the load factor takes one of these values",
+          [](const Value& v, Stop& s) { s.loadFactors = oneOrMore(v, check::nonzero); },
+          [](const Stop& s) { return s.loadFactors.empty() ? Node{} : oneOrMore(s.loadFactors); }};
+}
+
+Field<Stop> stopMonitors(std::string key, std::string accepts) {
+  return {std::move(key),
+          false,
+          std::move(accepts),
+          "ends where a monitor takes a value",
           [](const Value& v, Stop& s) {
             for (const auto& monitor : v.keys()) {
-              s.displacement[monitor] = v.at(monitor).real();
+              s.monitors[monitor] = oneOrMore(v.at(monitor), check::any);
             }
           },
           [](const Stop& s) {
             Node node;
-            for (const auto& [monitor, value] : s.displacement) {
-              node.children.emplace_back(monitor, Node{yaml(value), {}});
+            for (const auto& [monitor, values] : s.monitors) {
+              node.children.emplace_back(monitor, oneOrMore(values));
             }
             return node;
           }};
+}
+
+Field<Path> orderOrAuto() {
+  return {
+      "order",
+      false,
+      fmt::format("a whole number, {}, or auto", check::order.words),
+      "order K of the series; auto: the cheapest by the costs measured while running",
+      [](const Value& v, Path& s) {
+        if (v.isText() && v.text() == "auto") {
+          s.autoOrder = true;
+          return;
+        }
+        if (v.isText()) {
+          v.fail(fmt::format("expected a whole number, {}, or auto, got {}", check::order.words, v.shown()));
+        }
+        s.order = v.integer(check::order);
+      },
+      [](const Path& s) {
+        return Node{s.autoOrder ? "auto" : yaml(s.order), {}};
+      }};
+}
+
+Field<Path> keepsRestart() {
+  return {"restart",
+          false,
+          "true or false",
+          "keeps what `atrapos run --restart` needs, at every step",
+          [](const Value& v, Path& s) { s.restart = v.boolean(); },
+          [](const Path& s) {
+            return Node{s.restart ? "true" : "false", {}};
+          }};
+}
+
+Table<Stop> stopKeys(Field<Stop> monitors) {
+  return {stopLoadFactor(),
+          integer("steps", optional, &Stop::steps, check::count, "largest number of steps of a branch"),
+          real("path_length", &Stop::pathLength, check::positive, "ends at this length of the path"),
+          std::move(monitors)};
+}
+
+Table<Path> pathKeys(const Table<Stop>& stops, Need needStop) {
+  static const Choices<path::PadeUse> padeUses{
+      {"off", path::PadeUse::off}, {"automatic", path::PadeUse::automatic}, {"on", path::PadeUse::on}};
+  static const Choices<Path::Critical> searches{{"off", Path::Critical::Off},
+                                                {"automatic", Path::Critical::Automatic},
+                                                {"every_step", Path::Critical::EveryStep}};
+  static const Choices<path::Follow> follows{
+      {"none", path::Follow::none}, {"stable", path::Follow::stable}, {"all", path::Follow::all}};
+  auto stop = block("stop", needStop, &Path::stop, stops, "where the path ends: whichever comes first");
+  stop.read = [inner = stop.read, keys = keysOf(stops)](const Value& v, Path& s) {
+    inner(v, s);
+    if (v.keys().empty()) {
+      v.fail("is empty; expected at least one of " + joined(keys));
+    }
+  };
+  return {
+      orderOrAuto(),
+      real("accuracy", optional, &Path::accuracy, check::fraction,
+           "delta of eq. (36), sets the length of a step"),
+      real("residual", optional, &Path::residual, check::fraction, "bound of the relative residual"),
+      integer("direction", optional, &Path::direction, check::direction,
+              "1: the load factor first grows, -1: falls; of model problems: its own sense, or the other"),
+      real("weight", &Path::weight, check::positive,
+           "w of the path parameter: of displacements against the load factor"),
+      choice("pade", optional, &Path::pade, padeUses, "where rational series stand in for polynomials"),
+      choice("critical_points", optional, &Path::criticalPoints, searches,
+             "which bifurcation points are looked for"),
+      choice("branches", optional, &Path::branches, follows,
+             "which branches are followed at bifurcation points"),
+      integer("branch_depth", optional, &Path::branchDepth, check::natural,
+              "most bifurcations between the first path and a branch"),
+      integer("branch_count", optional, &Path::branchCount, check::natural,
+              "most branches followed besides the first path"),
+      keepsRestart(),
+      stop};
 }
 
 }  // namespace
@@ -66,33 +169,20 @@ const Choices<OutputField>& outputFields() {
 std::string wordOf(Component component) { return wordOf(component, allComponents()); }
 
 const Table<Stop>& stopTable() {
-  static const Table<Stop> table{
-      real("load_factor", &Stop::loadFactor, check::nonzero, "ends where the load factor takes this value"),
-      integer("steps", optional, &Stop::steps, check::count, "largest number of steps"),
-      real("path_length", &Stop::pathLength, check::positive, "ends at this length of the path"),
-      stopDisplacement()};
+  static const Table<Stop> table = stopKeys(
+      stopMonitors("displacement", "a map of displacement monitors' names to values, or to lists of values"));
   return table;
 }
 
 const Table<Path>& pathTable() {
-  static const Table<Path> table = [] {
-    auto stop =
-        block("stop", required, &Path::stop, stopTable(), "where the path ends: whichever comes first");
-    stop.read = [inner = stop.read](const Value& v, Path& s) {
-      inner(v, s);
-      if (v.keys().empty()) {
-        v.fail("is empty; expected at least one of " + joined(keysOf(stopTable())));
-      }
-    };
-    return Table<Path>{
-        integer("order", optional, &Path::order, check::order, "order K of the series"),
-        real("accuracy", optional, &Path::accuracy, check::fraction,
-             "delta of eq. (36), sets the length of a step"),
-        real("residual", optional, &Path::residual, check::fraction, "bound of the relative residual"),
-        integer("direction", optional, &Path::direction, check::direction,
-                "1: the load factor first grows, -1: falls"),
-        stop};
-  }();
+  static const Table<Path> table = pathKeys(stopTable(), required);
+  return table;
+}
+
+const Table<Path>& modelPathTable() {
+  static const Table<Stop> stop =
+      stopKeys(stopMonitors("monitor", "a map of the problem's monitors to values, or to lists of values"));
+  static const Table<Path> table = pathKeys(stop, optional);
   return table;
 }
 

@@ -146,10 +146,10 @@ TEST(Deck, goodDeckGivesItsValues) {
   EXPECT_EQ(deck.path.accuracy, 1e-6);
   EXPECT_EQ(deck.path.residual, 1e-6);
   EXPECT_EQ(deck.path.direction, 1);
-  EXPECT_EQ(deck.path.stop.loadFactor, 0.25);
+  EXPECT_EQ(deck.path.stop.loadFactors, std::vector<double>{0.25});
   EXPECT_EQ(deck.path.stop.steps, 1000);
   EXPECT_FALSE(deck.path.stop.pathLength);
-  EXPECT_TRUE(deck.path.stop.displacement.empty());
+  EXPECT_TRUE(deck.path.stop.monitors.empty());
   EXPECT_EQ(deck.solver.spec(), "mumps");
 
   EXPECT_EQ(deck.output.pointsPerStep, 5);
@@ -237,10 +237,11 @@ output:
   EXPECT_EQ(deck.path.accuracy, 1e-8);
   EXPECT_EQ(deck.path.residual, 1e-7);
   EXPECT_EQ(deck.path.order, 60);
-  EXPECT_FALSE(deck.path.stop.loadFactor);
+  EXPECT_TRUE(deck.path.stop.loadFactors.empty());
   EXPECT_EQ(deck.path.stop.steps, 7);
   EXPECT_EQ(deck.path.stop.pathLength, 100.0);
-  EXPECT_EQ(deck.path.stop.displacement, (std::map<std::string, double>{{"u", -50}, {"v", 1.5}}));
+  EXPECT_EQ(deck.path.stop.monitors,
+            (std::map<std::string, std::vector<double>>{{"u", {-50}}, {"v", {1.5}}}));
   EXPECT_EQ(deck.solver.spec(), "amesos2:klu2");
   EXPECT_EQ(deck.output.pointsPerStep, 1);
   EXPECT_EQ(deck.output.fields, (std::vector<OutputField>{OutputField::Contact, OutputField::Displacement}));
@@ -252,6 +253,47 @@ output:
   EXPECT_EQ(std::get<ContactForceMonitor>(deck.output.monitors[3].quantity).component, Component::X);
   EXPECT_EQ(std::get<ReactionMonitor>(deck.output.monitors[4].quantity).support, "held");
   EXPECT_EQ(std::get<ReactionMonitor>(deck.output.monitors[4].quantity).component, Component::Z);
+}
+
+TEST(Deck, pathKeys) {
+  const Deck plain = readDeckText(goodDeck, "solid.yaml");
+  EXPECT_FALSE(plain.path.autoOrder);
+  EXPECT_FALSE(plain.path.weight);
+  EXPECT_EQ(plain.path.pade, path::PadeUse::off);
+  EXPECT_EQ(plain.path.criticalPoints, Path::Critical::Automatic);
+  EXPECT_EQ(plain.path.branches, path::Follow::none);
+  EXPECT_TRUE(plain.path.restart);
+  std::string text =
+      changed("  order: 15\n",
+              "  order: auto\n  weight: 0.25\n  pade: automatic\n  critical_points: every_step\n"
+              "  branches: stable\n  branch_depth: 2\n  branch_count: 7\n  restart: false\n");
+  text.replace(text.find("{load_factor: 0.25}"), 19,
+               "{load_factor: [0.5, -0.25], displacement: {tip_uz: [-5, 5]}}");
+  const Deck deck = readDeckText(text, "solid.yaml");
+  EXPECT_TRUE(deck.path.autoOrder);
+  EXPECT_EQ(deck.path.weight, 0.25);
+  EXPECT_EQ(deck.path.pade, path::PadeUse::automatic);
+  EXPECT_EQ(deck.path.criticalPoints, Path::Critical::EveryStep);
+  EXPECT_EQ(deck.path.branches, path::Follow::stable);
+  EXPECT_EQ(deck.path.branchDepth, 2);
+  EXPECT_EQ(deck.path.branchCount, 7);
+  EXPECT_FALSE(deck.path.restart);
+  EXPECT_EQ(deck.path.stop.loadFactors, (std::vector<double>{0.5, -0.25}));
+  EXPECT_EQ(deck.path.stop.monitors.at("tip_uz"), (std::vector<double>{-5, 5}));
+  const std::string once = described(deck);
+  EXPECT_EQ(described(readDeckText(once, "solid.yaml")), once);
+}
+
+TEST(Deck, modelProblems) {
+  const Deck deck =
+      readDeckText("problem: {name: bratu_1d, parameters: {points: 12}}\n", "folder/bratu.yaml");
+  ASSERT_TRUE(deck.problem);
+  EXPECT_EQ(deck.problem->name, "bratu_1d");
+  EXPECT_EQ(deck.problem->parameters, (std::map<std::string, double>{{"points", 12}}));
+  EXPECT_EQ(deck.title, "bratu");
+  EXPECT_TRUE(deck.path.stop.loadFactors.empty());
+  const std::string once = described(deck);
+  EXPECT_EQ(described(readDeckText(once, "bratu.yaml")), once);
 }
 
 TEST(Deck, shapesToGenerate) {
@@ -341,7 +383,7 @@ TEST(Deck, examplesParse) {
     // larger.
     EXPECT_NEAR(roll.center[2] + roll.radius, -4.4, 4 * 54.4 * std::numeric_limits<double>::epsilon());
     EXPECT_EQ(std::get<SurfaceLoad>(deck->loads.at(0).load).vector, (Vector3{0, 0, -100}));
-    EXPECT_EQ(deck->path.stop.loadFactor, 0.25);
+    EXPECT_EQ(deck->path.stop.loadFactors, std::vector<double>{0.25});
     ASSERT_EQ(deck->output.monitors.size(), 3u);
     EXPECT_NO_THROW(checkAgainstMesh(*deck, fem::stripMesh(strip)));
   }
@@ -688,6 +730,18 @@ TEST(BadDeck, references) {
   std::string withField = changed(contact, "");
   withField.replace(withField.find("output:"), 7, "output:\n  fields: [contact]");
   expectError(withField, "output/fields: 'contact' needs the block contact", {"(line 21)"});
+}
+
+TEST(BadDeck, pathKeys) {
+  expectError("order: 15", "order: best", "path/order:", {"'best'", "auto"});
+  expectError("order: 15", "weight: -1", "path/weight:", {"positive", "-1"});
+  expectError("order: 15", "pade: perhaps", "path/pade:", {"'perhaps'", "off, automatic, on"});
+  expectError("order: 15", "branches: yes", "path/branches:", {"none, stable, all"});
+  expectError("order: 15", "branch_depth: -1", "path/branch_depth:", {"at least 0"});
+  expectError("order: 15", "restart: 3", "path/restart:", {"true or false"});
+  expectError("load_factor: 0.25", "load_factor: [1, 0]", "path/stop/load_factor:", {"different from zero"});
+  expectError("load_factor: 0.25", "monitor: {tip_uz: 1}", "path/stop/monitor:", {"is not a key here"});
+  expectError("order: 15", "branches: all\n  critical_points: off", "path/branches:", {"critical_points"});
 }
 
 TEST(BadDeck, nothingToDrive) {

@@ -174,6 +174,7 @@ BranchDiagram BranchFollower::run(const State& start, BranchObserver& observer) 
   PathFollower follower(problem_, solver_, options_, stops_);
   diagram.branches.emplace_back();
   diagram.branches[0].start = start;
+  observer.onBranch(diagram, 0);
   const State first = start;
   tracer.start = &first;
   diagram.branches[0].outcome = follower.run(start, tracer);
@@ -212,6 +213,7 @@ BranchDiagram BranchFollower::run(const State& start, BranchObserver& observer) 
       branch.outcome.text = branch.end == BranchEnd::noStart ? "no equilibrium found next to the point"
                                                              : "not followed: it is not stable";
       diagram.branches.push_back(std::move(branch));
+      observer.onBranch(diagram, static_cast<int>(diagram.branches.size()) - 1);
       continue;
     }
     ++followed;
@@ -224,6 +226,7 @@ BranchDiagram BranchFollower::run(const State& start, BranchObserver& observer) 
     const State begin = *switched.state;
     tracer.start = &begin;
     diagram.branches.push_back(std::move(branch));
+    observer.onBranch(diagram, tracer.current);
     Outcome outcome = follower.runFrom(from, tracer);
     tracer.explain(outcome);
     diagram.branches[tracer.current].outcome = std::move(outcome);

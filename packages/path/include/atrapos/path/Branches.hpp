@@ -60,6 +60,9 @@ struct BranchDiagram {
 class BranchObserver {
  public:
   virtual ~BranchObserver() = default;
+  /// Before the first step of a branch, and for those that are not followed; `diagram` has the branch and all
+  /// points found so far.
+  virtual void onBranch(const BranchDiagram& /*diagram*/, int /*branch*/) {}
   /// Every step of every branch. Return false to end everything.
   virtual bool onStep(int branch, const StepReport& report, const Series& series) = 0;
 };

@@ -20,7 +20,10 @@
 ///     template <class S> std::vector<S> internal(const std::vector<S>& u, const S& lambda) const;  // may be
 ///     empty
 ///
-/// Everything else (tangent, F, orders) is read off Jets. One rank, dense graph.
+/// Everything else (tangent, F, orders) is read off Jets. One rank, dense graph. A law whose tangent is not
+/// symmetric has `bool symmetric() const`, false; one with Lagrange multipliers among its unknowns says how
+/// many
+/// (`int multipliers() const`): each owes a negative pivot.
 template <class Law>
 class JetProblem : public atrapos::path::Problem {
  public:
@@ -42,6 +45,8 @@ class JetProblem : public atrapos::path::Problem {
 
   const Law& law() const { return law_; }
   Teuchos::RCP<const Map> map() const override { return map_; }
+  bool symmetric() const override { return symmetric(law_, 0); }
+  int constraintPivots() const override { return multipliers(law_, 0); }
 
   /// A state from plain numbers.
   Teuchos::RCP<Vector> vector(const std::vector<double>& x) const {
@@ -137,6 +142,23 @@ class JetProblem : public atrapos::path::Problem {
   int residuals = 0;
 
  protected:
+  template <class L>
+  static auto symmetric(const L& law, int) -> decltype(law.symmetric()) {
+    return law.symmetric();
+  }
+  template <class L>
+  static bool symmetric(const L&, long) {
+    return true;
+  }
+  template <class L>
+  static auto multipliers(const L& law, int) -> decltype(law.multipliers()) {
+    return law.multipliers();
+  }
+  template <class L>
+  static int multipliers(const L&, long) {
+    return 0;
+  }
+
   std::vector<Jet> jets(const Vector& u) const {
     const auto data = u.getData();
     return std::vector<Jet>(data.begin(), data.end());

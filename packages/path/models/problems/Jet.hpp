@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <utility>
 #include <vector>
 
 /// A truncated power series with plain O(K^2) arithmetic, re-evaluated from scratch: slow, short, and sharing
@@ -31,6 +32,11 @@ class Jet {
       for (std::size_t i = 0; i <= k; ++i) p[k] += a[i] * b[k - i];
     return p;
   }
+  friend Jet operator*(double a, Jet b) {
+    for (std::size_t k = 0; k < terms; ++k) b[k] *= a;
+    return b;
+  }
+  friend Jet operator*(Jet a, double b) { return b * std::move(a); }
   friend Jet operator/(const Jet& a, const Jet& b) {
     Jet q;
     for (std::size_t k = 0; k < terms; ++k) {

@@ -33,6 +33,7 @@ struct ChebyshevBratu : NoInternal {
   }
   int size() const { return dimension == 1 ? half : half * half; }
   double scale() const { return 10; }
+  bool symmetric() const { return false; }
   template <class S>
   std::vector<S> residual(const std::vector<S>& u, const S& lambda) const {
     std::vector<S> r;

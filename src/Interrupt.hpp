@@ -1,0 +1,21 @@
+#pragma once
+
+namespace atrapos {
+
+/// While one lives, SIGINT and SIGTERM are noted instead of ending the process: a path ends after the step
+/// under way, with all results in order.
+class Interrupt {
+ public:
+  Interrupt();
+  ~Interrupt();
+  Interrupt(const Interrupt&) = delete;
+  Interrupt& operator=(const Interrupt&) = delete;
+
+  static bool came();
+
+ private:
+  void (*interrupt_)(int);
+  void (*terminate_)(int);
+};
+
+}  // namespace atrapos

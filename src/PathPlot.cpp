@@ -1,0 +1,77 @@
+#include "PathPlot.hpp"
+
+#include <fmt/format.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "Files.hpp"
+
+namespace atrapos {
+namespace {
+
+std::string quoted(std::string text) {
+  std::replace(text.begin(), text.end(), '"', '\'');
+  std::replace(text.begin(), text.end(), '\\', '/');
+  return text;
+}
+
+const char* colour(int branch) {
+  static const char* colours[] = {"#1f5fa8", "#c0392b", "#2e8b57", "#8e44ad",
+                                  "#d68910", "#117a8b", "#7f8c8d"};
+  return colours[branch % 7];
+}
+
+/// One panel; columns of path.csv and points.csv that are its abscissa.
+std::string panel(const std::string& name, int column, int pointColumn, int stability, int branches) {
+  std::string script = fmt::format("set xlabel \"{}\"\nplot ", quoted(name));
+  for (int b = 0; b < branches; ++b) {
+    const auto curve = [&](const std::string& where, const std::string& style) {
+      script += fmt::format("'path.csv' skip 1 using {}:(${} == {}{} ? $3 : NaN) {} lc rgb '{}', \\\n  ",
+                            column, stability + 1, b, where, style, colour(b));
+    };
+    // A thin line through everything, a thick one where the state is stable or nothing is known.
+    curve("", "with lines lw 1 dt 3");
+    curve(fmt::format(" && ${} <= 0", stability), "with lines lw 2");
+    curve("", "with points pt 7 ps 0.3");
+  }
+  // Bifurcation points have null vectors, limit points have none.
+  script += fmt::format(
+      "'points.csv' skip 1 using {0}:($7 > 0 ? $4 : NaN) with points pt 5 ps 1 lc rgb 'black', \\\n"
+      "  '' skip 1 using {0}:($7 == 0 ? $4 : NaN) with points pt 6 ps 1.2 lc rgb 'black'\n",
+      pointColumn);
+  return script;
+}
+
+}  // namespace
+
+std::string plotPath(const std::string& directory, const std::string& title,
+                     const std::vector<std::string>& monitors, int branches) {
+  const int plots = std::max<int>(1, static_cast<int>(monitors.size()));
+  const int columns = static_cast<int>(std::ceil(std::sqrt(static_cast<double>(plots))));
+  const int rows = (plots + columns - 1) / columns;
+  std::string script = fmt::format(
+      "set terminal pngcairo noenhanced size {},{} font 'sans,11'\nset output 'path.png'\n"
+      "set datafile separator ','\nset datafile missing NaN\nset grid\nset key off\n"
+      "set multiplot layout {},{} title \"{}\"\nset ylabel 'load factor'\n",
+      480 * columns, 400 * rows + 40, rows, columns, quoted(title));
+  const int stability = 4 + static_cast<int>(monitors.size());
+  if (monitors.empty()) script += panel("path length", 2, 3, stability, branches);
+  for (int m = 0; m < static_cast<int>(monitors.size()); ++m)
+    script += panel(monitors[m], 4 + m, 9 + m, stability, branches);
+  script += "unset multiplot\n";
+  replaceFile(directory + "/path.gp", script);
+
+  std::string shellSafe = "'";
+  for (char c : directory) shellSafe += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  shellSafe += "'";
+  const int status = std::system(("cd " + shellSafe + " && gnuplot path.gp >/dev/null 2>&1").c_str());
+  if (status == -1 || !WIFEXITED(status)) return "path.png not drawn: gnuplot could not be started";
+  if (WEXITSTATUS(status) == 127) return "path.png not drawn: gnuplot is not installed (path.gp draws it)";
+  if (WEXITSTATUS(status) != 0) return "path.png not drawn: gnuplot failed (see path.gp)";
+  return "";
+}
+
+}  // namespace atrapos

@@ -1,0 +1,68 @@
+#pragma once
+
+#include <chrono>
+#include <iosfwd>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "PathCase.hpp"
+#include "PathTable.hpp"
+#include "RestartFile.hpp"
+#include "atrapos/path/Branches.hpp"
+
+namespace atrapos {
+
+/// An earlier run that goes on.
+struct Continued {
+  std::string directory;  ///< of its results
+  path::Start from;
+};
+
+/// Writes what a run finds, step by step: path.csv, points.csv, restart.bin, results.exo and
+/// results_branch<n>.exo; one line a step for the user. Every finished step is on disk before the next one
+/// begins, its restart record last.
+class Recorder final : public path::BranchObserver {
+ public:
+  /// `progress` may be null. Throws std::invalid_argument where the continued run does not fit the deck.
+  Recorder(PathCase& pathCase, std::string directory, std::ostream* progress,
+           const std::optional<Continued>& continued);
+  ~Recorder() override;
+
+  void onBranch(const path::BranchDiagram& diagram, int branch) override;
+  /// False after SIGINT or SIGTERM.
+  bool onStep(int branch, const path::StepReport& report, const path::Series& series) override;
+
+  /// The start of the path where no step was made.
+  void finish(const path::State& start);
+
+  int limitPoints() const { return limitPoints_; }
+  int unexplained() const { return unexplained_; }
+  double worstResidual() const { return worstResidual_; }  ///< over all output points
+  double outputSeconds() const { return outputSeconds_; }
+  double seconds() const;
+
+ private:
+  std::string file(const std::string& name) const { return directory_ + "/" + name; }
+  void goOn(const Continued& continued);
+  void writeStart(const path::Vector& u, double lambda, long long negative);
+  void writeRow(int step, double pathLength, const path::Vector& u, double lambda, long long negative);
+  void writePoints(const path::StepReport& report, const path::Series& series);
+  void printHead() const;
+  void printStep(const path::StepReport& report) const;
+
+  PathCase& case_;
+  std::string directory_;
+  std::ostream* progress_;
+  Table path_, points_;
+  std::optional<RestartFile> restart_;
+  std::unique_ptr<FieldFile> fields_;  ///< of the branch under way
+  path::RCP<path::Vector> work_, residual_;
+  std::chrono::steady_clock::time_point start_;
+  int branch_ = 0;
+  bool started_ = false;  ///< the start of the branch under way is written
+  int limitPoints_ = 0, unexplained_ = 0;
+  double worstResidual_ = 0, outputSeconds_ = 0;
+};
+
+}  // namespace atrapos

@@ -1,0 +1,94 @@
+#include "SceneCase.hpp"
+
+#include <fmt/format.h>
+
+#include <sstream>
+#include <stdexcept>
+
+#include "atrapos/exodus/ResultReader.hpp"
+#include "atrapos/exodus/ResultWriter.hpp"
+
+namespace atrapos {
+namespace {
+
+const std::vector<std::string> kGlobals = {"load_factor",   "path_parameter",  "series_radius",
+                                           "series_order",  "negative_pivots", "active_contacts",
+                                           "residual_norm", "branch"};
+
+std::vector<double> flat(const std::vector<std::vector<double>>& variables) {
+  std::vector<double> all;
+  for (const auto& v : variables) all.insert(all.end(), v.begin(), v.end());
+  return all;
+}
+
+class SceneFields final : public FieldFile {
+ public:
+  SceneFields(const SceneCase& owner, const Scene& scene, const std::string& file)
+      : owner_(owner), scene_(scene), names_(names(scene)), writer_(file, scene.resultMesh(), names_) {}
+
+  void write(const path::Vector& u, double lambda, const StateNumbers& n) override {
+    writer_.writeStep(
+        n.pathLength, flat(scene_.nodalValues(u, lambda)), flat(scene_.elementValues(u, lambda)),
+        std::vector<double>{lambda, n.pathLength, n.radius, double(n.order), double(n.negative),
+                            double(owner_.activeContacts(u, lambda)), n.residual, double(n.branch)});
+  }
+
+  void copyFrom(const std::string& file, int count) override {
+    const exodus::ResultReader reader(file);
+    if (reader.nodalNames() != names_.nodal || reader.elementNames() != names_.element ||
+        reader.globalNames() != names_.global)
+      throw std::invalid_argument(fmt::format("{}: holds other fields than output/fields asks for", file));
+    if (reader.numSteps() < count)
+      throw std::invalid_argument(
+          fmt::format("{}: holds {} states, {} are needed", file, reader.numSteps(), count));
+    const auto times = reader.times();
+    for (int step = 0; step < count; ++step) {
+      std::vector<std::vector<double>> nodal, element;
+      for (const auto& name : names_.nodal) nodal.push_back(reader.nodal(step, name));
+      for (const auto& name : names_.element) element.push_back(reader.element(step, name));
+      writer_.writeStep(times[step], flat(nodal), flat(element), reader.globals(step));
+    }
+  }
+
+ private:
+  static exodus::ResultNames names(const Scene& scene) {
+    exodus::ResultNames names;
+    names.nodal = scene.nodalNames();
+    names.element = scene.elementNames();
+    names.global = kGlobals;
+    std::istringstream deck(scene.deck().text);
+    for (std::string line; std::getline(deck, line);) names.info.push_back(line);
+    return names;
+  }
+
+  const SceneCase& owner_;
+  const Scene& scene_;
+  exodus::ResultNames names_;
+  exodus::ResultWriter writer_;
+};
+
+}  // namespace
+
+path::State SceneCase::start() const { return {scene_.problem().initialState(0.0), 0.0}; }
+
+int SceneCase::activeContacts(const path::Vector& u, double lambda) const {
+  int active = 0;
+  for (const ContactPoints& contact : scene_.contacts())
+    active += scene_.contactState(contact, u, lambda).active;
+  return active;
+}
+
+std::unique_ptr<FieldFile> SceneCase::makeFieldFile(const std::string& file) const {
+  return std::make_unique<SceneFields>(*this, scene_, file);
+}
+
+std::vector<std::pair<std::string, long long>> SceneCase::sizes() const {
+  return {{"nodes", scene_.mesh().numNodes()},
+          {"elements", scene_.mesh().numElements()},
+          {"unknowns", scene_.numUnknowns()},
+          {"free_unknowns", scene_.problem().numFreeDofs()},
+          {"contact_points", scene_.numContactPoints()},
+          {"series_bytes", static_cast<long long>(scene_.problem().historyBytes(scene_.deck().path.order))}};
+}
+
+}  // namespace atrapos

@@ -1,0 +1,214 @@
+// Decks that follow branches: the diagram in path.csv, points.csv, branches.csv, summary.json and the result
+// files.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
+
+#include "atrapos/exodus/ResultReader.hpp"
+#include "support/Command.hpp"
+#include "support/Folder.hpp"
+
+namespace atrapos::test {
+namespace {
+
+/// A table of comma-separated values: rows of words, by the header's names.
+std::vector<std::map<std::string, std::string>> rows(const std::filesystem::path& file) {
+  std::istringstream in(readFile(file));
+  const auto words = [](const std::string& line) {
+    std::vector<std::string> list;
+    std::istringstream parts(line);
+    for (std::string word; std::getline(parts, word, ',');) list.push_back(word);
+    return list;
+  };
+  std::string line;
+  std::getline(in, line);
+  const auto header = words(line);
+  std::vector<std::map<std::string, std::string>> table;
+  while (std::getline(in, line)) {
+    const auto values = words(line);
+    EXPECT_EQ(values.size(), header.size()) << line;
+    auto& row = table.emplace_back();
+    for (std::size_t i = 0; i < std::min(values.size(), header.size()); ++i) row[header[i]] = values[i];
+  }
+  return table;
+}
+
+double number(const std::map<std::string, std::string>& row, const std::string& name) {
+  return std::stod(row.at(name));
+}
+
+class BranchDeck : public testing::Test {
+ protected:
+  nlohmann::json run(const std::string& deck) {
+    writeFile(folder_ / "deck.yaml", deck);
+    const CommandResult r = runAtrapos({"run", "deck.yaml"}, folder_.path());
+    EXPECT_EQ(r.exitCode, 0) << r.err;
+    out_ = r.out;
+    return nlohmann::json::parse(readFile(folder_ / "deck_results" / "summary.json"));
+  }
+  std::vector<std::map<std::string, std::string>> table(const std::string& name) const {
+    return rows(folder_ / "deck_results" / name);
+  }
+  TemporaryFolder folder_;
+  std::string out_;
+};
+
+TEST_F(BranchDeck, TrussThatSways) {
+  const auto summary = run("problem: {name: sway_truss}\npath: {branches: all}\n");
+  ASSERT_EQ(summary.at("branches").size(), 2u);
+  ASSERT_EQ(summary.at("points").size(), 2u);
+  EXPECT_EQ(summary.at("limit_points").get<int>() >= 2, true);
+  EXPECT_EQ(summary.at("branches")[1].at("end"), "joined");
+  EXPECT_EQ(summary.at("branches_complete"), true);
+  // x = 1 -+ sqrt(1 - 2 b^2), lambda = x (1 - x) (2 - x); points are exact to rounding.
+  for (const int i : {0, 1}) {
+    const double x = 1 + (i == 0 ? -1 : 1) * std::sqrt(0.5);
+    EXPECT_NEAR(summary.at("points")[i].at("load_factor"), x * (1 - x) * (2 - x), 1e-10);
+    EXPECT_NEAR(summary.at("points")[i].at("monitors").at("sinking"), x, 1e-10);
+    EXPECT_EQ(summary.at("points")[i].at("kind"), "pitchfork");
+  }
+  // Between the two points the straight truss has one negative eigenvalue, or two beyond its limit points.
+  std::set<std::string> seen;
+  for (const auto& row : table("path.csv")) {
+    const double x = number(row, "sinking");
+    const int negative = std::stoi(row.at("negative_eigenvalues"));
+    seen.insert(row.at("branch"));
+    if (row.at("branch") != "0") continue;
+    const bool sways = std::abs(x - 1) < std::sqrt(0.5), snaps = std::abs(x - 1) < std::sqrt(1.0 / 3);
+    EXPECT_EQ(negative, int(sways) + int(snaps)) << "x = " << x;
+  }
+  EXPECT_EQ(seen, (std::set<std::string>{"0", "1"}));
+  const auto branches = table("branches.csv");
+  ASSERT_EQ(branches.size(), 2u);
+  EXPECT_EQ(branches[1].at("parent"), "0");
+  EXPECT_EQ(branches[1].at("kind"), "pitchfork");
+  EXPECT_NE(out_.find("branch 1: from the pitchfork on branch 0"), std::string::npos) << out_;
+  int pitchforks = 0, folds = 0;
+  for (const auto& row : table("points.csv")) {
+    pitchforks += row.at("kind") == "pitchfork" && row.at("branch") == "0";
+    if (row.at("kind") != "maximum" && row.at("kind") != "minimum") continue;
+    if (row.at("branch") != "0") continue;
+    ++folds;
+    // 2 sqrt(3) / 9; the path's residual bound is 1e-6, the load is flat there.
+    EXPECT_NEAR(std::abs(number(row, "load_factor")), 2 / (3 * std::sqrt(3.0)), 1e-6);
+  }
+  EXPECT_EQ(pitchforks, 2);
+  EXPECT_EQ(folds, 2);
+}
+
+TEST_F(BranchDeck, StableOnesOnlyAndLimits) {
+  const std::string deck = "problem: {name: sway_truss}\npath: {branches: stable}\n";
+  const auto stable = run(deck);
+  for (std::size_t b = 1; b < stable.at("branches").size(); ++b) {
+    EXPECT_EQ(stable.at("branches")[b].at("end"), "notStable");
+    EXPECT_EQ(stable.at("branches")[b].at("steps"), 0);
+  }
+  const auto none = run("problem: {name: sway_truss}\npath: {branches: all, branch_count: 0}\n");
+  EXPECT_EQ(none.at("branches").size(), 1u);
+  EXPECT_EQ(none.at("branches_complete"), false);
+  const auto shallow = run("problem: {name: sway_truss}\npath: {branches: all, branch_depth: 0}\n");
+  EXPECT_EQ(shallow.at("branches").size(), 1u);
+}
+
+TEST_F(BranchDeck, ColumnOfSolids) {
+  const std::string example = std::string(ATRAPOS_EXAMPLES) + "/path/euler_column_solid.yaml";
+  writeFile(folder_ / "deck.yaml", readFile(example));
+  ASSERT_EQ(runAtrapos({"mesh", "-q", "deck.yaml"}, folder_.path()).exitCode, 0);
+  const auto summary = run(readFile(example));
+  ASSERT_GE(summary.at("points").size(), 1u);
+  // pi^2 EI / (4 L^2); the Saint Venant-Kirchhoff solid is shortened and sheared before it buckles, and 10
+  // elements are a little stiff: together below two per cent of the slender column's load.
+  const double EI = 210000.0 * 8 * 64 / 12, exact = M_PI * M_PI * EI / 4e4 / 2000;
+  EXPECT_NEAR(summary.at("points")[0].at("load_factor"), exact, 0.02 * exact);
+  ASSERT_GE(summary.at("branches").size(), 3u);
+  // The two halves are mirror images: the same load where the top has moved by 50.
+  std::vector<double> ends, loads;
+  for (const int b : {1, 2}) {
+    EXPECT_EQ(summary.at("branches")[b].at("ended"), "stopReached");
+    loads.push_back(summary.at("branches")[b].at("load_factor"));
+    const exodus::ResultReader fields(
+        (folder_ / "deck_results" / ("results_branch" + std::to_string(b) + ".exo")).string());
+    EXPECT_EQ(fields.numSteps(), summary.at("branches")[b].at("steps").get<int>() + 1);
+    for (int s = 0; s < fields.numSteps(); ++s) {
+      EXPECT_EQ(fields.global(s, "branch"), b);
+      EXPECT_EQ(fields.global(s, "negative_pivots"), 0);
+    }
+  }
+  // Relative residual bound 1e-6, on a column that is soft in bending.
+  EXPECT_NEAR(loads[0], loads[1], 1e-5 * loads[0]);
+  for (const auto& row : table("path.csv")) {
+    const int branch = std::stoi(row.at("branch"));
+    if (branch == 0)
+      EXPECT_EQ(number(row, "negative_eigenvalues") > 0,
+                number(row, "load_factor") > summary.at("points")[0].at("load_factor"))
+          << row.at("load_factor");
+  }
+  // A second run without branches: what those of the first left is gone.
+  const auto alone = run(edited(readFile(example), "branches: all", "branches: none"));
+  EXPECT_EQ(alone.at("branches").size(), 1u);
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "deck_results" / "results_branch1.exo"));
+}
+
+TEST_F(BranchDeck, ProblemsAndTheirParameters) {
+  const auto summary =
+      run("problem: {name: bratu_1d, parameters: {points: 20}}\n"
+          "path: {accuracy: 1.0e-8, residual: 1.0e-10, stop: {monitor: {middle: 2}}}\n");
+  EXPECT_EQ(summary.at("unknowns"), 20);
+  const auto points = table("points.csv");
+  ASSERT_EQ(points.size(), 1u);
+  EXPECT_EQ(points[0].at("kind"), "maximum");
+  // Fold of -u'' = lambda exp(u) to 13 digits (computed independently); collocation of 40 points is exact to
+  // rounding, the path to its residual bound.
+  EXPECT_NEAR(number(points[0], "load_factor"), 3.513830719125161, 1e-8);
+  EXPECT_NEAR(number(table("path.csv").back(), "middle"), 2, 1e-12);
+}
+
+TEST_F(BranchDeck, ProblemDecksThatAreWrong) {
+  const std::vector<std::pair<std::string, std::vector<std::string>>> cases{
+      {"problem: {name: bratu}", {"problem/name", "'bratu' is not a choice", "bratu_1d"}},
+      {"problem: {}", {"problem"}},
+      {"problem: {name: bratu_1d, parameters: {pints: 3}}",
+       {"problem/parameters/pints", "did you mean 'points'"}},
+      {"problem: {name: bratu_1d, parameters: {points: 2.5}}", {"problem/parameters", "points = 2.5"}},
+      {"problem: {name: bratu_1d}\nmesh: {file: a.exo}", {"mesh", "is not a key here"}},
+      {"problem: {name: bratu_1d}\npath: {stop: {monitor: {top: 1}}}", {"path/stop/monitor/top", "middle"}},
+      {"problem: {name: bratu_1d}\npath: {stop: {displacement: {middle: 1}}}", {"path/stop/displacement"}},
+      {"problem: {name: bratu_1d}\npath: {order: best}", {"path/order", "auto", "'best'"}},
+      {"problem: {name: bratu_1d}\npath: {pade: yes}", {"path/pade", "off, automatic, on"}},
+      {"problem: {name: bratu_1d}\npath: {weight: 0}", {"path/weight", "positive"}},
+      {"problem: {name: sway_truss}\npath: {branches: all, critical_points: off}",
+       {"path/branches", "critical_points"}},
+      {"problem: {name: sway_truss}\npath: {branches: all}\nsolver: {type: amesos2, name: klu2}",
+       {"path/branches", "mumps"}}};
+  for (const auto& [deck, words] : cases) {
+    SCOPED_TRACE(deck);
+    writeFile(folder_ / "deck.yaml", deck + "\n");
+    const CommandResult r = runAtrapos({"run", "deck.yaml"}, folder_.path());
+    EXPECT_EQ(r.exitCode, 2);
+    ASSERT_EQ(r.errorLines().size(), 1u) << r.err;
+    for (const auto& word : words) EXPECT_NE(r.err.find(word), std::string::npos) << word << ": " << r.err;
+  }
+  writeFile(folder_ / "deck.yaml", "problem: {name: bratu_1d}\n");
+  const CommandResult mesh = runAtrapos({"mesh", "deck.yaml"}, folder_.path());
+  EXPECT_EQ(mesh.exitCode, 2);
+  EXPECT_NE(mesh.err.find("no mesh"), std::string::npos) << mesh.err;
+}
+
+TEST_F(BranchDeck, CheckPrintsAProblemDeck) {
+  writeFile(folder_ / "deck.yaml",
+            "problem: {name: euler_column, parameters: {links: 12}}\npath: {order: auto}\n");
+  const CommandResult r = runAtrapos({"check", "deck.yaml"}, folder_.path());
+  EXPECT_EQ(r.exitCode, 0) << r.err;
+  for (const char* word : {"links: 12", "order: auto", "# unknowns  13", "# monitor   tip_rotation"})
+    EXPECT_NE(r.out.find(word), std::string::npos) << word << " is not in:\n" << r.out;
+  writeFile(folder_ / "printed.yaml", r.out);
+  EXPECT_EQ(runAtrapos({"check", "printed.yaml"}, folder_.path()).out,
+            edited(r.out, "title: deck", "title: deck"));
+}
+
+}  // namespace
+}  // namespace atrapos::test

@@ -1,0 +1,157 @@
+// Runs that go on: behind a kill, behind any step, into another folder, with other settings; every number is
+// that of one run.
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "atrapos/exodus/ResultReader.hpp"
+#include "support/Command.hpp"
+#include "support/Folder.hpp"
+#include "support/SmallDeck.hpp"
+
+namespace atrapos::test {
+namespace {
+
+/// Rows of path.csv up to and with a step.
+std::string rowsUpTo(const std::string& table, int step) {
+  const auto next = table.find("\n" + std::to_string(step + 1) + ",");
+  return table.substr(0, next == std::string::npos ? next : next + 1);
+}
+
+void expectSameResults(const std::filesystem::path& a, const std::filesystem::path& b) {
+  for (const char* name : {"path.csv", "points.csv", "restart.bin"})
+    EXPECT_TRUE(readFile(a / name) == readFile(b / name)) << name << " differs";
+  const exodus::ResultReader x((a / "results.exo").string()), y((b / "results.exo").string());
+  ASSERT_EQ(x.numSteps(), y.numSteps());
+  EXPECT_EQ(x.times(), y.times());
+  for (int s = 0; s < x.numSteps(); ++s) {
+    EXPECT_EQ(x.globals(s), y.globals(s)) << "state " << s;
+    for (const auto& name : x.nodalNames()) EXPECT_EQ(x.nodal(s, name), y.nodal(s, name)) << name << ' ' << s;
+    for (const auto& name : x.elementNames())
+      EXPECT_EQ(x.element(s, name), y.element(s, name)) << name << ' ' << s;
+  }
+}
+
+class Restart : public testing::Test {
+ protected:
+  void SetUp() override {
+    writeFile(folder_ / "deck.yaml", kSmallDeck);
+    ASSERT_EQ(runAtrapos({"mesh", "-q", "deck.yaml"}, folder_.path()).exitCode, 0);
+    ASSERT_EQ(runAtrapos({"run", "-q", "deck.yaml", "-o", "whole"}, folder_.path()).exitCode, 0);
+    whole_ = readFile(folder_ / "whole" / "path.csv");
+    steps_ = summary("whole").at("steps");
+    ASSERT_GT(steps_, 4);
+  }
+  nlohmann::json summary(const std::string& results) const {
+    return nlohmann::json::parse(readFile(folder_ / results / "summary.json"));
+  }
+  void run(const std::vector<std::string>& words) {
+    std::vector<std::string> all{"run", "-q", "deck.yaml"};
+    all.insert(all.end(), words.begin(), words.end());
+    const CommandResult r = runAtrapos(all, folder_.path());
+    ASSERT_EQ(r.exitCode, 0) << r.err;
+  }
+  /// The command refuses, in one line with these words, and changes nothing.
+  void refuses(const std::vector<std::string>& words, const std::vector<std::string>& expected) {
+    const auto before = snapshot(folder_.path());
+    std::vector<std::string> all{"run", "-q", "deck.yaml"};
+    all.insert(all.end(), words.begin(), words.end());
+    const CommandResult r = runAtrapos(all, folder_.path());
+    EXPECT_EQ(r.exitCode, 2);
+    ASSERT_EQ(r.errorLines().size(), 1u) << r.err;
+    for (const auto& word : expected) EXPECT_NE(r.err.find(word), std::string::npos) << word << ": " << r.err;
+    EXPECT_TRUE(snapshot(folder_.path()) == before) << "something was written";
+  }
+
+  TemporaryFolder folder_;
+  std::string whole_;
+  int steps_ = 0;
+};
+
+TEST_F(Restart, KilledRunGoesOnBitForBit) {
+  Command command({"run", "-q", "deck.yaml", "-o", "killed"}, folder_.path());
+  const auto table = folder_ / "killed" / "path.csv";
+  const auto limit = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+  while (!(std::filesystem::exists(table) && readFile(table).find("\n3,") != std::string::npos)) {
+    ASSERT_LT(std::chrono::steady_clock::now(), limit);
+    std::this_thread::sleep_for(std::chrono::microseconds(200));
+  }
+  if (command.running()) command.send(SIGKILL);
+  // A run as small as this may be over before the signal: then it is cut by hand, in the middle of a record.
+  if (command.wait().signal != SIGKILL) {
+    const std::string states = readFile(folder_ / "killed" / "restart.bin");
+    writeFile(folder_ / "killed" / "restart.bin", states.substr(0, states.size() - 100));
+  }
+  run({"--restart", "killed"});
+  expectSameResults(folder_ / "killed", folder_ / "whole");
+  EXPECT_EQ(summary("killed").at("steps"), steps_);
+  EXPECT_GE(summary("killed").at("restarted_behind_step"), 2);
+  for (const auto& entry : std::filesystem::directory_iterator(folder_ / "killed"))
+    EXPECT_NE(entry.path().extension(), ".new") << entry.path();
+}
+
+TEST_F(Restart, BehindAnyStepIntoAnotherFolder) {
+  const auto before = snapshot(folder_ / "whole");
+  for (int step = 1; step < steps_; step += 2) {
+    SCOPED_TRACE(step);
+    run({"--restart", "whole", "--from", std::to_string(step), "-o", "again"});
+    expectSameResults(folder_ / "again", folder_ / "whole");
+    EXPECT_EQ(summary("again").at("restarted_behind_step"), step);
+  }
+  EXPECT_TRUE(snapshot(folder_ / "whole") == before);
+}
+
+TEST_F(Restart, WithOtherSettingsFromTheMiddle) {
+  writeFile(folder_ / "deck.yaml",
+            edited(edited(kSmallDeck, "order: 15", "order: 8"), "{load_factor: 0.5}", "{load_factor: 0.7}"));
+  run({"--restart", "whole", "--from", "2", "-o", "other"});
+  const std::string other = readFile(folder_ / "other" / "path.csv");
+  EXPECT_EQ(rowsUpTo(other, 2), rowsUpTo(whole_, 2));
+  EXPECT_NE(rowsUpTo(other, 3), rowsUpTo(whole_, 3));
+  EXPECT_EQ(summary("other").at("load_factor"), 0.7);
+}
+
+TEST_F(Restart, FinishedRunGoesFurther) {
+  writeFile(folder_ / "deck.yaml", edited(kSmallDeck, "{load_factor: 0.5}", "{load_factor: 0.6}"));
+  run({"--restart", "whole"});
+  EXPECT_EQ(readFile(folder_ / "whole" / "path.csv").substr(0, whole_.size()), whole_);
+  EXPECT_EQ(summary("whole").at("load_factor"), 0.6);
+  EXPECT_EQ(summary("whole").at("restarted_behind_step"), steps_);
+}
+
+TEST_F(Restart, WhatCannotGoOnIsRefused) {
+  refuses({"--restart", "nowhere"}, {"nowhere/restart.bin", "cannot be read"});
+  refuses({"--restart", "whole", "--from", "1000"},
+          {"no step 1000", "last one is " + std::to_string(steps_)});
+  refuses({"--from", "2"}, {"--restart"});
+  writeFile(folder_ / "whole" / "restart.bin", "not one");
+  refuses({"--restart", "whole"}, {"not a restart file"});
+}
+
+TEST_F(Restart, AnotherDeckIsRefused) {
+  const std::string monitors = "tip_uz: {type: displacement, set: x_max, component: z}";
+  writeFile(folder_ / "deck.yaml",
+            edited(kSmallDeck, monitors, "tip_uy: {type: displacement, set: x_max, component: y}"));
+  refuses({"--restart", "whole"}, {"path.csv", "tip_uz", "tip_uy"});
+  writeFile(folder_ / "deck.yaml",
+            edited(kSmallDeck, "points_per_step: 2", "points_per_step: 2\n  fields: [displacement]"));
+  refuses({"--restart", "whole"}, {"results.exo", "other fields"});
+  writeFile(folder_ / "deck.yaml", edited(kSmallDeck, "order: 15", "order: 15\n  branches: all"));
+  refuses({"--restart", "whole"}, {"path/branches"});
+  writeFile(folder_ / "deck.yaml", edited(kSmallDeck, "divisions: [4, 1, 1]", "divisions: [5, 1, 1]"));
+  ASSERT_EQ(runAtrapos({"mesh", "-q", "deck.yaml"}, folder_.path()).exitCode, 0);
+  refuses({"--restart", "whole"}, {"unknowns"});
+}
+
+TEST_F(Restart, NothingIsKeptWhereNotWanted) {
+  writeFile(folder_ / "deck.yaml", edited(kSmallDeck, "order: 15", "order: 15\n  restart: false"));
+  run({"-o", "plain"});
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "plain" / "restart.bin"));
+  EXPECT_EQ(readFile(folder_ / "plain" / "path.csv"), whole_);
+}
+
+}  // namespace
+}  // namespace atrapos::test
