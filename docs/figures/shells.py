@@ -22,7 +22,7 @@ HERE = pathlib.Path(__file__).resolve().parent
 DATA = HERE.parents[1] / "packages" / "solid" / "test" / "data"
 TOP = (4, 16, 5, 17, 6, 18, 7, 19)  # outline of a HEX20's top face
 
-# deck: title, table, [monitor, sign, label], mirror planes of the shape, load factor of the shape (None: the last)
+# deck: title, table, [monitor, sign, label], mirror planes of the shape
 NONLINEAR = {
     "end_shear": ("cantilever, end shear", "sze31_end_shear.csv", [("tip_ux", -1, "-u"), ("tip_uz", 1, "w")], ""),
     "end_moment": ("cantilever, end moment", "sze32_end_moment.csv", [("tip_ux", -1, "-u"), ("tip_uz", 1, "w")], ""),
@@ -68,7 +68,7 @@ def mirrored(polygons, planes):
     return polygons
 
 
-def draw_shape(axes, folder, title, planes, scale=1.0):
+def draw_shape(axes, folder, title, planes, scale=1.0, zoom=1.4):
     before, after, size = faces(folder, scale)
     copies = 2 ** len(planes)
     before, after = mirrored(before, planes), mirrored(after, planes)
@@ -80,7 +80,7 @@ def draw_shape(axes, folder, title, planes, scale=1.0):
     middle, half = (low + high) / 2, (high - low).max() / 2
     for i, limits in enumerate((axes.set_xlim, axes.set_ylim, axes.set_zlim)):
         limits(middle[i] - half, middle[i] + half)
-    axes.set_box_aspect((1, 1, 1), zoom=1.5)
+    axes.set_box_aspect((1, 1, 1), zoom=zoom)
     axes.set_axis_off()
     axes.view_init(24, -60)
     axes.set_title(title, fontsize=9, y=0.92)
@@ -112,9 +112,11 @@ def main(folder):
         run = path(folder / (name + "_results"))
         value = run[monitor][-1] / run["load_factor"][-1]
         print(f"{name}: {value:.6g} per load factor, {100 * (value / quoted - 1):+.2f} % of {quoted:.6g}")
-        draw_shape(figure.add_subplot(2, 5, 1 + i, projection="3d"), folder / (name + "_results"), f"{title} (x {scale:.0e})", planes, scale)
+        draw_shape(figure.add_subplot(2, 5, 1 + i, projection="3d"), folder / (name + "_results"), f"{title} (x {scale:.0e})", planes, scale,
+                   0.85 if planes == "xyz" else 1.3)
     for i, (name, (title, _, _, planes)) in enumerate(NONLINEAR.items()):
-        draw_shape(figure.add_subplot(2, 5, 5 + i, projection="3d"), folder / (name + "_results"), title, planes)
+        draw_shape(figure.add_subplot(2, 5, 5 + i, projection="3d"), folder / (name + "_results"), title, planes,
+                   zoom=1.1 if "roof" in name or name == "slit_annulus" else 1.4)
     figure.subplots_adjust(0, 0, 1, 0.98, 0.02, 0.05)
     figure.savefig(HERE / "shells_shapes.png", dpi=90)
 

@@ -53,10 +53,13 @@ TEST(ShellStrip, PointsComeIntoContactAndLeaveAgain) {
     EXPECT_GT(force[top], 0.5);
     EXPECT_LT(force.front(), 1e-10);
     EXPECT_LT(load[top], 0.25);
-    for (std::size_t i = top; i < load.size(); ++i)
-      if (load[i] > 0.25) EXPECT_LT(force[i], 0.1) << load[i];
+    double left = 0;
+    for (std::size_t i = 0; i < load.size(); ++i)
+      if (load[i] > 0.25 && load[i] < 1) left = std::max(left, force[i]);
+    EXPECT_LT(left, 0.1);
   }
-  // Beyond load factor 1.18 the strip lies on an arc of the roll: more stations than the two at the ends.
+  // Beyond load factor 1.18 the strip lies on an arc of the roll that grows both ways: more stations than the
+  // one or two where it touches before.
   const exodus::ResultReader results(run.folder.results("results.exo").string());
   EXPECT_GE(results.global(results.numSteps() - 1, "active_contacts"), 6);
   // 76 measured; the paper has 95 up to its last load.
