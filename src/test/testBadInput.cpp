@@ -206,43 +206,9 @@ TEST_F(BadInput, CommandLine) {
   refuses({"run", "deck.yaml", "--threads", "two"}, {"--threads", "two"});
 }
 
-// What is wrong with shells, after a deck that is right.
-TEST_F(BadInput, Shells) {
-  const std::string deck = R"(mesh:
-  file: roof.exo
-  generate: {shape: shell_cylinder, radius: 10, theta: [-40, 40], length: 5, divisions: [4, 2], block: roof}
-materials:
-  steel: {law: saint_venant_kirchhoff, youngs_modulus: 1000, poissons_ratio: 0.3, blocks: [roof]}
-shells:
-  sections:
-    skin: {blocks: [roof], thickness: 0.1}
-supports:
-  clamp: {set: y_min, condition: clamped}
-loads:
-  tip: {type: edge, set: y_max, total: [0, 0, -10]}
-path:
-  stop: {load_factor: 1}
-)";
-  writeFile(folder_ / "deck.yaml", deck);
-  const CommandResult made = runAtrapos({"mesh", "-q", "deck.yaml"}, folder_.path());
-  ASSERT_EQ(made.exitCode, 0) << made.err;
-  const CommandResult good = runAtrapos({"check", "deck.yaml"}, folder_.path());
-  EXPECT_EQ(good.exitCode, 0) << good.err;
-  const auto refusesShell = [&](const std::string& from, const std::string& to,
-                                const std::vector<std::string>& words) {
-    writeFile(folder_ / "deck.yaml", edited(deck, from, to));
-    refuses({"check", "deck.yaml"}, words);
-  };
-  refusesShell("thickness: 0.1", "thickness: 21",
-               {"shells: element 1 (block 'roof'): the Jacobian is -", "too thick for its curvature"});
-  refusesShell("thickness: 0.1", "thickness: attribute",
-               {"shells: block 'roof': the shells have no thickness"});
-  refusesShell("set: y_max, total", "set: outer, total", {"loads/tip/set: side 1 of element 1", "no edge"});
-}
-
-TEST_F(BadInput, PressureThatFollows) {
+TEST_F(BadInput, PressureThatFollowsASolid) {
   refusesDeck("total: [0, 0, -10]", "pressure: 1, follower: true",
-              {"loads/tip/follower: pressures that follow cannot be run yet"});
+              {"loads/tip: the side set 'x_max' has faces of solids", "accepted are faces of shells"});
 }
 
 }  // namespace

@@ -120,3 +120,23 @@ TEST(ShellBody, KeepsSolidsAndIds) {
   EXPECT_EQ(static_cast<int>(body.mesh.nodeIds.size()), body.mesh.numNodes());
   EXPECT_THROW(shellBody(roof(Topology::Shell4), shells), std::invalid_argument);
 }
+
+// f . u on v and w is F . U on the nodes of the body.
+TEST(ShellBody, ForcesDoTheSameWork) {
+  const Mesh mesh = roof(Topology::Shell8);
+  const ShellGeometry shells = shellGeometry(mesh, {{0, 0.2}});
+  const ShellBody body = shellBody(mesh, shells);
+  std::vector<double> u, f;
+  for (int i = 0; i < 3 * shells.numNodes(); ++i) {
+    u.push_back(std::sin(1.3 * i));
+    f.push_back(std::cos(0.7 * i * i));
+  }
+  const auto U = body.displacements(shells, u), F = body.forces(shells, f);
+  ASSERT_EQ(U.size(), F.size());
+  double ofShell = 0, ofBody = 0, resultant = 0;
+  for (std::size_t i = 0; i < u.size(); ++i) ofShell += f[i] * u[i];
+  for (std::size_t i = 0; i < U.size(); ++i) ofBody += F[i] * U[i];
+  for (std::size_t i = 3 * static_cast<std::size_t>(mesh.numNodes()); i < F.size(); ++i) resultant += F[i];
+  EXPECT_NEAR(ofBody, ofShell, 1e-12);  // rounding of a sum of some hundred numbers of size one
+  EXPECT_NEAR(resultant, 0, 1e-12);     // couples
+}

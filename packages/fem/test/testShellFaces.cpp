@@ -7,6 +7,7 @@
 #include <functional>
 #include <stdexcept>
 
+#include "atrapos/fem/Loads.hpp"
 #include "atrapos/fem/ShellFaces.hpp"
 #include "atrapos/fem/StructuredShell.hpp"
 #include "support/Meshes.hpp"
@@ -166,6 +167,29 @@ TEST(ShellFaces, EdgesHaveTheirLengthAndPointOutwards) {
     EXPECT_NEAR(total[2], -6, 1e-13);
     EXPECT_NEAR(moment, -6 * 1.5, 1e-13);  // uniform along y from 0 to 3
   }
+}
+
+// The work of a traction on the outer face in a small rotation about y: t . (omega x integral of x dA), with
+// the offset cylinder's area and centroid.
+TEST(ShellFaces, TractionsOnOffsetSurfacesDoTheirWorkInARotation) {
+  const double t = 0.3, r = 2 + t / 2, half = 40 * 3.14159265358979323846 / 180;
+  const auto error = [&](int n) {
+    const Mesh mesh = shellCylinderMesh(roof(n));
+    const ShellGeometry shells = shellGeometry(mesh, {{0, t}});
+    std::vector<double> force(3 * static_cast<std::size_t>(shells.numNodes()), 0.0);
+    const auto faces = shellFacePoints(mesh, shells, sideSet(mesh, "outer"), 1, loadDegree);
+    addTraction(faces, {5, 0, 0}, force);
+    // omega x X = (z, 0, -x)
+    double work = 0;
+    for (int k = 0; k < mesh.numNodes(); ++k) work += force[3 * k] * mesh.coordinates[3 * k + 2];
+    for (int d = 0; d < shells.numDirectors(); ++d)
+      work += force[3 * (mesh.numNodes() + d)] * shells.directors[3 * d + 2];
+    const double area = 2 * half * r * 3;
+    EXPECT_NEAR(areaOf(faces), area, 0.01 * area);
+    return std::abs(work / (5 * area * r * std::sin(half) / half) - 1);
+  };
+  EXPECT_LT(error(4), 2e-3);
+  EXPECT_GT(error(4) / error(8), 7);  // third order or better
 }
 
 TEST(ShellFaces, OtherSidesAndNodesAreNamed) {

@@ -1,6 +1,7 @@
 // Loads of shells: resultants, work, and followers in their three uses.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 #include "ShellChecks.hpp"
@@ -63,6 +64,29 @@ void expectNear(const Vec3& a, const Vec3& b, double tolerance) {
 }
 
 }  // namespace
+
+// Weight of a curved shell: R t theta L on v; on w the part of the volume outside the mid-surface, which is
+// larger than that inside: t^2/(6 R) of the area.
+TEST(ShellLoads, BodyForce) {
+  const auto errors = [](int n) {
+    const ShellGrid grid = shellGrid(n, 2, thickness, cylinder(1, 0, 1, 0, 0.7));
+    Numbers f(6 * grid.numNodes(), 0.0);
+    addShellBodyForce(grid.elements(), {0, 3, 0}, f);
+    double onV = 0, onW = 0;
+    for (int k = 0; k < grid.numNodes(); ++k) {
+      onV += f[3 * k + 1];
+      onW += f[3 * grid.director(k) + 1];
+      EXPECT_EQ(f[3 * k], 0);
+    }
+    return std::array<double, 2>{std::abs(onV / (3 * 0.7 * thickness) - 1),
+                                 std::abs(onW / (3 * 0.7 * thickness * thickness / 6) - 1)};
+  };
+  const auto coarse = errors(3), fine = errors(6);
+  for (int i : {0, 1}) {
+    EXPECT_LT(coarse[i], 5e-3);
+    EXPECT_LT(fine[i], coarse[i] / 7);  // third order or better: parabolas for arcs
+  }
+}
 
 // Dead loads: forces and moments of the surfaces they act on. Nodal sums of numbers of size one: rounding.
 TEST(ShellLoads, DeadResultants) {

@@ -97,3 +97,18 @@ TEST(ShellResults, ThicknessChange) {
   ASSERT_EQ(change.size(), 16u);
   for (double c : change) EXPECT_NEAR(c, -0.1 * thickness, 1e-16);
 }
+
+// What is bilinear in xi, eta at the 2 x 2 points comes back at the nodes.
+TEST(ShellResults, PointsToNodes) {
+  const auto f = [](double xi, double eta) { return 2 + 3 * xi - eta + 0.5 * xi * eta; };
+  const double g = 1 / std::sqrt(3.0);
+  const std::vector<double> points{f(-g, -g), f(g, -g), f(-g, g), f(g, g)};
+  const double nodes[8] = {f(-1, -1), f(1, -1), f(1, 1), f(-1, 1), f(0, -1), f(1, 0), f(0, 1), f(-1, 0)};
+  const auto toNodes = shellPointsToNodes({});
+  ASSERT_EQ(toNodes.size(), 32u);
+  for (int a = 0; a < 8; ++a) {
+    double value = 0;
+    for (int q = 0; q < 4; ++q) value += toNodes[4 * a + q] * points[q];
+    EXPECT_NEAR(value, nodes[a], 1e-14);  // rounding
+  }
+}

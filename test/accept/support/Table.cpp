@@ -46,6 +46,22 @@ std::vector<double> Table::column(const std::string& name) const {
   return values;
 }
 
+std::vector<std::vector<double>> numberRows(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  if (!in) throw std::runtime_error(file.string() + ": cannot be read");
+  std::vector<std::vector<double>> rows;
+  for (std::string line; std::getline(in, line);) {
+    if (line.empty() || line[0] == '#') continue;
+    rows.emplace_back();
+    for (const std::string& cell : cells(line)) {
+      char* end = nullptr;
+      rows.back().push_back(std::strtod(cell.c_str(), &end));
+      if (cell.empty() || *end != 0) throw std::runtime_error(file.string() + ": not a number: " + cell);
+    }
+  }
+  return rows;
+}
+
 double interpolate(const std::vector<double>& xs, const std::vector<double>& ys, double x) {
   if (xs.size() < 4 || !(x >= xs.front() && x <= xs.back()))
     throw std::out_of_range("outside the table: " + std::to_string(x));

@@ -24,6 +24,10 @@ class Table {
   std::vector<std::vector<std::string>> rows_;
 };
 
+/// The rows of a CSV file without column names; lines that begin with # are comments.
+/// Throws std::runtime_error where the file cannot be read or a cell is no number.
+std::vector<std::vector<double>> numberRows(const std::filesystem::path& file);
+
 /// y at x from tabulated points with ascending xs: the cubic through the four points around x (at an end, the
 /// last four). Throws std::out_of_range outside the table.
 double interpolate(const std::vector<double>& xs, const std::vector<double>& ys, double x);

@@ -1,0 +1,235 @@
+// Small decks with shells against statics: pressures that follow or do not, on a surface or another, moments
+// that follow or do not, shells beside solids.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "atrapos/exodus/MeshFile.hpp"
+#include "atrapos/exodus/ResultReader.hpp"
+#include "atrapos/fem/StructuredMesh.hpp"
+#include "atrapos/fem/StructuredShell.hpp"
+#include "support/Command.hpp"
+#include "support/Folder.hpp"
+#include "support/Table.hpp"
+
+namespace atrapos::test {
+namespace {
+
+/// A deck run in a folder of its own, on a mesh that is given or that it generates.
+struct Run {
+  TemporaryFolder folder;
+
+  explicit Run(const std::string& deck, const fem::Mesh* mesh = nullptr) {
+    writeFile(folder / "deck.yaml", deck);
+    if (mesh != nullptr)
+      exodus::writeMesh(*mesh, (folder / "mesh.exo").string());
+    else
+      execute({"mesh", "-q", "deck.yaml"});
+    execute({"run", "-q", "deck.yaml", "-o", "results"});
+  }
+  void execute(const std::vector<std::string>& arguments) const {
+    const CommandResult r = runAtrapos(arguments, folder.path());
+    if (r.exitCode != 0) throw std::runtime_error(r.err);
+  }
+  double last(const std::string& monitor) const {
+    return Table(folder.path() / "results" / "path.csv").column(monitor).back();
+  }
+  exodus::ResultReader results() const {
+    return exodus::ResultReader((folder.path() / "results" / "results.exo").string());
+  }
+};
+
+/// A quarter of a tube of radius 1 and thickness 0.1, held in its length, under a pressure of 20 on its inner
+/// surface: hoop strains of a quarter.
+const std::string kTube = R"(mesh:
+  file: tube.exo
+  generate: {shape: shell_cylinder, radius: 1, theta: [0, 90], length: 0.2, divisions: [8, 1], block: tube}
+materials:
+  tube: {law: saint_venant_kirchhoff, youngs_modulus: 1000, poissons_ratio: 0, blocks: [tube]}
+shells:
+  sections:
+    tube: {blocks: [tube], thickness: 0.1}
+supports:
+  top: {set: theta_min, condition: symmetry_x}
+  side: {set: theta_max, condition: symmetry_z}
+  front: {set: y_min, condition: symmetry_y}
+  back: {set: y_max, condition: symmetry_y}
+loads:
+  inside: {type: surface, set: inner, pressure: 20, follower: true, at: bottom}
+path:
+  stop: {load_factor: 1}
+output:
+  monitors:
+    crown_uz: {type: displacement, set: theta_min, component: z}
+)";
+
+struct Ring {
+  double radius = 0, halfThickness = 0, hoop = 0;
+  explicit Ring(const std::string& deck) {
+    const Run run(deck);
+    const auto results = run.results();
+    const int step = results.numSteps() - 1;
+    radius = 1 + run.last("crown_uz");
+    // The crown's director stands along z; node 1 is at theta = 0.
+    halfThickness = results.nodal(step, "director_z").at(0);
+    hoop = results.element(step, "n_11").at(0);  // where x is the hoop's direction
+    EXPECT_NEAR(results.nodal(step, "director_x").at(0), 0, 1e-12);
+    EXPECT_NEAR(results.nodal(step, "thickness_change").at(0), 2 * halfThickness - 0.1, 1e-6);
+  }
+};
+
+// The hoop force is the pressure times the inner radius: as deformed where the pressure follows, as
+// undeformed where it is dead. Measured 2e-4, of the resultants' extrapolation through a thickness of a tenth
+// of the radius.
+TEST(ShellRuns, TubeUnderPressure) {
+  const Ring follower(kTube);
+  EXPECT_GT(follower.radius, 1.2);
+  EXPECT_NEAR(follower.hoop, 20 * (follower.radius - follower.halfThickness), 2e-3 * follower.hoop);
+  const Ring dead(edited(kTube, ", follower: true", ""));
+  EXPECT_NEAR(dead.hoop, 20 * 0.95, 2e-3 * dead.hoop);
+  const Ring outside(edited(edited(kTube, ", follower: true", ""), "at: bottom", "at: top"));
+  EXPECT_NEAR(outside.hoop, 20 * 1.05, 2e-3 * outside.hoop);
+}
+
+// A side that pushes from the top pushes the other way.
+TEST(ShellRuns, PressureOnTheOtherSide) {
+  const std::string small = edited(kTube, "pressure: 20", "pressure: 0.01");
+  const Ring inner(small), outer(edited(edited(small, "set: inner", "set: outer"), "at: bottom", "at: top"));
+  EXPECT_NEAR(inner.radius - 1, 0.01 * 0.95 / 100, 0.01 * 1e-4);  // p R_i/(E t), thin
+  EXPECT_NEAR(outer.radius - 1, -0.01 * 1.05 / 100, 0.01 * 1e-4);
+}
+
+const std::string kStrip = R"(mesh:
+  file: strip.exo
+  generate: {shape: shell_plate, length: 12, width: 1, divisions: [12, 1], block: strip}
+materials:
+  strip: {law: saint_venant_kirchhoff, youngs_modulus: 1.2e6, poissons_ratio: 0, blocks: [strip]}
+shells:
+  sections:
+    strip: {blocks: [strip], thickness: 0.1}
+supports:
+  clamp: {set: x_min, condition: clamped}
+loads:
+  turn: {type: edge, set: x_max, follower_moment: -20}
+path:
+  stop: {load_factor: 1}
+output:
+  monitors:
+    tip_ux: {type: displacement, set: x_max, component: x}
+    tip_uz: {type: displacement, set: x_max, component: z}
+)";
+
+// In a plane a moment that keeps its direction and one that follows the edge are the same.
+TEST(ShellRuns, DeadAndFollowingMomentInAPlane) {
+  const Run follower(kStrip), dead(edited(kStrip, "follower_moment: -20", "moment: [0, -20, 0]"));
+  EXPECT_GT(follower.last("tip_uz"), 5);
+  // Both are corrected to a residual of 1e-6 of the elements' forces.
+  EXPECT_NEAR(dead.last("tip_uz"), follower.last("tip_uz"), 1e-4);
+  EXPECT_NEAR(dead.last("tip_ux"), follower.last("tip_ux"), 1e-4);
+}
+
+// A force that follows stays normal to the strip: its reaction at the clamp, turned by the end's slope, is
+// its size; a dead one keeps its direction. Forces along the director of a turned end pull back.
+TEST(ShellRuns, ForceAlongTheDirector) {
+  const std::string deck = edited(edited(kStrip, "follower_moment: -20", "follower_force: [0, 0, 2]"),
+                                  "output:\n", "output:\n  fields: [displacement, reaction]\n");
+  const Run run(deck);
+  const auto results = run.results();
+  const int step = results.numSteps() - 1;
+  double x = 0, z = 0, dx = 0, dz = 0;
+  const auto rx = results.nodal(step, "reaction_x"), rz = results.nodal(step, "reaction_z");
+  for (double r : rx) x += r;
+  for (double r : rz) z += r;
+  const fem::Mesh mesh = exodus::readMesh((run.folder.path() / "strip.exo").string());
+  const auto& end = mesh.nodeSets.at(fem::findNodeSet(mesh, "x_max")).nodes;
+  for (int n : end) {
+    dx += results.nodal(step, "director_x").at(n);
+    dz += results.nodal(step, "director_z").at(n);
+  }
+  EXPECT_LT(dx, -0.5 * std::hypot(dx, dz));  // the end has turned by more than 30 degrees
+  EXPECT_NEAR(std::hypot(x, z), 2, 1e-4);
+  EXPECT_NEAR(x, -2 * dx / std::hypot(dx, dz), 1e-3);
+  EXPECT_NEAR(z, -2 * dz / std::hypot(dx, dz), 1e-3);
+}
+
+/// Two meshes side by side in one.
+fem::Mesh together(fem::Mesh a, const fem::Mesh& b) {
+  const int nodes = a.numNodes(), elements = a.numElements();
+  a.coordinates.insert(a.coordinates.end(), b.coordinates.begin(), b.coordinates.end());
+  for (fem::Block block : b.blocks) {
+    block.id += 10;
+    for (int& n : block.nodes) n += nodes;
+    a.blocks.push_back(block);
+  }
+  for (fem::NodeSet set : b.nodeSets) {
+    set.id += 100;
+    set.name = "b_" + set.name;
+    for (int& n : set.nodes) n += nodes;
+    a.nodeSets.push_back(set);
+  }
+  for (fem::SideSet set : b.sideSets) {
+    set.id += 100;
+    set.name = "b_" + set.name;
+    for (fem::Side& side : set.sides) side.element += elements;
+    a.sideSets.push_back(set);
+  }
+  return a;
+}
+
+const std::string kBoth = R"(mesh: {file: mesh.exo}
+materials:
+  steel: {law: saint_venant_kirchhoff, youngs_modulus: 1.0e4, poissons_ratio: 0.3, blocks: [solid, shell]}
+shells:
+  sections:
+    shell: {blocks: [shell], thickness: 0.5}
+supports:
+  solid: {set: x_min, x: 0, y: 0, z: 0}
+  shell: {set: b_x_min, condition: clamped}
+loads:
+  weight: {type: volume, blocks: [solid, shell], force: [0, 0, -0.2]}
+path:
+  stop: {load_factor: 1}
+output:
+  fields: [displacement, stress, nodal_stress, reaction]
+  monitors:
+    solid_uz: {type: displacement, set: x_max, component: z}
+    shell_uz: {type: displacement, set: b_x_max, component: z}
+    solid_fz: {type: reaction, support: solid, component: z}
+    shell_fz: {type: reaction, support: shell, component: z}
+)";
+
+// The same strip twice, as solids and as shells, in one mesh and under its weight.
+TEST(ShellRuns, ShellsBesideSolids) {
+  fem::StripOptions solid;
+  solid.length = 10;
+  solid.width = 1;
+  solid.thickness = 0.5;
+  solid.divisions = {20, 2, 1};
+  solid.blockName = "solid";
+  fem::ShellPlateOptions shell;
+  shell.length = 10;
+  shell.origin = {0, 5, 0};
+  shell.divisions = {10, 1};
+  shell.blockName = "shell";
+  const fem::Mesh mesh = together(fem::stripMesh(solid), fem::shellPlateMesh(shell));
+  for (const char* shells : {"surface", "body"}) {
+    SCOPED_TRACE(shells);
+    const Run run(edited(kBoth, "output:\n", std::string("output:\n  shells: ") + shells + "\n"), &mesh);
+    EXPECT_NEAR(run.last("solid_fz"), 1, 1e-4);
+    EXPECT_NEAR(run.last("shell_fz"), 1, 1e-4);
+    // Deflections of a tenth of the length; a clamped solid end is held a little differently.
+    EXPECT_GT(std::abs(run.last("solid_uz")), 1);
+    EXPECT_NEAR(run.last("shell_uz"), run.last("solid_uz"), 0.02 * std::abs(run.last("solid_uz")));
+    const auto results = run.results();
+    const auto stress = results.element(results.numSteps() - 1, "stress_top_xx");
+    ASSERT_EQ(stress.size(), 40u + 10u);
+    EXPECT_GT(stress.at(40), 0);  // the shell's first element: tension on top
+    const auto nodal = results.nodalNames();
+    const bool top = std::find(nodal.begin(), nodal.end(), "nodal_stress_top_xx") != nodal.end();
+    EXPECT_EQ(top, std::string(shells) == "surface");
+  }
+}
+
+}  // namespace
+}  // namespace atrapos::test
