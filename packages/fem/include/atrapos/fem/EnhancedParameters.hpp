@@ -38,7 +38,8 @@ inline const char* describe(EnhancedFailure failure) {
 /// s is law.enhancedStress(in, data) with in = (h, e). Newton's method from beta = 0, whatever states came
 /// before: beta is a function of the displacements alone and the same to the last bit at every call.
 ///
-/// in: [q][numInputs], its e entries are work space and hold e_q afterwards; data: [q][numData]; w: [q]; m: [q][M].
+/// in: [q][numInputs], its e entries are work space and hold e_q afterwards; data: [q][numData]; w: [q]; m:
+/// [q][M].
 template <int M, class Law>
 KOKKOS_INLINE_FUNCTION EnhancedFailure solveEnhanced(const Law& law, int numPoints, double* in,
                                                      const double* data, const double* w, const double* m,

@@ -14,11 +14,12 @@ struct EnhancedPoints {
   std::vector<double> data;   ///< the law's passive data, [entity][point][datum]
 };
 
-/// A law of h = B u and of an enhanced strain e, paper (32)-(35), whose element parameters are condensed inside
-/// the element at every order (docs/theory/shell.md, "Condensation"). B u: `Law::components` vectors at a point.
+/// A law of h = B u and of an enhanced strain e, paper (32)-(35), whose element parameters are condensed
+/// inside the element at every order (docs/theory/shell.md, "Condensation"). B u: `Law::components` vectors
+/// at a point.
 ///
-/// Law (see taylor/Law.hpp): inputs (h, [Cartesian component][vector], e), outputs their work conjugates (f, s);
-/// besides
+/// Law (see taylor/Law.hpp): inputs (h, [Cartesian component][vector], e), outputs their work conjugates (f,
+/// s); besides
 ///     template <class T> T enhancedStress(const T* in, const taylor::Passive<T>* data) const;   // s alone
 ///     double enhancedStrainSize(const double* data) const;   // strain per unit of e, for convergence only
 /// and the observed values of LawTerm's laws.
@@ -28,8 +29,7 @@ struct EnhancedPoints {
 template <class Law, int M>
 class EnhancedTerm final : public Term {
   static constexpr int L = kLanes, C = Law::components, I = 3 * C, J = I + 1, D = Law::numData;
-  static_assert(Law::numInputs == J && Law::numOutputs == J,
-                "the law's inputs are vectors and one strain");
+  static_assert(Law::numInputs == J && Law::numOutputs == J, "the law's inputs are vectors and one strain");
   /// Points of an element: bounds the stack, 16 shell nodes need no more than 3 x 3 x 3.
   static constexpr int maxPoints = 27;
   using Pack = taylor::Lanes<L>;
