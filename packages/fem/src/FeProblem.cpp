@@ -10,6 +10,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "CoupledSystem.hpp"
+
 namespace atrapos::fem {
 
 using linear::CrsGraph;
@@ -47,15 +49,36 @@ double norm(const ConstField& f) {
   return std::sqrt(sum);
 }
 
-/// Rows of the node graph, sorted: all nodes that share an entity of any term.
-std::vector<std::vector<int>> nodeGraph(const FeModel& model) {
-  std::vector<std::vector<int>> rows(model.numNodes);
+/// Rows of the node graph, sorted: all nodes that share an entity of any term, coupled nodes with their
+/// masters.
+std::vector<std::vector<int>> nodeGraph(const FeModel& model, const std::vector<Coupling>& couplings) {
+  std::vector<std::vector<int>> rows(model.numNodes), masters(model.numNodes);
+  for (const Coupling& c : couplings)
+    for (const CoupledDof& m : c.masters) masters[c.dof / 3].push_back(m.dof / 3);
+  for (auto& nodes : masters) {
+    std::sort(nodes.begin(), nodes.end());
+    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  }
+  const auto connect = [&](const std::vector<int>& group) {
+    for (int a : group) rows[a].insert(rows[a].end(), group.begin(), group.end());
+  };
   for (const auto& term : model.terms) {
     const int N = term->nodesPerEntity();
     const std::vector<int>& nodes = term->nodes();
-    for (int e = 0; e < term->numEntities(); ++e)
-      for (int a = 0; a < N; ++a)
-        for (int b = 0; b < N; ++b) rows[nodes[e * N + a]].push_back(nodes[e * N + b]);
+    for (int e = 0; e < term->numEntities(); ++e) {
+      std::vector<int> group(nodes.begin() + e * N, nodes.begin() + (e + 1) * N);
+      for (int a = 0; a < N; ++a) {
+        const auto& more = masters[nodes[e * N + a]];
+        group.insert(group.end(), more.begin(), more.end());
+      }
+      connect(group);
+    }
+  }
+  for (int n = 0; n < model.numNodes; ++n) {
+    if (masters[n].empty()) continue;
+    std::vector<int> group = masters[n];
+    group.push_back(n);
+    connect(group);
   }
   for (int n = 0; n < model.numNodes; ++n) {
     auto& row = rows[n];
@@ -81,6 +104,7 @@ struct FeProblem::Impl {
   View<std::size_t*> rowStart;
   View<int*> columns;
   View<char*> fixed;
+  detail::CoupledSystem coupled;
   Field value, rate, load, constantLoad;
   Field sum;              // work
   Field last;             // U of the order completed last
@@ -102,13 +126,14 @@ struct FeProblem::Impl {
     map = rcp(new Map(numDofs, 0, comm));
     sum = Field("sum", numDofs);
     last = Field("last", numDofs);
+    if (!model.couplings.empty()) coupled = detail::CoupledSystem(model.couplings.resolved(model.supports));
     makeMatrix();
     uploadConditions();
     findScale();
   }
 
   void makeMatrix() {
-    const auto rows = nodeGraph(model);
+    const auto rows = nodeGraph(model, coupled.couplings());
     const int numDofs = 3 * model.numNodes;
     std::size_t entries = 0;
     for (const auto& row : rows) entries += 9 * row.size();
@@ -160,6 +185,10 @@ struct FeProblem::Impl {
     std::vector<char> used(model.numNodes, 0);
     for (const auto& term : model.terms)
       for (int n : term->nodes()) used[n] = 1;
+    for (const Coupling& c : coupled.couplings()) {
+      used[c.dof / 3] = 1;
+      for (const CoupledDof& m : c.masters) used[m.dof / 3] = 1;
+    }
     const int numDofs = 3 * model.numNodes;
     for (int d = 0; d < numDofs; ++d)
       if (!used[d / 3] && (model.load[d] != 0 || model.constantLoad[d] != 0))
@@ -174,6 +203,15 @@ struct FeProblem::Impl {
       values[d] = model.supports.value(d);
       rates[d] = model.supports.perLoadFactor(d);
     }
+    for (const Coupling& c : coupled.couplings()) {
+      --numFree;
+      values[c.dof] = c.value;
+      rates[c.dof] = c.perLoadFactor;
+      for (const CoupledDof& m : c.masters) {
+        values[c.dof] += m.factor * values[m.dof];
+        rates[c.dof] += m.factor * rates[m.dof];
+      }
+    }
     Kokkos::deep_copy(fixed, flags);
     value = toDevice(values);
     rate = toDevice(rates);
@@ -185,7 +223,7 @@ struct FeProblem::Impl {
   /// that see lambda as their rate at the start.
   void findScale() {
     double size = std::max(norm(load), norm(constantLoad));
-    if (model.supports.driven()) {
+    if (model.supports.driven() || model.couplings.driven()) {
       double squares = 0;
       for (const auto& term : model.terms)
         if (!term->seesLoadFactor()) squares += term->addResidual(rate, 1, sum);
@@ -214,14 +252,13 @@ struct FeProblem::Impl {
     return std::max({scaleFloor, external, std::sqrt(squares)});
   }
 
-  /// Turns the rows of prescribed dofs into s u_d and carries their columns to F.
-  void applySupports(const Field& F) {
+  /// The size of the free dofs' diagonal.
+  void findDiagonal() {
     const auto values = K->getLocalMatrixDevice().values;
     const auto start = rowStart;
     const auto column = columns;
     const auto isFixed = fixed;
-    const auto rates = rate;
-    const int numDofs = static_cast<int>(F.size());
+    const int numDofs = 3 * model.numNodes;
     double largest = 0;
     Kokkos::parallel_reduce(
         "diagonal", Kokkos::RangePolicy<Execution>(0, numDofs),
@@ -231,7 +268,18 @@ struct FeProblem::Impl {
               m = Kokkos::Experimental::fmax(m, Kokkos::Experimental::fabs(values(e)));
         },
         Kokkos::Max<double>(largest));
-    const double s = diagonal = largest > 0 && std::isfinite(largest) ? largest : 1.0;
+    diagonal = largest > 0 && std::isfinite(largest) ? largest : 1.0;
+  }
+
+  /// Turns the rows of prescribed dofs into s u_d and carries their columns to F.
+  void applySupports(const Field& F) {
+    const auto values = K->getLocalMatrixDevice().values;
+    const auto start = rowStart;
+    const auto column = columns;
+    const auto isFixed = fixed;
+    const auto rates = rate;
+    const int numDofs = static_cast<int>(F.size());
+    const double s = diagonal;
     Kokkos::parallel_for(
         "supports", Kokkos::RangePolicy<Execution>(0, numDofs), KOKKOS_LAMBDA(int d) {
           if (isFixed(d)) {
@@ -270,6 +318,8 @@ path::ResidualNorm FeProblem::residual(const Vector& u, double lambda, Vector& r
   const Field out = writable(r), total = impl_->sum, value = impl_->value, rate = impl_->rate;
   const auto fixed = impl_->fixed;
   const double s = impl_->diagonal;
+  impl_->coupled.gatherForces(total);
+  impl_->coupled.addGaps(state, lambda, s, total);
   Kokkos::parallel_for(
       "residual", Kokkos::RangePolicy<Execution>(0, out.size()), KOKKOS_LAMBDA(int d) {
         if (fixed(d)) total(d) = s * (state(d) - value(d) - lambda * rate(d));  // not the reaction
@@ -287,6 +337,8 @@ RCP<const CrsMatrix> FeProblem::tangent(const Vector& u, double lambda, Vector& 
   Kokkos::deep_copy(direction, impl_->load);
   for (const auto& term : impl_->model.terms)
     term->addTangent(field(u), lambda, TangentSink{impl_->rowStart, values, direction});
+  impl_->findDiagonal();
+  impl_->coupled.transform(impl_->rowStart, impl_->columns, values, impl_->diagonal, direction);
   impl_->applySupports(direction);
   impl_->K->fillComplete(impl_->map, impl_->map);
   return impl_->K;
@@ -301,6 +353,7 @@ void FeProblem::orderRhs(int k, Vector& Fk) {
   const auto fixed = impl_->fixed;
   Kokkos::deep_copy(total, 0.0);
   for (const auto& term : impl_->model.terms) term->addOrder(k, impl_->last, impl_->lastLambda, total);
+  impl_->coupled.gatherForces(total);
   Kokkos::parallel_for(
       "orderRhs", Kokkos::RangePolicy<Execution>(0, out.size()),
       KOKKOS_LAMBDA(int d) { out(d) = fixed(d) ? 0.0 : -total(d); });
@@ -310,6 +363,8 @@ void FeProblem::completeOrder(int, const Vector& Uk, double lambdaK) {
   Kokkos::deep_copy(impl_->last, field(Uk));
   impl_->lastLambda = lambdaK;
 }
+
+int FeProblem::constraintPivots() const { return impl_->model.numMultipliers; }
 
 RCP<Vector> FeProblem::initialState(double lambda) const {
   auto u = rcp(new Vector(impl_->map));
@@ -322,6 +377,7 @@ RCP<Vector> FeProblem::initialState(double lambda) const {
 
 std::vector<double> FeProblem::reactions(const Vector& u, double lambda) const {
   impl_->imbalance(field(u), lambda);
+  impl_->coupled.gatherForces(impl_->sum);
   std::vector<double> r = toHost(impl_->sum);
   for (std::size_t d = 0; d < r.size(); ++d)
     if (!impl_->model.supports.fixed(static_cast<int>(d))) r[d] = 0;

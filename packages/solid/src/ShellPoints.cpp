@@ -14,7 +14,91 @@ using detail::baseAt;
 using detail::cross;
 using detail::Vec3;
 
-fem::EnhancedPoints shellPoints(const ShellElements& elements, const ShellCubature& cubature) {
+namespace {
+
+/// What the director of the shear strain E_13 (direction 0) or E_23 (1) has beside N_a: the node's part in
+/// the monomial xi eta^2 (xi^2 eta) times xi - xi eta^2 (eta - xi^2 eta).
+double shearShape(int direction, int a, const double* xi) {
+  constexpr double part[2][8] = {{-0.25, 0.25, 0.25, -0.25, 0, -0.5, 0, 0.5},
+                                 {-0.25, -0.25, 0.25, 0.25, 0.5, 0, -0.5, 0}};
+  const double along = xi[direction], across = xi[1 - direction];
+  return part[direction][a] * along * (1 - across * across);
+}
+
+/// What a law's maps and data are made of at one cubature point of one element.
+struct Place {
+  const ShellElements& elements;
+  const fem::Tabulation& table;
+  std::size_t element, q;  ///< q: in the plane
+  const double* xi;        ///< [2]
+  double zeta;
+  Base base, middle;  ///< at zeta and at 0
+
+  double N(int a) const { return table.values[q * 8 + a]; }
+  const double* dN(int a) const { return &table.gradients[(q * 8 + a) * 2]; }
+  double scale(int a) const { return elements.scale(static_cast<int>(element), a); }
+};
+
+/// Contravariant base times the Jacobian j.
+struct Contravariant {
+  Vec3 c1, c2, c3;
+  double j;
+  explicit Contravariant(const Base& g)
+      : c1(cross(g.g2, g.g3)), c2(cross(g.g3, g.g1)), c3(cross(g.g1, g.g2)), j(g.jacobian()) {}
+};
+
+/// g of the enhanced strain.
+void addEnhancedVector(const Place& at, std::vector<double>& data) {
+  const double j = at.base.jacobian(), jMiddle = at.middle.jacobian();
+  const Vec3 dual = cross(at.middle.g1, at.middle.g2);
+  for (int i = 0; i < 3; ++i) data.push_back(std::sqrt(jMiddle / j) * dual[i] / jMiddle);
+}
+
+/// Gradients with respect to X of N_a, then of zeta N_a (times the director's scale).
+void addGradients(const Place& at, fem::EnhancedPoints& result) {
+  const Contravariant c(at.base);
+  for (int half = 0; half < 2; ++half)
+    for (int a = 0; a < 8; ++a) {
+      const double own = half == 0 ? 1.0 : at.scale(a);
+      const double N = half == 0 ? 0.0 : at.N(a);  // d/dzeta
+      const double z = half == 0 ? 1.0 : at.zeta;
+      for (int i = 0; i < 3; ++i)
+        result.points.shape.push_back(
+            own * (z * (at.dN(a)[0] * c.c1[i] + at.dN(a)[1] * c.c2[i]) + N * c.c3[i]) / c.j);
+    }
+  addEnhancedVector(at, result.data);
+}
+
+/// The shape functions of x_,xi, x_,eta and of the two directors of the assumed shear; the law's vectors at
+/// rest.
+void addAssumedShear(const Place& at, fem::EnhancedPoints& result) {
+  double director[2][8], G[12] = {};  // G: [component][g_1, g_2, d_1, d_2]
+  const double* R = &at.elements.midsurface[24 * at.element];
+  const double* D = &at.elements.directors[24 * at.element];
+  for (int a = 0; a < 8; ++a)
+    for (int c = 0; c < 2; ++c) {
+      director[c][a] = at.N(a) + shearShape(c, a, at.xi);
+      for (int i = 0; i < 3; ++i) {
+        G[4 * i + c] += at.dN(a)[c] * (R[3 * a + i] + at.zeta * D[3 * a + i]);
+        G[4 * i + 2 + c] += director[c][a] * D[3 * a + i];
+      }
+    }
+  std::vector<double>& shape = result.points.shape;
+  for (int a = 0; a < 8; ++a) shape.insert(shape.end(), {at.dN(a)[0], at.dN(a)[1], 0.0, 0.0});
+  for (int a = 0; a < 8; ++a) {
+    const double own = at.scale(a), z = own * at.zeta;
+    shape.insert(shape.end(), {z * at.dN(a)[0], z * at.dN(a)[1], own * director[0][a], own * director[1][a]});
+  }
+  const Contravariant c(at.base);
+  result.data.insert(result.data.end(), G, G + 12);
+  for (int i = 0; i < 3; ++i)
+    result.data.insert(result.data.end(), {c.c1[i] / c.j, c.c2[i] / c.j, c.c3[i] / c.j});
+  addEnhancedVector(at, result.data);
+}
+
+template <class Add>
+fem::EnhancedPoints makePoints(const ShellElements& elements, const ShellCubature& cubature, int components,
+                               const Add& add) {
   const std::size_t count = elements.nodes.size() / 16;
   if (elements.nodes.size() != 16 * count || elements.midsurface.size() != 24 * count ||
       elements.directors.size() != 24 * count ||
@@ -30,7 +114,7 @@ fem::EnhancedPoints shellPoints(const ShellElements& elements, const ShellCubatu
   p.numEntities = static_cast<int>(count);
   p.nodesPerEntity = 16;
   p.pointsPerEntity = static_cast<int>(plane.weights.size() * through.x.size());
-  p.shapeComponents = 3;
+  p.shapeComponents = components;
   p.nodes = elements.nodes;
   for (std::size_t q = 0; q < plane.weights.size(); ++q)
     for (double zeta : through.x) {
@@ -43,7 +127,6 @@ fem::EnhancedPoints shellPoints(const ShellElements& elements, const ShellCubatu
     for (std::size_t q = 0; q < plane.weights.size(); ++q) {
       const int at = static_cast<int>(q);
       const Base middle = baseAt(t, at, 0, R, D);
-      const double jMiddle = middle.jacobian();
       for (double zeta : {-1.0, 0.0, 1.0})  // the faces count, not only the points
         if (!(baseAt(t, at, zeta, R, D).jacobian() > 0))
           throw std::runtime_error(
@@ -54,29 +137,27 @@ fem::EnhancedPoints shellPoints(const ShellElements& elements, const ShellCubatu
       for (std::size_t layer = 0; layer < through.x.size(); ++layer) {
         const double zeta = through.x[layer];
         const Base base = baseAt(t, at, zeta, R, D);
-        const double j = base.jacobian();
-        const Vec3 c1 = cross(base.g2, base.g3), c2 = cross(base.g3, base.g1), c3 = cross(base.g1, base.g2);
-        p.weights.push_back(plane.weights[q] * through.w[layer] * j);
-        for (int half = 0; half < 2; ++half)  // N_a, then zeta N_a (times the director's scale)
-          for (int a = 0; a < 8; ++a) {
-            const double own = half == 0 ? 1.0 : elements.scale(static_cast<int>(e), a);
-            const double N = half == 0 ? 0.0 : t.values[q * 8 + a];  // d/dzeta
-            const double* dN = &t.gradients[(q * 8 + a) * 2];
-            const double z = half == 0 ? 1.0 : zeta;
-            for (int i = 0; i < 3; ++i)
-              p.shape.push_back(own * (z * (dN[0] * c1[i] + dN[1] * c2[i]) + N * c3[i]) / j);
-          }
+        p.weights.push_back(plane.weights[q] * through.w[layer] * base.jacobian());
+        add(Place{elements, t, e, q, &plane.xi[2 * q], zeta, base, middle}, result);
         for (int i = 0; i < 3; ++i) {
           double x = 0;
           for (int a = 0; a < 8; ++a) x += t.values[q * 8 + a] * (R[3 * a + i] + zeta * D[3 * a + i]);
           p.positions.push_back(x);
         }
-        const Vec3 dual = cross(middle.g1, middle.g2);
-        for (int i = 0; i < 3; ++i) result.data.push_back(std::sqrt(jMiddle / j) * dual[i] / jMiddle);
       }
     }
   }
   return result;
+}
+
+}  // namespace
+
+fem::EnhancedPoints shellPoints(const ShellElements& elements, const ShellCubature& cubature) {
+  return makePoints(elements, cubature, 3, addGradients);
+}
+
+fem::EnhancedPoints assumedShearPoints(const ShellElements& elements, const ShellCubature& cubature) {
+  return makePoints(elements, cubature, 4, addAssumedShear);
 }
 
 }  // namespace atrapos::solid

@@ -7,6 +7,15 @@
 
 namespace atrapos::solid::test {
 
+std::unique_ptr<fem::Term> shellTerm(const ShellGrid& grid, const SaintVenantKirchhoff& material,
+                                     const ShellCubature& cubature, Shear shear) {
+  if (shear == Shear::assumed)
+    return std::make_unique<AssumedShearTerm<SaintVenantKirchhoff>>(
+        AssumedShearLaw<SaintVenantKirchhoff>{material}, assumedShearPoints(grid.elements(), cubature));
+  return std::make_unique<Shell>(ShellLaw<SaintVenantKirchhoff>{material},
+                                 shellPoints(grid.elements(), cubature));
+}
+
 Numbers linearSolution(fem::FeProblem& problem) {
   auto F = fem::test::zeroVector(problem), u = fem::test::zeroVector(problem);
   const auto K = problem.tangent(*fem::test::zeroVector(problem), 0, *F);

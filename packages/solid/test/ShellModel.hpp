@@ -13,13 +13,18 @@ namespace atrapos::solid::test {
 using fem::test::Numbers;
 using Shell = ShellTerm<SaintVenantKirchhoff>;
 
+/// The paper's element, or the one with assumed transverse shear strains.
+enum class Shear { compatible, assumed };
+
+std::unique_ptr<fem::Term> shellTerm(const ShellGrid& grid, const SaintVenantKirchhoff& material,
+                                     const ShellCubature& cubature = {}, Shear shear = Shear::compatible);
+
 /// Saint Venant-Kirchhoff shell without supports and loads.
 inline fem::FeModel shellModel(const ShellGrid& grid, const SaintVenantKirchhoff& material,
-                               const ShellCubature& cubature = {}) {
+                               const ShellCubature& cubature = {}, Shear shear = Shear::compatible) {
   fem::FeModel model;
   model.numNodes = 2 * grid.numNodes();
-  model.terms.push_back(std::make_unique<Shell>(ShellLaw<SaintVenantKirchhoff>{material},
-                                                shellPoints(grid.elements(), cubature)));
+  model.terms.push_back(shellTerm(grid, material, cubature, shear));
   model.supports = fem::Supports(model.numNodes);
   model.constantLoad.assign(3 * model.numNodes, 0.0);
   model.load.assign(3 * model.numNodes, 0.0);

@@ -16,8 +16,9 @@ namespace {
 
 /// Eigenvalues of the tangent at zero displacement in units of the largest, ascending; the directors'
 /// unknowns are w/(t/2), so that v and w have comparable sizes.
-Numbers eigenvalues(const ShellGrid& grid, const ShellCubature& cubature, double nu) {
-  fem::FeModel model = shellModel(grid, SaintVenantKirchhoff::fromYoung(1.0, nu), cubature);
+Numbers eigenvalues(const ShellGrid& grid, const ShellCubature& cubature, double nu,
+                    Shear shear = Shear::compatible) {
+  fem::FeModel model = shellModel(grid, SaintVenantKirchhoff::fromYoung(1.0, nu), cubature, shear);
   fem::FeProblem problem(std::move(model));
   const int n = 6 * grid.numNodes();
   const Tangent K = tangent(problem, Numbers(n, 0.0), 0);
@@ -82,5 +83,21 @@ TEST(ShellModes, TwoElementsHaveRigidModesOnly) {
     EXPECT_EQ(zeros(eigenvalues(flatGrid(3, 3, 0.01), reduced, nu)), rigid);
     EXPECT_EQ(zeros(eigenvalues(shaken(flatGrid(2, 2), 0.2), reduced, nu)), rigid);
     EXPECT_EQ(zeros(eigenvalues(shellGrid(2, 2, 0.1, cylinder(1, 0, 1.2, 0, 1)), reduced, nu)), rigid);
+  }
+}
+
+// The assumed shear strains take no mode away: the same counts.
+TEST(ShellModes, AssumedShear) {
+  for (double nu : {0.0, 0.3}) {
+    const auto count = [&](const ShellGrid& grid) {
+      return zeros(eigenvalues(grid, reduced, nu, Shear::assumed));
+    };
+    EXPECT_EQ(count(flatGrid(1, 1)), rigid + 2);
+    EXPECT_EQ(count(skewQuadrilateral()), rigid + 2);
+    EXPECT_EQ(count(flatGrid(2, 1)), rigid);
+    EXPECT_EQ(count(flatGrid(2, 2)), rigid);
+    EXPECT_EQ(count(flatGrid(3, 3, 0.01)), rigid);
+    EXPECT_EQ(count(shaken(flatGrid(2, 2), 0.2)), rigid);
+    EXPECT_EQ(count(shellGrid(2, 2, 0.1, cylinder(1, 0, 1.2, 0, 1))), rigid);
   }
 }

@@ -74,6 +74,16 @@ fem::FeModel curvedModel(const Material& material) {
   return model;
 }
 
+/// The same with assumed transverse shear strains.
+template <class Material>
+fem::FeModel assumedShearModel(const Material& material) {
+  const ShellGrid grid = curvedGrid();
+  fem::FeModel model = curvedModel(material);
+  model.terms[0] = std::make_unique<AssumedShearTerm<Material>>(AssumedShearLaw<Material>{material},
+                                                                assumedShearPoints(grid.elements()));
+  return model;
+}
+
 template <class Material>
 class ShellOrders : public testing::Test {};
 using Materials = testing::Types<SaintVenantKirchhoff, ExponentialMaterial, UnsymmetricMaterial>;
@@ -104,6 +114,14 @@ TYPED_TEST(ShellOrders, ResidualStartsAtOrderKPlusOne) {
   const Numbers u0 = randomState(model.supports, 0.02, 17);
   fem::FeProblem problem(std::move(model));
   expectOrders(problem, u0, 0.4);
+}
+
+TEST(AssumedShearOrders, TangentAndOrders) {
+  fem::FeModel model = assumedShearModel(UnsymmetricMaterial{});
+  const Numbers u = randomState(model.supports, 0.02, 17), direction = randomState(model.supports, 0.02, 18);
+  fem::FeProblem problem(std::move(model));
+  expectTangent(problem, u, direction, 0);
+  expectOrders(problem, u, 0.4);
 }
 
 // The enhanced parameters depend on the state alone: the same bits after any other state.

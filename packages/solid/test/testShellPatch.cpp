@@ -63,8 +63,8 @@ Numbers bent(const ShellGrid& grid, const Vec3& k) {
 }
 
 /// The linear problem with the outline driven to `exact`: largest error inside, in units of the largest u.
-double patchError(const ShellGrid& grid, const Numbers& exact, const ShellCubature& cubature = {}) {
-  fem::FeModel model = shellModel(grid, material, cubature);
+double patchError(const ShellGrid& grid, const Numbers& exact, Shear shear = Shear::compatible) {
+  fem::FeModel model = shellModel(grid, material, {}, shear);
   const auto outer = outline(grid);
   for (int n = 0; n < grid.numNodes(); ++n)
     for (int i = 0; i < 3 && outer[n]; ++i) {
@@ -116,11 +116,11 @@ Matrix membraneState() {
 
 // Membrane patch test at finite strain and rotation: a homogeneous state with free faces. The thickness finds
 // its stretch, the enhanced strain stays zero.
-TEST(ShellPatch, HomogeneousStateOnQuadrilaterals) {
+void expectHomogeneousState(Shear shear) {
   const ShellGrid grid = quadrilaterals();
   const Matrix A = membraneState();
   const Numbers exact = homogeneous(grid, A);
-  fem::FeModel model = shellModel(grid, material);
+  fem::FeModel model = shellModel(grid, material, {}, shear);
   const auto outer = outline(grid);
   for (int n = 0; n < grid.numNodes(); ++n)
     for (int i = 0; i < 3 && outer[n]; ++i) {
@@ -147,14 +147,19 @@ TEST(ShellPatch, HomogeneousStateOnQuadrilaterals) {
   EXPECT_LT(worst, 1e-10);  // the same divided by the thickness
 }
 
+TEST(ShellPatch, HomogeneousStateOnQuadrilaterals) { expectHomogeneousState(Shear::compatible); }
+TEST(ShellPatch, HomogeneousStateWithAssumedShear) { expectHomogeneousState(Shear::assumed); }
+
 // Constant bending and twist: exact on parallelograms.
 TEST(ShellPatch, BendingAndTwistOnParallelograms) {
   const ShellGrid grid = parallelograms();
   // Linear solutions on a thin mesh: rounding times (1/thickness)^2 times a few nodes.
-  EXPECT_LT(patchError(grid, bent(grid, {1, 0, 0})), 1e-11);
-  EXPECT_LT(patchError(grid, bent(grid, {0, 1, 0})), 1e-11);
-  EXPECT_LT(patchError(grid, bent(grid, {0, 0, 1})), 1e-11);
-  EXPECT_LT(patchError(grid, bent(grid, {0.3, -0.8, 0.5})), 1e-11);
+  for (Shear shear : {Shear::compatible, Shear::assumed}) {
+    EXPECT_LT(patchError(grid, bent(grid, {1, 0, 0}), shear), 1e-11);
+    EXPECT_LT(patchError(grid, bent(grid, {0, 1, 0}), shear), 1e-11);
+    EXPECT_LT(patchError(grid, bent(grid, {0, 0, 1}), shear), 1e-11);
+    EXPECT_LT(patchError(grid, bent(grid, {0.3, -0.8, 0.5}), shear), 1e-11);
+  }
 }
 
 // On other quadrilaterals an eight-node element has no complete quadratic (xi^2 eta^2 is missing): not exact,
@@ -189,11 +194,13 @@ TEST(ShellPatch, PlateStiffness) {
 // Rotations of any angle cost nothing, on curved and distorted elements.
 TEST(ShellPatch, FiniteRotationCostsNoForce) {
   for (const ShellGrid& grid : {quadrilaterals(), shellGrid(2, 2, thickness, cylinder(1, 0, 1, 0, 1))}) {
-    fem::FeProblem problem(shellModel(grid, material));
-    for (double angle : {0.4, 2.0, M_PI}) {
-      const Numbers u = homogeneous(grid, rotation(angle));
-      EXPECT_GT(largest(u), 0.1);
-      EXPECT_LT(largest(residual(problem, u, 0).r), 1e-15);  // rounding of strains times element area
+    for (Shear shear : {Shear::compatible, Shear::assumed}) {
+      fem::FeProblem problem(shellModel(grid, material, {}, shear));
+      for (double angle : {0.4, 2.0, M_PI}) {
+        const Numbers u = homogeneous(grid, rotation(angle));
+        EXPECT_GT(largest(u), 0.1);
+        EXPECT_LT(largest(residual(problem, u, 0).r), 1e-15);  // rounding of strains times element area
+      }
     }
   }
 }

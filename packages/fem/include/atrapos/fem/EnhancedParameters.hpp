@@ -31,14 +31,15 @@ inline const char* describe(EnhancedFailure failure) {
   return "";
 }
 
-/// The M enhanced parameters beta of one element at given displacement gradients (docs/theory/shell.md):
+/// The M enhanced parameters beta of one element at given h = B u (docs/theory/shell.md):
 ///
-///     g_j(beta) = sum_q w_q m_qj s(H_q, e_q) = 0,     e_q = sum_j m_qj beta_j
+///     g_j(beta) = sum_q w_q m_qj s(h_q, e_q) = 0,     e_q = sum_j m_qj beta_j
 ///
-/// s is law.enhancedStress(in, data) with in = (H, e). Newton's method from beta = 0, whatever states came
+/// s is law.enhancedStress(in, data) with in = (h, e). Newton's method from beta = 0, whatever states came
 /// before: beta is a function of the displacements alone and the same to the last bit at every call.
 ///
-/// in: [q][10], its e entries are work space and hold e_q afterwards; data: [q][numData]; w: [q]; m: [q][M].
+/// in: [q][numInputs], its e entries are work space and hold e_q afterwards; data: [q][numData]; w: [q]; m:
+/// [q][M].
 template <int M, class Law>
 KOKKOS_INLINE_FUNCTION EnhancedFailure solveEnhanced(const Law& law, int numPoints, double* in,
                                                      const double* data, const double* w, const double* m,

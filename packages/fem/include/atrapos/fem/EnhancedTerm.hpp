@@ -5,8 +5,8 @@
 
 namespace atrapos::fem {
 
-/// Points at which a law with an enhanced strain acts: the maps B of a PointSet with gradients, and
-/// e = sum_j mode_j beta_j with M parameters beta of each element.
+/// Points at which a law with an enhanced strain acts: the maps B of a PointSet, and e = sum_j mode_j beta_j
+/// with M parameters beta of each element.
 struct EnhancedPoints {
   PointSet points;
   int numParameters = 0;
@@ -14,10 +14,12 @@ struct EnhancedPoints {
   std::vector<double> data;   ///< the law's passive data, [entity][point][datum]
 };
 
-/// A law of the displacement gradient H and of an enhanced strain e, paper (32)-(35), whose element
-/// parameters are condensed inside the element at every order (docs/theory/shell.md, "Condensation").
+/// A law of h = B u and of an enhanced strain e, paper (32)-(35), whose element parameters are condensed
+/// inside the element at every order (docs/theory/shell.md, "Condensation"). B u: `Law::components` vectors
+/// at a point.
 ///
-/// Law (see taylor/Law.hpp): inputs (H by rows, e), outputs their work conjugates (P by rows, s); besides
+/// Law (see taylor/Law.hpp): inputs (h, [Cartesian component][vector], e), outputs their work conjugates (f,
+/// s); besides
 ///     template <class T> T enhancedStress(const T* in, const taylor::Passive<T>* data) const;   // s alone
 ///     double enhancedStrainSize(const double* data) const;   // strain per unit of e, for convergence only
 /// and the observed values of LawTerm's laws.
@@ -26,17 +28,16 @@ struct EnhancedPoints {
 /// why and beginSeries throws it. M: number of parameters.
 template <class Law, int M>
 class EnhancedTerm final : public Term {
-  static constexpr int L = kLanes, C = 3, I = 9, J = I + 1, D = Law::numData;
-  static_assert(Law::numInputs == J && Law::numOutputs == J,
-                "the law's inputs are a gradient and one strain");
+  static constexpr int L = kLanes, C = Law::components, I = 3 * C, J = I + 1, D = Law::numData;
+  static_assert(Law::numInputs == J && Law::numOutputs == J, "the law's inputs are vectors and one strain");
   /// Points of an element: bounds the stack, 16 shell nodes need no more than 3 x 3 x 3.
   static constexpr int maxPoints = 27;
   using Pack = taylor::Lanes<L>;
 
   struct Arrays : LawArrays<Law, C> {
     View<double*> modes;    // [q][parameter]
-    View<double*> dPde;     // [batch][q][9][lane], times the weight
-    View<double*> dsdH;     // the same, times the weight
+    View<double*> dfde;     // [batch][q][I][lane], times the weight
+    View<double*> dsdh;     // the same, times the weight
     View<double*> inverse;  // [batch][M][M][lane] K_bb^-1
     View<double*> g;        // [batch][M][lane] of the order swept last: g_k with U_k = 0, beta_k = 0
     View<int*> failed;      // [batch][lane]
@@ -46,7 +47,7 @@ class EnhancedTerm final : public Term {
       return reinterpret_cast<Pack*>(&view(item * size * L));
     }
 
-    /// in[q] = (H, e) in all lanes, with the beta that belongs to the displacements.
+    /// in[q] = (h, e) in all lanes, with the beta that belongs to the displacements.
     KOKKOS_INLINE_FUNCTION void inputs(int b, const ConstField& u, Pack* in) const {
       Pack local[3 * kMaxNodes];
       this->gather(b, u, local);
@@ -72,8 +73,8 @@ class EnhancedTerm final : public Term {
       }
     }
 
-    /// Weighted derivatives of the law at all points: P by H (where wanted), P by e, s by H, and K_bb^-1.
-    KOKKOS_INLINE_FUNCTION void moduli(int b, const Pack* in, Pack* dPdH, Pack* byE, Pack* byH,
+    /// Weighted derivatives of the law at all points: f by h (where wanted), f by e, s by h, and K_bb^-1.
+    KOKKOS_INLINE_FUNCTION void moduli(int b, const Pack* in, Pack* dfdh, Pack* byE, Pack* byh,
                                        Pack* Kinverse) const {
       Pack K[M * M];
       for (int i = 0; i < M * M; ++i) K[i] = Pack(0.0);
@@ -85,12 +86,12 @@ class EnhancedTerm final : public Term {
           this->lanesOf(in + q * J, J, lane, one);
           this->lanesOf(this->dataAt(b, q), D, lane, data);
           taylor::tangent(this->law, one, data, out, jacobian);
-          if (dPdH)
+          if (dfdh)
             for (int m = 0; m < I; ++m)
-              for (int n = 0; n < I; ++n) dPdH[(q * I + m) * I + n][lane] = w[lane] * jacobian[m * J + n];
+              for (int n = 0; n < I; ++n) dfdh[(q * I + m) * I + n][lane] = w[lane] * jacobian[m * J + n];
           for (int m = 0; m < I; ++m) {
             byE[q * I + m][lane] = w[lane] * jacobian[m * J + I];
-            byH[q * I + m][lane] = w[lane] * jacobian[I * J + m];
+            byh[q * I + m][lane] = w[lane] * jacobian[I * J + m];
           }
           dsde[lane] = w[lane] * jacobian[I * J + I];
         }
@@ -111,18 +112,18 @@ class EnhancedTerm final : public Term {
       }
     }
 
-    /// in[q] = (H_k, e_k) of U_k, with beta_k = -K_bb^-1 (g_k + K_bu U_k) and the g_k that the sweep of order
+    /// in[q] = (h_k, e_k) of U_k, with beta_k = -K_bb^-1 (g_k + K_bu U_k) and the g_k that the sweep of order
     /// k left.
     KOKKOS_INLINE_FUNCTION void trueInputs(int b, const ConstField& Uk, Pack* in) const {
       Pack local[3 * kMaxNodes], sum[M], minusBeta[M];
       this->gather(b, Uk, local);
       for (int j = 0; j < M; ++j) sum[j] = at(g, b, M)[j];
       for (int q = 0; q < this->Q; ++q) {
-        Pack* H = in + q * J;
-        this->interpolate(b, q, local, H);
-        const Pack* byH = at(dsdH, static_cast<std::size_t>(b) * this->Q + q, I);
+        Pack* h = in + q * J;
+        this->interpolate(b, q, local, h);
+        const Pack* byh = at(dsdh, static_cast<std::size_t>(b) * this->Q + q, I);
         Pack s(0.0);
-        for (int m = 0; m < I; ++m) s += byH[m] * H[m];
+        for (int m = 0; m < I; ++m) s += byh[m] * h[m];
         for (int j = 0; j < M; ++j) sum[j] += mode(q, j) * s;
       }
       solveInLanes(b, sum, minusBeta);
@@ -154,8 +155,8 @@ class EnhancedTerm final : public Term {
     a_.fill(law, p.points, p.data, batches_);
     const std::size_t batches = batches_.count;
     a_.modes = upload("modes", p.modes);
-    a_.dPde = View<double*>("dPde", batches * Q * I * L);
-    a_.dsdH = View<double*>("dsdH", batches * Q * I * L);
+    a_.dfde = View<double*>("dfde", batches * Q * I * L);
+    a_.dsdh = View<double*>("dsdh", batches * Q * I * L);
     a_.inverse = View<double*>("inverse", batches * M * M * L);
     a_.g = View<double*>("g", batches * M * L);
     a_.failed = View<int*>("failed", batches * L);
@@ -196,10 +197,10 @@ class EnhancedTerm final : public Term {
     const Arrays a = a_;
     forEachBatch(
         "tangent", batches_, a.order, KOKKOS_LAMBDA(int b) {
-          Pack in[maxPoints * J], dPdH[maxPoints * I * I], byE[maxPoints * I], byH[maxPoints * I],
+          Pack in[maxPoints * J], dfdh[maxPoints * I * I], byE[maxPoints * I], byh[maxPoints * I],
               Kinverse[M * M];
           a.inputs(b, u, in);
-          a.moduli(b, in, dPdH, byE, byH, Kinverse);
+          a.moduli(b, in, dfdh, byE, byh, Kinverse);
           // K_ub and -K_bb^-1 K_bu, node by node: [node][component][parameter].
           Pack ub[kMaxNodes * 3 * M], bu[kMaxNodes * 3 * M];
           for (int i = 0; i < a.N * 3 * M; ++i) ub[i] = bu[i] = Pack(0.0);
@@ -207,13 +208,13 @@ class EnhancedTerm final : public Term {
             Pack u1[3 * kMaxNodes], b1[3 * kMaxNodes];
             for (int n = 0; n < 3 * a.N; ++n) u1[n] = b1[n] = Pack(0.0);
             for (int q = 0; q < a.Q; ++q) {
-              Pack scaledE[I], scaledH[I];
+              Pack scaledE[I], scaledh[I];
               for (int m = 0; m < I; ++m) {
                 scaledE[m] = byE[q * I + m] * a.mode(q, j);
-                scaledH[m] = byH[q * I + m] * a.mode(q, j);
+                scaledh[m] = byh[q * I + m] * a.mode(q, j);
               }
               a.accumulateWeighted(b, q, scaledE, u1);
-              a.accumulateWeighted(b, q, scaledH, b1);
+              a.accumulateWeighted(b, q, scaledh, b1);
             }
             for (int n = 0; n < 3 * a.N; ++n) {
               ub[n * M + j] = u1[n];
@@ -228,7 +229,7 @@ class EnhancedTerm final : public Term {
                 block[3 * i + j] = sum;
               }
           };
-          a.addBlocks(b, dPdH, condensed, sink);
+          a.addBlocks(b, dfdh, condensed, sink);
         });
   }
 
@@ -240,7 +241,7 @@ class EnhancedTerm final : public Term {
         "beginSeries", batches_, a.order, KOKKOS_LAMBDA(int b) {
           Pack in[maxPoints * J], out[J];
           a.inputs(b, u, in);
-          a.moduli(b, in, nullptr, a.at(a.dPde, b, a.Q * I), a.at(a.dsdH, b, a.Q * I),
+          a.moduli(b, in, nullptr, a.at(a.dfde, b, a.Q * I), a.at(a.dsdh, b, a.Q * I),
                    a.at(a.inverse, b, M * M));
           for (int q = 0; q < a.Q; ++q) {
             taylor::Failures<L> noted;
@@ -282,7 +283,7 @@ class EnhancedTerm final : public Term {
           for (int q = 0; q < a.Q; ++q) {
             Pack e(0.0), stress[I];
             for (int j = 0; j < M; ++j) e += a.mode(q, j) * minusBeta[j];
-            const Pack* byE = a.at(a.dPde, static_cast<std::size_t>(b) * a.Q + q, I);
+            const Pack* byE = a.at(a.dfde, static_cast<std::size_t>(b) * a.Q + q, I);
             for (int m = 0; m < I; ++m) stress[m] = -(byE[m] * e);
             a.accumulateWeighted(b, q, stress, force);
           }

@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include "atrapos/fem/Coupling.hpp"
 #include "atrapos/fem/Support.hpp"
 #include "atrapos/fem/Term.hpp"
 #include "atrapos/path/Problem.hpp"
@@ -19,19 +20,25 @@ struct FeModel {
   int numNodes = 0;
   std::vector<std::unique_ptr<Term>> terms;
   Supports supports{0};
+  Couplings couplings;
+  /// Dofs that are multipliers of constraints (fem::RigidBody): each owes the tangent one negative pivot.
+  int numMultipliers = 0;
   std::vector<double> constantLoad;  ///< F_0, [3 node + component], dead
   std::vector<double> load;          ///< F_1: the dead load at load factor 1
   /// Communicator of the problem's maps, of one rank; null: Tpetra's default, all ranks of the program.
   linear::RCP<const Teuchos::Comm<int>> comm;
 };
 
-/// R(u, lambda) = sum of the terms F(u, lambda) - F_0 - lambda F_1 with Dirichlet conditions, as a path::Problem.
+/// R(u, lambda) = sum of the terms F(u, lambda) - F_0 - lambda F_1 with Dirichlet conditions, as a
+/// path::Problem.
 ///
 /// The unknowns are all nodal displacements, 3 a node. The row of a prescribed dof reads s (u - value -
 /// lambda rate) = 0 with s the size of the tangent's diagonal, and its column is carried to the load
 /// direction (the state and every series satisfy the condition to rounding), so the tangent stays symmetric
 /// and its inertia is that of the free dofs. A state off its supports is out of balance by that row. Nodes
-/// without an element are held at zero; a force there throws std::invalid_argument.
+/// without an element are held at zero; a force there throws std::invalid_argument. Coupled dofs are
+/// eliminated in the same way: their forces and columns go to their masters, and their own rows are the
+/// couplings.
 ///
 /// Scale of the relative residual: the norm of what the residual is the cancellation of, sqrt(sum over all
 /// elements and contact faces of |own nodal forces|^2), or that of F_0 + lambda F_1 where it is larger; at
@@ -53,11 +60,13 @@ class FeProblem final : public path::Problem {
   void beginSeries(const path::Vector& u, double lambda, int maxOrder) override;
   void orderRhs(int k, path::Vector& Fk) override;
   void completeOrder(int k, const path::Vector& Uk, double lambdaK) override;
+  int constraintPivots() const override;
 
   /// The state at load factor lambda before any load acts: prescribed displacements, zero elsewhere.
   linear::RCP<path::Vector> initialState(double lambda) const;
 
-  /// Forces that the supports exert on the body at (u, lambda), zero at free dofs: [3 node + component].
+  /// Forces that the supports exert on the body at (u, lambda), with those of coupled dofs, zero at free
+  /// dofs: [3 node + component].
   std::vector<double> reactions(const path::Vector& u, double lambda) const;
 
   /// Nodal forces F(u, lambda) of one term.

@@ -23,6 +23,7 @@ namespace atrapos::solid {
 /// the second Piola-Kirchhoff stress of the Green-Lagrange strain.
 template <class Material>
 struct ShellLaw {
+  static constexpr int components = 3;  ///< of a shape function's gradient
   static constexpr int numInputs = 10, numOutputs = 10, numData = 3;
   static constexpr bool symmetric = Material::symmetric;
 

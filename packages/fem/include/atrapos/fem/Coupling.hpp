@@ -1,0 +1,65 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "atrapos/fem/Support.hpp"
+
+/// Linear couplings between dofs (multi-point constraints), eliminated exactly (docs/theory/couplings.md).
+namespace atrapos::fem {
+
+/// One term of a coupling: factor times the displacement of a dof (3 node + component).
+struct CoupledDof {
+  int dof = 0;
+  double factor = 1;
+};
+
+/// u_dof = sum of the masters' terms + value + lambda perLoadFactor.
+struct Coupling {
+  int dof = 0;  ///< the slave
+  std::vector<CoupledDof> masters;
+  double value = 0, perLoadFactor = 0;
+};
+
+/// Couplings of a model. A slave has one coupling and no support; a master may be supported, and may be the
+/// slave of another coupling.
+class Couplings {
+ public:
+  /// Throws std::invalid_argument where the dof is a slave already or its own master.
+  void add(Coupling coupling);
+
+  bool empty() const { return couplings_.empty(); }
+  int count() const { return static_cast<int>(couplings_.size()); }
+  bool driven() const;  ///< any perLoadFactor != 0
+  const std::vector<Coupling>& all() const { return couplings_; }
+
+  /// The same with masters that are no slaves, each once. Throws std::invalid_argument naming the node of a
+  /// slave that depends on itself, is supported, or is not in a model of numNodes nodes.
+  std::vector<Coupling> resolved(const Supports& supports) const;
+
+ private:
+  std::vector<Coupling> couplings_;
+};
+
+/// Every component of these nodes moves as that of the first one.
+void coupleEqual(Couplings& couplings, const std::vector<int>& nodes);
+
+/// These nodes keep a common displacement along `normal` (any length): an edge or face stays in a plane that
+/// shifts but does not turn. The first node leads. Throws std::invalid_argument for a zero normal.
+void couplePlane(Couplings& couplings, const std::vector<int>& nodes, const std::array<double, 3>& normal);
+
+/// u = sum of factor_i u_i, all three components; `masters` are (node, factor).
+struct CoupledNode {
+  int node = 0;
+  double factor = 1;
+};
+void coupleNode(Couplings& couplings, int node, const std::vector<CoupledNode>& masters);
+
+/// Joins a node of a shell's edge to a solid: v = (u_top + u_bottom)/2 and w = (u_top - u_bottom)/2, so that
+/// the director follows the solid's side. `top` and `bottom` are the solid's nodes at X + D and X - D of the
+/// shell's node. Where v is itself a node of the solid, pass joinMidsurface = false: the solid's displacement
+/// stays.
+void coupleShellToSolid(Couplings& couplings, int shellNode, int directorNode, int top, int bottom,
+                        bool joinMidsurface = true);
+
+}  // namespace atrapos::fem

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "atrapos/fem/FeProblem.hpp"
+
+namespace atrapos::fem {
+
+/// A rigid body of finite rotations that nodes are attached to: a rigid end of a shell, a stiff plate
+/// (docs/theory/couplings.md, "Rigid bodies").
+///
+/// Its motion is that of four points: an origin and the ends of three arms of one length along x, y, z. Every
+/// attached point is linear in their displacements (Couplings), and six quadratic constraints, the
+/// Green-Lagrange strains of the four points, keep the arms orthonormal. Their multipliers are unknowns.
+///
+/// Takes numNodes consecutive nodes of the model: origin, three arms, two of multipliers. Supports and loads
+/// act at the origin (a translation, a force through it) and at the arms (rotations: an arm's end that is
+/// held; couples); the multipliers want neither.
+class RigidBody {
+ public:
+  static constexpr int numNodes = 6;
+
+  /// firstNode: the first of its nodes. origin: where it stands at rest. armLength > 0: about the body's
+  /// size. Throws std::invalid_argument where the length is not positive.
+  RigidBody(int firstNode, const std::array<double, 3>& origin, double armLength);
+
+  int originNode() const { return firstNode_; }
+  int armNode(int axis) const { return firstNode_ + 1 + axis; }
+
+  /// The node moves with the point of the body at `position` (its place at rest).
+  void attach(Couplings& couplings, int node, const std::array<double, 3>& position) const;
+
+  /// The node carries a vector's change that turns with the body: a shell's director D.
+  void attachDirector(Couplings& couplings, int node, const std::array<double, 3>& D) const;
+
+  /// Adds the constraints to the model, which must have these nodes. stiffness (force per length, > 0) only
+  /// scales the multipliers: take the size of the tangent's diagonal, Young's modulus times the thickness.
+  void addTo(FeModel& model, double stiffness) const;
+
+ private:
+  int firstNode_;
+  std::array<double, 3> origin_;
+  double length_;
+};
+
+}  // namespace atrapos::fem
