@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "Registry.hpp"
 #include "Shells.hpp"
@@ -111,14 +112,14 @@ void Scene::addLoads(fem::FeModel& model) const {
 
 void Scene::requireSupport(const fem::Supports& supports) const {
   std::vector<fem::HeldDirection> held;
-  for (std::size_t c = 0; c < contacts_.size(); ++c) {
-    const deck::Tool& tool = toolOf(deck_.contacts[c]);
-    for (const fem::PointSet& points : contacts_[c].points)
+  for (const ContactPoints& contact : contacts_)
+    for (const fem::PointSet& points : contact.points)
       for (int n : points.nodes) {
-        const auto y = registry::project(tool, &mesh_.coordinates[3 * static_cast<std::size_t>(n)]);
-        held.push_back({n, {y[1], y[2], y[3]}});
+        const double* x = &mesh_.coordinates[3 * static_cast<std::size_t>(n)];
+        const double place[4] = {x[0], x[1], x[2], 0};
+        const ToolProjection over = contact.tool->project(place);
+        if (std::isfinite(over.gap)) held.push_back({n, {over.normal[0], over.normal[1], over.normal[2]}});
       }
-  }
   for (const fem::FreeBody& body : fem::freeBodies(mesh_, supports, held))
     fail("supports",
          fmt::format("the body with block '{}' can still move freely in {} rigid motion{}: prescribe more "
@@ -128,6 +129,8 @@ void Scene::requireSupport(const fem::Supports& supports) const {
 
 void Scene::requireEffect(const fem::FeModel& model) const {
   if (model.supports.driven()) return;
+  for (const ContactPoints& contact : contacts_)
+    if (contact.tool->moves()) return;
   for (std::size_t dof = 0; dof < model.load.size(); ++dof)
     if (model.load[dof] != 0 && !model.supports.fixed(static_cast<int>(dof))) return;
   fail("loads", "without effect: all that depends on the load factor acts on supported displacements");

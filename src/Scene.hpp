@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "ContactPressure.hpp"
+#include "RigidTool.hpp"
 #include "atrapos/fem/FeProblem.hpp"
 #include "atrapos/fem/Mesh.hpp"
 #include "atrapos/fem/PointSet.hpp"
@@ -24,15 +26,21 @@ struct ContactPoints {
   std::string name;
   std::vector<int> terms;  ///< positions of its terms in the problem (one a face shape)
   std::vector<fem::PointSet> points;
-  std::vector<std::vector<double>> gaps;  ///< [term][point] initial gap
+  std::vector<std::vector<double>> gaps;        ///< [term][point] initial gap
+  std::vector<std::vector<double>> references;  ///< [term][point] Delta
+  std::vector<std::vector<double>> closedGaps;  ///< [term][point] a point with a smaller gap is closed
+  const RigidTool* tool = nullptr;
+  ContactPressure pressure;
   int count = 0;
   double smallestGap = 0;  ///< at the start
+  int attracted = 0;       ///< points farther off than a uniform Delta, which pulls at them
 };
 
 /// State of one contact at a point of the path.
 struct ContactState {
   double normalForce = 0;  ///< sum of weight * R over the points
-  /// Closed points: h <= 2 eta/alpha, the vertex of the hyperbola (15); rigid: h <= 1e-3 of the initial gap.
+  /// Closed points: h <= 2 eta/alpha, the vertex of the hyperbola (15); rigid: h <= 1e-3 Delta; h <= 0 with
+  /// laws without eta.
   int active = 0;
 };
 
@@ -73,7 +81,10 @@ class Scene {
   void addLoads(fem::FeModel& model) const;
   void addContacts(fem::FeModel& model);
   void addMonitors();
-  const deck::Tool& toolOf(const deck::Contact& contact) const;
+  void makeTools();
+  BodySize bodySize() const;
+  void measureGaps(const deck::Contact& contact, ContactPoints& entry) const;
+  void choosePressure(const deck::Contact& contact, BodySize body, ContactPoints& entry) const;
   void requireSupport(const fem::Supports& supports) const;
   void requireEffect(const fem::FeModel& model) const;
   [[noreturn]] void fail(const std::string& key, const std::string& problem) const;
@@ -84,7 +95,8 @@ class Scene {
   deck::Deck deck_;
   fem::Mesh mesh_;
   std::unique_ptr<fem::FeProblem> problem_;
-  std::vector<SolidBlock> solids_;  ///< [block]
+  std::vector<SolidBlock> solids_;                 ///< [block]
+  std::vector<std::unique_ptr<RigidTool>> tools_;  ///< in the deck's order
   std::vector<ContactPoints> contacts_;
   /// [monitor] weights of a displacement monitor over the unknowns; null for the others
   std::vector<linear::RCP<path::Vector>> displacementWeights_;

@@ -6,73 +6,141 @@
 #include <limits>
 #include <numeric>
 
-#include "Registry.hpp"
 #include "Scene.hpp"
+#include "atrapos/fem/ReferenceCell.hpp"
 
 namespace atrapos {
 
-const deck::Tool& Scene::toolOf(const deck::Contact& contact) const {
-  return *std::find_if(deck_.tools.begin(), deck_.tools.end(),
-                       [&](const deck::Tool& tool) { return tool.name == contact.tool; });
-}
-
-void Scene::addContacts(fem::FeModel& model) {
+void Scene::makeTools() {
   for (const deck::Tool& tool : deck_.tools) try {
-      registry::validate(tool);
+      tools_.push_back(makeTool(tool));
     } catch (const std::invalid_argument& e) {
       fail("tools/" + tool.name, e.what());
     }
-  for (const deck::Contact& contact : deck_.contacts) {
-    const deck::Tool& tool = toolOf(contact);
-    contact::RegularisedPressure pressure;
-    pressure.compliance = contact.stiffness ? 1.0 / *contact.stiffness : 0.0;
-    pressure.eta = contact.regularisation;
+}
 
+void Scene::addContacts(fem::FeModel& model) {
+  makeTools();
+  const BodySize body = bodySize();
+  for (const deck::Contact& contact : deck_.contacts) {
+    const auto position = std::find_if(deck_.tools.begin(), deck_.tools.end(),
+                                       [&](const deck::Tool& tool) { return tool.name == contact.tool; });
     ContactPoints entry;
     entry.name = contact.name;
+    entry.tool = tools_[position - deck_.tools.begin()].get();
     if (contact.points == deck::Contact::Points::Nodes)
       entry.points.push_back(fem::nodePoints(mesh_, nodesOf(contact.set)));
     else
       entry.points = fem::facePoints(mesh_, mesh_.sideSets.at(fem::findSideSet(mesh_, contact.set)),
                                      contact.quadratureDegree);
-
-    entry.smallestGap = std::numeric_limits<double>::infinity();
-    for (const fem::PointSet& points : entry.points) {
-      std::vector<double> gaps, references;
-      for (int p = 0; p < points.numPoints(); ++p) {
-        const double* x = &points.positions[3 * static_cast<std::size_t>(p)];
-        const std::string ambiguity = registry::ambiguity(tool, x);
-        const double gap = registry::project(tool, x)[0];
-        if (!ambiguity.empty() || !std::isfinite(gap))
-          fail("contact/" + contact.name,
-               fmt::format("the point ({:.6g}, {:.6g}, {:.6g}) has no unique projection on tool '{}'{}{}",
-                           x[0], x[1], x[2], tool.name, ambiguity.empty() ? "" : ": it ", ambiguity));
-        // Rounding of coordinates as large as the scene; anything deeper is meant.
-        const double rounding = 1e-12 * (1 + std::abs(x[0]) + std::abs(x[1]) + std::abs(x[2]));
-        if (gap < -rounding)
-          fail("contact/" + contact.name, fmt::format("tool '{}' penetrates the body at the start: gap "
-                                                      "{:.6g} at ({:.6g}, {:.6g}, {:.6g}); move the "
-                                                      "tool or the mesh apart",
-                                                      tool.name, gap, x[0], x[1], x[2]));
-        // Law (15) needs Delta > eta/alpha; a point that touches at the start gets the least sensible value.
-        const double least = 2 * pressure.eta * pressure.compliance;
-        if (!contact.referenceGap && !(std::max(gap, least) > 0))
-          fail("contact/" + contact.name + "/reference_gap",
-               fmt::format(
-                   "the body touches tool '{}' at ({:.6g}, {:.6g}, {:.6g}): a rigid contact needs a positive "
-                   "reference_gap there, give a number",
-                   tool.name, x[0], x[1], x[2]));
-        gaps.push_back(gap);
-        references.push_back(contact.referenceGap ? *contact.referenceGap : std::max(gap, least));
-        entry.smallestGap = std::min(entry.smallestGap, gap);
-      }
-      entry.count += points.numPoints();
+    measureGaps(contact, entry);
+    choosePressure(contact, body, entry);
+    for (std::size_t t = 0; t < entry.points.size(); ++t) {
       entry.terms.push_back(static_cast<int>(model.terms.size()));
-      entry.gaps.push_back(std::move(gaps));
-      model.terms.push_back(registry::contactTerm(tool, pressure, points, references));
+      model.terms.push_back(entry.tool->term(entry.pressure.law, entry.points[t], entry.references[t]));
     }
     contacts_.push_back(std::move(entry));
   }
+}
+
+/// Where the points are over the tool at the start, refusing places that cannot be.
+void Scene::measureGaps(const deck::Contact& contact, ContactPoints& entry) const {
+  entry.smallestGap = std::numeric_limits<double>::infinity();
+  for (const fem::PointSet& points : entry.points) {
+    std::vector<double> gaps, distances;
+    for (int p = 0; p < points.numPoints(); ++p) {
+      const double* x = &points.positions[3 * static_cast<std::size_t>(p)];
+      const double place[4] = {x[0], x[1], x[2], 0};
+      const std::string ambiguity = entry.tool->ambiguity(place);
+      const ToolProjection over = entry.tool->project(place);
+      if (!ambiguity.empty() || std::isnan(over.gap))
+        fail("contact/" + contact.name,
+             fmt::format("the point ({:.6g}, {:.6g}, {:.6g}) has no unique projection on tool '{}'{}{}", x[0],
+                         x[1], x[2], contact.tool, ambiguity.empty() ? "" : ": it ", ambiguity));
+      // Rounding of coordinates as large as the scene; anything deeper is meant.
+      const double rounding = 1e-12 * (1 + std::abs(x[0]) + std::abs(x[1]) + std::abs(x[2]));
+      if (over.gap < -rounding)
+        fail(
+            "contact/" + contact.name,
+            fmt::format("tool '{}' penetrates the body at the start: gap {:.6g} at ({:.6g}, {:.6g}, {:.6g}); "
+                        "move the tool or the mesh apart",
+                        contact.tool, over.gap, x[0], x[1], x[2]));
+      gaps.push_back(over.gap);
+      distances.push_back(over.distance);
+      entry.smallestGap = std::min(entry.smallestGap, over.gap);
+    }
+    entry.count += points.numPoints();
+    entry.gaps.push_back(std::move(gaps));
+    entry.references.push_back(std::move(distances));
+  }
+}
+
+/// The law and each point's reference gap; `references` holds distances on entry.
+void Scene::choosePressure(const deck::Contact& contact, BodySize body, ContactPoints& entry) const {
+  // Of the points that neither touch nor are beyond the tool; a thousandth of the thickness counts as a gap.
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const auto& distances : entry.references)
+    for (const double d : distances)
+      if (d > 1e-3 * body.thickness) smallest = std::min(smallest, d);
+  body.smallestGap = std::isfinite(smallest) ? smallest : 1e-3 * body.thickness;
+  if (contact.points == deck::Contact::Points::Nodes)
+    body.areaPerPoint /= entry.count;
+  else
+    body.areaPerPoint = 1;
+  const std::string key = "contact/" + contact.name;
+  try {
+    entry.pressure = contactPressure(contact, body);
+  } catch (const std::invalid_argument& e) {
+    fail(key, e.what());
+  }
+  for (std::size_t t = 0; t < entry.points.size(); ++t) {
+    std::vector<double> closed;
+    for (int p = 0; p < entry.points[t].numPoints(); ++p) {
+      double& reference = entry.references[t][p];
+      const double least = entry.pressure.leastReference;
+      if (contact.referenceGap) {
+        reference = *contact.referenceGap;
+        if (reference <= least / 2)
+          fail(key + "/reference_gap",
+               fmt::format("must be above eta/alpha = {:.6g}, got {:.6g}", least / 2, reference));
+      } else {
+        reference = std::max(reference, least);
+      }
+      if (!(reference > 0) && contact.isRigid()) {
+        const double* x = &entry.points[t].positions[3 * static_cast<std::size_t>(p)];
+        fail(key + "/reference_gap",
+             fmt::format("the body touches tool '{}' at ({:.6g}, {:.6g}, {:.6g}): a rigid contact needs a "
+                         "positive reference_gap there, give a number",
+                         contact.tool, x[0], x[1], x[2]));
+      }
+      entry.attracted += contact.referenceGap && entry.gaps[t][p] > reference;
+      closed.push_back(entry.pressure.closedGap < 0 ? 1e-3 * reference : entry.pressure.closedGap);
+    }
+    entry.closedGaps.push_back(std::move(closed));
+  }
+}
+
+BodySize Scene::bodySize() const {
+  BodySize body;
+  for (const deck::Material& material : deck_.materials)
+    std::visit([&](const auto& law) { body.youngsModulus = std::max(body.youngsModulus, law.youngsModulus); },
+               material.law);
+  double low[3], high[3], volume = 0;
+  for (int i = 0; i < 3; ++i) low[i] = high[i] = mesh_.coordinates[i];
+  for (std::size_t d = 0; d < mesh_.coordinates.size(); ++d) {
+    low[d % 3] = std::min(low[d % 3], mesh_.coordinates[d]);
+    high[d % 3] = std::max(high[d % 3], mesh_.coordinates[d]);
+  }
+  for (const fem::Block& block : mesh_.blocks) {
+    const auto points = fem::volumePoints(mesh_, block, fem::tabulate(block.topology));
+    volume += std::accumulate(points.weights.begin(), points.weights.end(), 0.0);
+  }
+  double extent[3] = {high[0] - low[0], high[1] - low[1], high[2] - low[2]};
+  std::sort(extent, extent + 3);
+  body.length = extent[2];
+  body.areaPerPoint = extent[1] * extent[2];  // of all points together so far
+  body.thickness = volume / body.areaPerPoint;
+  return body;
 }
 
 int Scene::numContactPoints() const {

@@ -1,6 +1,7 @@
 #include <Tpetra_Vector.hpp>
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 
 #include "Scene.hpp"
@@ -61,14 +62,10 @@ std::vector<std::string> Scene::monitorNames() const {
 }
 
 ContactState Scene::contactState(const ContactPoints& contact, const path::Vector& u) const {
-  const auto& entry = *std::find_if(deck_.contacts.begin(), deck_.contacts.end(),
-                                    [&](const deck::Contact& c) { return c.name == contact.name; });
   ContactState state;
   forEachPoint(*problem_, contact, u, [&](std::size_t t, int p, const double* gapAndPressure) {
     const double gap = gapAndPressure[0], pressure = gapAndPressure[1];
-    const double turn =
-        entry.stiffness ? 2 * entry.regularisation / *entry.stiffness : 1e-3 * contact.gaps[t][p];
-    state.active += gap <= turn;
+    state.active += gap <= contact.closedGaps[t][p];
     state.normalForce += contact.points[t].weights[p] * pressure;
   });
   return state;
@@ -166,6 +163,7 @@ std::vector<std::vector<double>> Scene::nodalContact(const path::Vector& u) cons
     forEachPoint(*problem_, contact, u, [&](std::size_t t, int p, const double* gapAndPressure) {
       const fem::PointSet& points = contact.points[t];
       const int N = points.nodesPerEntity, e = p / points.pointsPerEntity;
+      if (std::isinf(gapAndPressure[0])) return;  // over no part of the tool
       for (int n = 0; n < N; ++n) {
         const double shape = points.shape[static_cast<std::size_t>(p) * N + n];
         const double w = points.weights[p] * shape * shape;

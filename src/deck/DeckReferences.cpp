@@ -115,10 +115,16 @@ void checkSomethingIsDriven(const Value& root, const Deck& deck) {
       }
     }
   }
+  for (const auto& contact : deck.contacts) {
+    for (const auto& tool : deck.tools) {
+      if (tool.name == contact.tool && tool.motion.moves()) {
+        return;
+      }
+    }
+  }
   root.fail(
-      "nothing depends on the load factor; expected a load that is neither constant nor zero, or a support "
-      "with "
-      "per_load_factor");
+      "nothing depends on the load factor; expected a load that is neither constant nor zero, a support with "
+      "per_load_factor, or a contact with a tool that moves");
 }
 
 }  // namespace

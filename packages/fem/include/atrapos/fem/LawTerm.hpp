@@ -1,5 +1,8 @@
 #pragma once
 
+#include <functional>
+#include <utility>
+
 #include "atrapos/fem/LawArrays.hpp"
 
 namespace atrapos::fem {
@@ -16,6 +19,15 @@ struct CurrentPosition {
   static constexpr int numInputs = 3;
 };
 
+/// Brings passive data of all points of a term up to date before the law reads them: which piece of a surface
+/// a point is over, a table's cell, ...
+///
+/// in: [point][law input] (with CurrentPosition the place, and the load factor where the law reads it). data:
+/// [point][datum], on entry those that the term was made with, whatever was evaluated before: the result is
+/// a function of `in` alone, so that a residual, a tangent and a path do not depend on what came before them.
+/// Called on the host, once a loop for all points.
+using DataUpdate = std::function<void(int numPoints, const double* in, double* data)>;
+
 /// A law at the points of a PointSet: gather, B, law, B^T, scatter.
 ///
 /// Law (see taylor/Law.hpp) maps the operator's inputs to their work conjugates: the virtual work of the term
@@ -23,7 +35,8 @@ struct CurrentPosition {
 ///     static constexpr int numObserved;  static std::vector<std::string> observedNames();
 ///     void observe(const double* in, const double* data, double* observed) const;
 /// A law says `static constexpr bool symmetric` when d out/d in is symmetric.
-/// `data` holds Law::numData passive numbers a point: [entity][point][datum].
+/// `data` holds Law::numData passive numbers a point: [entity][point][datum]. With an `update` they are
+/// brought up to date at every state that is evaluated; a series keeps those of its start.
 template <class Law, class Operator>
 class LawTerm final : public Term {
   static constexpr int L = kLanes, C = Operator::components, I = Operator::numInputs, D = Law::numData;
@@ -32,10 +45,15 @@ class LawTerm final : public Term {
   using Arrays = LawArrays<Law, C>;
 
  public:
-  LawTerm(const Law& law, const PointSet& points, const std::vector<double>& data = {})
+  LawTerm(const Law& law, const PointSet& points, const std::vector<double>& data = {},
+          DataUpdate update = {})
       : entityNodes_(points.nodes),
-        batches_(makeBatches(L, points.numEntities, points.nodesPerEntity, points.nodes)) {
+        batches_(makeBatches(L, points.numEntities, points.nodesPerEntity, points.nodes)),
+        update_(std::move(update)) {
     a_.fill(law, points, data, batches_);
+    if (!update_) return;
+    initialData_ = data;
+    seriesData_ = View<double*>("seriesData", a_.data.size());
   }
 
   int numEntities() const override { return a_.numEntities; }
@@ -51,7 +69,7 @@ class LawTerm final : public Term {
   }
 
   double addResidual(const ConstField& u, const Field& f) const override {
-    const Arrays a = a_;
+    const Arrays a = updated(u, a_.data);
     const View<double*> squares("squares", batches_.count);
     forEachBatch(
         "residual", batches_, a.order, KOKKOS_LAMBDA(int b) {
@@ -71,7 +89,7 @@ class LawTerm final : public Term {
   }
 
   void addTangent(const ConstField& u, const TangentSink& sink) const override {
-    const Arrays a = a_;
+    const Arrays a = updated(u, a_.data);
     forEachBatch(
         "tangent", batches_, a.order, KOKKOS_LAMBDA(int b) {
           Pack local[3 * kMaxNodes], in[I];
@@ -98,7 +116,7 @@ class LawTerm final : public Term {
 
   void beginSeries(const ConstField& u, int maxOrder) override {
     a_.reserveHistory(batches_.count, maxOrder);
-    const Arrays a = a_;
+    const Arrays a = updated(u, seriesData_);
     const View<LawFailure*> failures("failures", batches_.count);
     forEachBatch(
         "beginSeries", batches_, a.order, KOKKOS_LAMBDA(int b) {
@@ -119,6 +137,7 @@ class LawTerm final : public Term {
 
   void addOrder(int k, const ConstField& last, const Field& f) override {
     Arrays a = a_;
+    if (update_) a.data = seriesData_;
     a.block = taylor::orderBlock(k, a.maxOrder);
     forEachBatch(
         "addOrder", batches_, a.order, KOKKOS_LAMBDA(int b) {
@@ -145,7 +164,7 @@ class LawTerm final : public Term {
     result.names = Law::observedNames();
     constexpr int M = Law::numObserved;
     View<double*> values("observed", static_cast<std::size_t>(a_.numEntities) * a_.Q * M);
-    const Arrays a = a_;
+    const Arrays a = updated(u, a_.data);
     forEachBatch(
         "observe", batches_, a.order, KOKKOS_LAMBDA(int b) {
           Pack local[3 * kMaxNodes], in[I];
@@ -167,9 +186,39 @@ class LawTerm final : public Term {
   }
 
  private:
+  /// The arrays, with `data` in place of theirs and brought up to date at the state where there is an update.
+  Arrays updated(const ConstField& u, const View<double*>& data) const {
+    if (!update_) return a_;
+    Arrays a = a_;
+    const int Q = a.Q;
+    const View<double*> inputs("inputs", static_cast<std::size_t>(a.numEntities) * Q * I);
+    forEachBatch(
+        "inputs", batches_, a.order, KOKKOS_LAMBDA(int b) {
+          Pack local[3 * kMaxNodes], in[I];
+          a.gather(b, u, local);
+          for (int q = 0; q < Q; ++q) {
+            a.interpolate(b, q, local, in);
+            a.addOffset(b, q, in);
+            for (int lane = 0; lane < a.lanesIn(b); ++lane)
+              a.lanesOf(in, I, lane, &inputs((static_cast<std::size_t>(b * L + lane) * Q + q) * I));
+          }
+        });
+    const auto host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), inputs);
+    std::vector<double> all = initialData_;
+    update_(a.numEntities * Q, host.data(), all.data());
+    auto mirror = Kokkos::create_mirror_view(data);
+    a.pack(all, D, batches_.count, mirror.data());
+    Kokkos::deep_copy(data, mirror);
+    a.data = data;
+    return a;
+  }
+
   std::vector<int> entityNodes_;
   Batches batches_;
   Arrays a_;
+  DataUpdate update_;
+  std::vector<double> initialData_;
+  View<double*> seriesData_;  ///< those of the series under way, as a_.data
 };
 
 }  // namespace atrapos::fem
