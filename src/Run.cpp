@@ -11,9 +11,11 @@
 #include <csignal>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <ostream>
 #include <sstream>
 
+#include "ContactEvents.hpp"
 #include "Files.hpp"
 #include "PathTable.hpp"
 #include "Version.hpp"
@@ -55,7 +57,10 @@ class Recorder final : public path::Observer {
         work_(Teuchos::rcp(new path::Vector(scene.problem().map()))),
         residual_(Teuchos::rcp(new path::Vector(scene.problem().map()))),
         start_(std::chrono::steady_clock::now()) {
+    if (!scene.contacts().empty()) events_.emplace(scene, options.directory + "/events.csv");
     if (options_.progress) {
+      for (const ContactPoints& contact : scene.contacts())
+        *options_.progress << fmt::format("contact {}: {}\n", contact.name, contact.pressure.text);
       *options_.progress << fmt::format(
           "{:>5} {:>5} {:>10} {:>13} {:>10} {:>10} {:>4} {:>4} {:>8} {:>8}  {}\n", "step", "order", "radius",
           "load factor", "length", "residual", "cut", "corr", "contacts", "time s", "events");
@@ -72,6 +77,7 @@ class Recorder final : public path::Observer {
 
   bool onStep(const path::StepReport& report, const path::Series& series) override {
     const double before = seconds();
+    if (events_) events_->onStep(report.step, report.pathLengthStart, report.length, series);
     const int points = scene_.deck().output.pointsPerStep;
     worstResidual_ = std::max(worstResidual_, report.residual);
     for (int j = 1; j <= points; ++j) {
@@ -93,6 +99,7 @@ class Recorder final : public path::Observer {
     return !interrupted;
   }
 
+  int contactEvents() const { return events_ ? events_->count() : 0; }
   double outputSeconds() const { return outputSeconds_; }
   double worstResidual() const { return worstResidual_; }
   double seconds() const {
@@ -161,10 +168,23 @@ class Recorder final : public path::Observer {
   const RunOptions& options_;
   PathTable table_;
   exodus::ResultWriter results_;
+  std::optional<ContactEvents> events_;
   Teuchos::RCP<path::Vector> work_, residual_;
   std::chrono::steady_clock::time_point start_;
   double worstResidual_ = 0, outputSeconds_ = 0;
 };
+
+/// The laws of the contacts with all of their numbers.
+nlohmann::ordered_json contacts(const Scene& scene) {
+  auto json = nlohmann::ordered_json::object();
+  for (const ContactPoints& contact : scene.contacts()) {
+    auto& entry = json[contact.name];
+    entry["law"] = contact.pressure.text;
+    for (const auto& [name, value] : contact.pressure.numbers) entry[name] = value;
+    entry["points"] = contact.count;
+  }
+  return json;
+}
 
 nlohmann::ordered_json summary(const Scene& scene, const path::Outcome& outcome,
                                const linear::TangentSolver& solver, const Recorder& recorder) {
@@ -199,6 +219,8 @@ nlohmann::ordered_json summary(const Scene& scene, const path::Outcome& outcome,
   json["unknowns"] = 3 * scene.mesh().numNodes();
   json["free_unknowns"] = scene.problem().numFreeDofs();
   json["contact_points"] = scene.numContactPoints();
+  json["contact_events"] = recorder.contactEvents();
+  json["contacts"] = contacts(scene);
   json["solver"] = solver.name();
   json["execution_space"] = Kokkos::DefaultExecutionSpace::name();
   json["threads"] = Kokkos::DefaultExecutionSpace::concurrency();
@@ -228,9 +250,10 @@ RunResult runScene(Scene& scene, const RunOptions& options) {
   pathOptions.maxSteps = deck.path.stop.steps;
   path::PathFollower follower(problem, *solver, pathOptions, scene.stops());
 
-  prepareFolder(options.directory, {"path.csv", "results.exo", "summary.json", "path.png"});
+  prepareFolder(options.directory, {"path.csv", "events.csv", "results.exo", "summary.json", "path.png"});
   // A run that is killed must not leave an earlier run's summary and picture beside its own table.
-  for (const char* old : {"summary.json", "path.png"}) std::filesystem::remove(options.directory + "/" + old);
+  for (const char* old : {"summary.json", "path.png", "events.csv"})
+    std::filesystem::remove(options.directory + "/" + old);
   interrupted = false;
   SignalGuard signals;
   Recorder recorder(scene, options);

@@ -28,6 +28,10 @@ class Tools : public testing::Test {
   End end(const std::string& tool) {
     SCOPED_TRACE(tool);
     writeFile(folder_ / "deck.yaml", edited(kSmallDeck, kRoll, tool));
+    return endOfDeck(tool);
+  }
+
+  End endOfDeck(const std::string& what) {
     const CommandResult r = runAtrapos({"run", "-q", "deck.yaml"}, folder_.path());
     EXPECT_EQ(r.exitCode, 0) << r.err;
     std::istringstream lines(readFile(folder_ / "deck_results" / "path.csv"));
@@ -36,7 +40,7 @@ class Tools : public testing::Test {
     End e;
     EXPECT_EQ(std::sscanf(last.c_str(), "%*d,%*f,%lf,%lf,%lf", &e.loadFactor, &e.deflection, &e.force), 3)
         << last;
-    EXPECT_NEAR(e.loadFactor, 0.5, 1e-12) << tool;
+    EXPECT_NEAR(e.loadFactor, 0.5, 1e-12) << what;
     return e;
   }
 
@@ -85,6 +89,67 @@ TEST_F(Tools, EveryKindStopsTheBody) {
     EXPECT_GT(e.deflection, -0.4) << tool;
     EXPECT_GT(e.force, 2.5) << tool;  // of the 5 that pull the tip down
     EXPECT_LT(e.force, 5.0) << tool;
+  }
+}
+
+/// The roll of the small deck as a NURBS surface of four quarters, |y| <= 3.
+std::string nurbsRoll() {
+  const double corner[9][2] = {{1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}, {0, -1}, {1, -1}, {1, 0}};
+  std::ostringstream points, weights;
+  points.precision(17);
+  weights.precision(17);
+  for (int i = 0; i < 9; ++i)
+    for (const double y : {3.0, -3.0}) {  // S_1 x S_2 outwards
+      points << (points.tellp() > 0 ? ", [" : "[") << 4 + corner[i][0] << ", " << y << ", "
+             << corner[i][1] - 1.25 << "]";
+      weights << (weights.tellp() > 0 ? ", " : "") << (i % 2 == 0 ? 1.0 : std::sqrt(0.5));
+    }
+  return "{roll: {degree: [2, 1], points: [" + points.str() + "], weights: [" + weights.str() +
+         "], knots_1: [0, 0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 4], knots_2: [0, 0, 1, 1]}}";
+}
+
+TEST_F(Tools, ANurbsCylinderIsTheCylinder) {
+  const End cylinder = end(kRoll);
+  same(end("{type: patches, surfaces: " + nurbsRoll() + "}"), cylinder);
+  writeFile(folder_ / "roll.yaml", "# a roll\nsurfaces: " + nurbsRoll() + "\n");
+  same(end("{type: patches, file: roll.yaml}"), cylinder);
+  // Two half planes side by side, one the other way round, are the plane.
+  const End plane = end("{type: plane, point: [0, 0, -0.25], normal: [0, 0, 1]}");
+  same(
+      end("{type: patches, surfaces: {left: {degree: [1, 1], points: [[-9, -9, -0.25], [-9, 9, -0.25], [3.7, "
+          "-9, -0.25], [3.7, 9, -0.25]]}, right: {degree: [1, 1], points: [[9, 9, -0.25], [9, -9, -0.25], "
+          "[3.7, 9, -0.25], [3.7, -9, -0.25]]}}}"),
+      plane);
+}
+
+// The tip is beyond the plate: without contact it goes down by 0.82.
+TEST_F(Tools, BesideAPlateIsNoContact) {
+  const End e = end(
+      "{type: patches, surfaces: {plate: {degree: [1, 1], points: [[-9, -9, -0.25], [-9, 9, -0.25], [-1, -9, "
+      "-0.25], [-1, 9, -0.25]]}}}");
+  EXPECT_LT(e.deflection, -0.8);
+  EXPECT_EQ(e.force, 0.0);
+}
+
+class Laws : public Tools {
+ protected:
+  End endWith(const std::string& law) {
+    writeFile(folder_ / "deck.yaml", edited(kSmallDeck, "stiffness: 1000, regularisation: 1.0e-3", law));
+    return endOfDeck(law);
+  }
+};
+
+// All laws stop the body at the surface, 0.25 below it, up to what they yield.
+TEST_F(Laws, AllStopTheBody) {
+  const End hard = endWith("law: barrier, regularisation: 1.0e-7");
+  for (const char* law : {"law: hyperbola, stiffness: 1.0e6, regularisation: 1.0e-6", "law: hyperbola",
+                          "law: barrier", "law: power, stiffness: 1.0e6, regularisation: 1.0e-6, exponent: 3",
+                          "law: power, stiffness: rigid, regularisation: 1.0e-9",
+                          "law: exponential, touching: 1, length: 1.0e-3",
+                          "law: penalty, stiffness: 1.0e6, length: 1.0e-4", "law: penalty"}) {
+    const End e = endWith(law);
+    EXPECT_NEAR(e.deflection, hard.deflection, 0.02 * std::fabs(hard.deflection)) << law;
+    EXPECT_NEAR(e.force, hard.force, 0.02 * hard.force) << law;
   }
 }
 

@@ -284,9 +284,12 @@ void PatchSet::makeTool(bool reversed) {
   plane[4 + 1] = size_;                 // t2 along y
   Kokkos::deep_copy(all, host);
   tool_.numPatches = numPatches();
+  tool_.scale = 0;
   std::copy(degree_.begin(), degree_.end(), tool_.degree);
   tool_.rational = rational_;
   tool_.orientation = reversed ? -1 : 1;
+  for (const Patch& patch : patches_)
+    for (int c = 0; c < 3; ++c) tool_.scale = std::max(tool_.scale, patch.high[c] - patch.low[c]);
   tool_.coefficients = all;
 }
 
