@@ -63,16 +63,17 @@ class Scene {
   /// Values of the monitors, in the deck's order.
   std::vector<double> monitors(const path::Vector& u, double lambda) const;
 
-  ContactState contactState(const ContactPoints& contact, const path::Vector& u) const;
+  ContactState contactState(const ContactPoints& contact, const path::Vector& u, double lambda) const;
   /// Total force of a contact on the body.
-  std::array<double, 3> contactResultant(const ContactPoints& contact, const path::Vector& u) const;
+  std::array<double, 3> contactResultant(const ContactPoints& contact, const path::Vector& u,
+                                         double lambda) const;
 
   std::vector<std::string> nodalNames() const;
   std::vector<std::string> elementNames() const;
   /// [variable][node]
   std::vector<std::vector<double>> nodalValues(const path::Vector& u, double lambda) const;
   /// [variable][element over all blocks]
-  std::vector<std::vector<double>> elementValues(const path::Vector& u) const;
+  std::vector<std::vector<double>> elementValues(const path::Vector& u, double lambda) const;
 
  private:
   std::vector<int> nodesOf(const std::string& set) const;
@@ -89,8 +90,8 @@ class Scene {
   void requireEffect(const fem::FeModel& model) const;
   [[noreturn]] void fail(const std::string& key, const std::string& problem) const;
   bool writes(deck::OutputField field) const;
-  std::vector<std::vector<double>> nodalContact(const path::Vector& u) const;
-  std::vector<std::vector<double>> nodalStress(const path::Vector& u) const;
+  std::vector<std::vector<double>> nodalContact(const path::Vector& u, double lambda) const;
+  std::vector<std::vector<double>> nodalStress(const path::Vector& u, double lambda) const;
 
   deck::Deck deck_;
   fem::Mesh mesh_;

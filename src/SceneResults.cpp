@@ -19,9 +19,9 @@ int componentIndex(deck::Component c) { return static_cast<int>(c); }
 /// Calls f on each term's points of a contact: f(point set, values, first value of point).
 template <class F>
 void forEachPoint(const fem::FeProblem& problem, const ContactPoints& contact, const path::Vector& u,
-                  const F& f) {
+                  double lambda, const F& f) {
   for (std::size_t t = 0; t < contact.terms.size(); ++t) {
-    const fem::PointValues observed = problem.term(contact.terms[t]).observe(fem::field(u));
+    const fem::PointValues observed = problem.term(contact.terms[t]).observe(fem::field(u), lambda);
     const int M = static_cast<int>(observed.names.size());
     for (int p = 0; p < contact.points[t].numPoints(); ++p)
       f(t, p, &observed.values[static_cast<std::size_t>(p) * M]);
@@ -61,9 +61,9 @@ std::vector<std::string> Scene::monitorNames() const {
   return names;
 }
 
-ContactState Scene::contactState(const ContactPoints& contact, const path::Vector& u) const {
+ContactState Scene::contactState(const ContactPoints& contact, const path::Vector& u, double lambda) const {
   ContactState state;
-  forEachPoint(*problem_, contact, u, [&](std::size_t t, int p, const double* gapAndPressure) {
+  forEachPoint(*problem_, contact, u, lambda, [&](std::size_t t, int p, const double* gapAndPressure) {
     const double gap = gapAndPressure[0], pressure = gapAndPressure[1];
     state.active += gap <= contact.closedGaps[t][p];
     state.normalForce += contact.points[t].weights[p] * pressure;
@@ -71,10 +71,11 @@ ContactState Scene::contactState(const ContactPoints& contact, const path::Vecto
   return state;
 }
 
-std::array<double, 3> Scene::contactResultant(const ContactPoints& contact, const path::Vector& u) const {
+std::array<double, 3> Scene::contactResultant(const ContactPoints& contact, const path::Vector& u,
+                                              double lambda) const {
   std::array<double, 3> resultant{0, 0, 0};
   for (int t : contact.terms) {
-    const auto force = problem_->forces(problem_->term(t), u);
+    const auto force = problem_->forces(problem_->term(t), u, lambda);
     for (std::size_t d = 0; d < force.size(); ++d) resultant[d % 3] -= force[d];
   }
   return resultant;
@@ -92,8 +93,8 @@ std::vector<double> Scene::monitors(const path::Vector& u, double lambda) const 
       for (const ContactPoints& contact : scene.contacts_)
         if (contact.name == m.contact)
           return m.component == deck::Component::Normal
-                     ? scene.contactState(contact, u).normalForce
-                     : scene.contactResultant(contact, u)[componentIndex(m.component)];
+                     ? scene.contactState(contact, u, lambda).normalForce
+                     : scene.contactResultant(contact, u, lambda)[componentIndex(m.component)];
       return 0;
     }
     double operator()(const deck::ReactionMonitor& m) const {
@@ -147,20 +148,20 @@ std::vector<std::vector<double>> Scene::nodalValues(const path::Vector& u, doubl
   if (writes(deck::OutputField::Displacement)) split(fem::FeProblem::values(u));
   if (writes(deck::OutputField::Reaction)) split(problem_->reactions(u, lambda));
   if (writes(deck::OutputField::Contact) && !contacts_.empty()) {
-    for (auto& variable : nodalContact(u)) result.push_back(std::move(variable));
+    for (auto& variable : nodalContact(u, lambda)) result.push_back(std::move(variable));
   }
   if (writes(deck::OutputField::NodalStress))
-    for (auto& variable : nodalStress(u)) result.push_back(std::move(variable));
+    for (auto& variable : nodalStress(u, lambda)) result.push_back(std::move(variable));
   return result;
 }
 
-std::vector<std::vector<double>> Scene::nodalContact(const path::Vector& u) const {
+std::vector<std::vector<double>> Scene::nodalContact(const path::Vector& u, double lambda) const {
   // Point values to nodes: means weighted by weight * N^2 (positive, also at the corners of serendipity
   // faces). Nodes that carry no contact show zero.
   const int numNodes = mesh_.numNodes();
   std::vector<double> gap(numNodes, 0.0), pressure(numNodes, 0.0), share(numNodes, 0.0);
   for (const ContactPoints& contact : contacts_)
-    forEachPoint(*problem_, contact, u, [&](std::size_t t, int p, const double* gapAndPressure) {
+    forEachPoint(*problem_, contact, u, lambda, [&](std::size_t t, int p, const double* gapAndPressure) {
       const fem::PointSet& points = contact.points[t];
       const int N = points.nodesPerEntity, e = p / points.pointsPerEntity;
       if (std::isinf(gapAndPressure[0])) return;  // over no part of the tool
@@ -181,7 +182,7 @@ std::vector<std::vector<double>> Scene::nodalContact(const path::Vector& u) cons
   return {std::move(gap), std::move(pressure)};
 }
 
-std::vector<std::vector<double>> Scene::nodalStress(const path::Vector& u) const {
+std::vector<std::vector<double>> Scene::nodalStress(const path::Vector& u, double lambda) const {
   // Each element's cubature values fitted and taken to its nodes, then the mean over the elements at a node.
   const int numNodes = mesh_.numNodes();
   std::vector<std::vector<double>> stress(6, std::vector<double>(numNodes, 0.0));
@@ -190,7 +191,7 @@ std::vector<std::vector<double>> Scene::nodalStress(const path::Vector& u) const
     const fem::Block& block = mesh_.blocks[b];
     const fem::Term& term = problem_->term(solids_[b].term);
     const auto& toNodes = solids_[b].toNodes;
-    const auto values = term.observe(fem::field(u)).values;
+    const auto values = term.observe(fem::field(u), lambda).values;
     const int N = term.nodesPerEntity(), Q = static_cast<int>(toNodes.size()) / N;
     for (int e = 0; e < term.numEntities(); ++e)
       for (int n = 0; n < N; ++n) {
@@ -207,12 +208,12 @@ std::vector<std::vector<double>> Scene::nodalStress(const path::Vector& u) const
   return stress;
 }
 
-std::vector<std::vector<double>> Scene::elementValues(const path::Vector& u) const {
+std::vector<std::vector<double>> Scene::elementValues(const path::Vector& u, double lambda) const {
   if (!writes(deck::OutputField::Stress)) return {};
   std::vector<std::vector<double>> result(6);
   for (std::size_t b = 0; b < mesh_.blocks.size(); ++b) {
     const fem::Term& term = problem_->term(solids_[b].term);
-    const fem::PointValues observed = term.observe(fem::field(u));
+    const fem::PointValues observed = term.observe(fem::field(u), lambda);
     const int points = static_cast<int>(observed.values.size()) / 6 / term.numEntities();
     for (int e = 0; e < term.numEntities(); ++e)
       for (int i = 0; i < 6; ++i) {

@@ -18,7 +18,7 @@ struct FeModel {
   std::vector<double> load;          ///< F_1: the dead load at load factor 1
 };
 
-/// R(u, lambda) = sum of the terms - F_0 - lambda F_1 with Dirichlet conditions, as a path::Problem.
+/// R(u, lambda) = sum of the terms F(u, lambda) - F_0 - lambda F_1 with Dirichlet conditions, as a path::Problem.
 ///
 /// The unknowns are all nodal displacements, 3 a node. The row of a prescribed dof reads s (u - value -
 /// lambda rate) = 0 with s the size of the tangent's diagonal, and its column is carried to the load
@@ -52,8 +52,8 @@ class FeProblem final : public path::Problem {
   /// Forces that the supports exert on the body at (u, lambda), zero at free dofs: [3 node + component].
   std::vector<double> reactions(const path::Vector& u, double lambda) const;
 
-  /// Nodal forces F(u) of one term.
-  std::vector<double> forces(const Term& term, const path::Vector& u) const;
+  /// Nodal forces F(u, lambda) of one term.
+  std::vector<double> forces(const Term& term, const path::Vector& u, double lambda) const;
 
   /// A vector of the map as plain numbers [3 node + component].
   static std::vector<double> values(const path::Vector& u);
