@@ -47,7 +47,8 @@ ContactPressure contactPressure(const deck::Contact& contact, const BodySize& bo
       result.text = contact.law == Law::Barrier ? "barrier" : "hyperbola";
       const double c = contact.law == Law::Barrier ? 0 : compliance();
       const double eta = number("regularisation", contact.regularisation, eta0);
-      result.law = contact::RegularisedPressure{c, eta};
+      result.regularised = contact::RegularisedPressure{c, eta};
+      result.law = *result.regularised;
       result.leastReference = result.closedGap = 2 * eta * c;
       break;
     }

@@ -1,6 +1,9 @@
 #pragma once
 
+#include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "atrapos/contact/OneOf.hpp"
 #include "deck/Deck.hpp"
@@ -19,6 +22,7 @@ struct BodySize {
 /// A pressure law with all of its numbers.
 struct ContactPressure {
   contact::AnyPressure law;
+  std::optional<contact::RegularisedPressure> regularised;  ///< the law where it is (15)
   double leastReference = 0;  ///< least sensible Delta of a point that touches at the start; 0: none
   double closedGap = 0;       ///< a point with a smaller gap is closed; < 0: 1e-3 of its reference gap
   std::string text;           ///< name and numbers, with (chosen) after those that the deck leaves open

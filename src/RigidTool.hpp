@@ -36,6 +36,13 @@ class RigidTool {
   /// The term of a contact at face or node points; referenceGaps is [point], > 0.
   virtual std::unique_ptr<fem::Term> term(const contact::AnyPressure& pressure, const fem::PointSet& points,
                                           const std::vector<double>& referenceGaps) const = 0;
+
+  /// The same with law (15) where eta falls to eta exp(-s), s what the term sees as the load factor, and the
+  /// tool stands where it is at `loadFactor`.
+  virtual std::unique_ptr<fem::Term> sharpened(const contact::RegularisedPressure& pressure,
+                                               const fem::PointSet& points,
+                                               const std::vector<double>& referenceGaps,
+                                               double loadFactor) const = 0;
 };
 
 /// Throws std::invalid_argument, one line, where the tool's numbers make no surface.

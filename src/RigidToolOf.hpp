@@ -7,6 +7,7 @@
 #include "atrapos/contact/ContactLaw.hpp"
 #include "atrapos/contact/MovingTool.hpp"
 #include "atrapos/contact/PatchSearch.hpp"
+#include "atrapos/contact/SharpenedContact.hpp"
 #include "atrapos/fem/LawTerm.hpp"
 
 namespace atrapos {
@@ -75,6 +76,30 @@ class RigidToolOf final : public RigidTool {
                                     contact::PatchSearch<Tool>{set_, tool_});
     } else {
       return std::make_unique<Term>(Law{tool_, pressure}, points, referenceGaps);
+    }
+  }
+
+  std::unique_ptr<fem::Term> sharpened(const contact::RegularisedPressure& pressure,
+                                       const fem::PointSet& points, const std::vector<double>& referenceGaps,
+                                       double loadFactor) const override {
+    using Law = contact::SharpenedContact<Tool>;
+    using Term = fem::LawTerm<Law, fem::CurrentPosition>;
+    const Law law{tool_, {pressure.compliance, pressure.eta}, loadFactor};
+    if constexpr (patches) {
+      std::vector<double> data;
+      for (const double Delta : referenceGaps) data.insert(data.end(), {Delta, -1, 0, 0});
+      const contact::PatchSearch<Tool> search{set_, tool_};
+      const auto update = [=](int numPoints, const double* in, double* data) {
+        std::vector<double> places;
+        for (int p = 0; p < numPoints; ++p) {
+          places.insert(places.end(), in + 4 * p, in + 4 * p + 3);
+          if (inputs == 4) places.push_back(loadFactor);
+        }
+        search(numPoints, places.data(), data);
+      };
+      return std::make_unique<Term>(law, points, data, update);
+    } else {
+      return std::make_unique<Term>(law, points, referenceGaps);
     }
   }
 

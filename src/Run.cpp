@@ -18,6 +18,7 @@
 #include "ContactEvents.hpp"
 #include "Files.hpp"
 #include "PathTable.hpp"
+#include "Sharpen.hpp"
 #include "Version.hpp"
 #include "atrapos/exodus/ResultWriter.hpp"
 #include "atrapos/linear/MakeTangentSolver.hpp"
@@ -184,6 +185,7 @@ nlohmann::ordered_json contacts(const Scene& scene) {
     entry["law"] = contact.pressure.text;
     for (const auto& [name, value] : contact.pressure.numbers) entry[name] = value;
     entry["points"] = contact.count;
+    entry["points_carried"] = contact.numCarried();
   }
   return json;
 }
@@ -252,9 +254,10 @@ RunResult runScene(Scene& scene, const RunOptions& options) {
   pathOptions.maxSteps = deck.path.stop.steps;
   path::PathFollower follower(problem, *solver, pathOptions, scene.stops());
 
-  prepareFolder(options.directory, {"path.csv", "events.csv", "results.exo", "summary.json", "path.png"});
+  prepareFolder(options.directory,
+                {"path.csv", "events.csv", "sharpen.csv", "results.exo", "summary.json", "path.png"});
   // A run that is killed must not leave an earlier run's summary and picture beside its own table.
-  for (const char* old : {"summary.json", "path.png", "events.csv"})
+  for (const char* old : {"summary.json", "path.png", "events.csv", "sharpen.csv"})
     std::filesystem::remove(options.directory + "/" + old);
   interrupted = false;
   SignalGuard signals;
@@ -262,7 +265,22 @@ RunResult runScene(Scene& scene, const RunOptions& options) {
   const path::State start{problem.initialState(0.0), 0.0};
   recorder.writeStart(start);
   const path::Outcome outcome = follower.run(start, recorder);
-  replaceFile(options.directory + "/summary.json", summary(scene, outcome, *solver, recorder).dump(2) + "\n");
+  auto json = summary(scene, outcome, *solver, recorder);
+  std::string sharpening;
+  if (deck.path.sharpen && outcome.reason == path::EndReason::stopReached && !interrupted) {
+    const auto names = scene.monitorNames();
+    const Sharpened sharpened = sharpen(scene, outcome.final, *deck.path.sharpen, pathOptions, *solver,
+                                        options.directory + "/sharpen.csv");
+    auto& entry = json["sharpened"];
+    entry["reached"] = sharpened.reached;
+    if (!sharpened.reached) entry["why"] = sharpened.text;
+    entry["factor"] = sharpened.factor;
+    entry["steps"] = sharpened.steps;
+    for (std::size_t m = 0; m < names.size(); ++m) entry["monitors"][names[m]] = sharpened.monitors[m];
+    sharpening = fmt::format("eta times {:.3g} in {} steps{}{}\n", sharpened.factor, sharpened.steps,
+                             sharpened.reached ? "" : ": ", sharpened.text);
+  }
+  replaceFile(options.directory + "/summary.json", json.dump(2) + "\n");
   const std::string plot = plotPath(options.directory, deck.title, scene.monitorNames());
 
   RunResult result;
@@ -273,6 +291,7 @@ RunResult runScene(Scene& scene, const RunOptions& options) {
     *options.progress << fmt::format(
         "{} steps, {} factorizations, {} solves, {:.2f} s; worst residual {:.2e}\n", outcome.steps,
         outcome.factorizations, outcome.solves, recorder.seconds(), recorder.worstResidual());
+    *options.progress << sharpening;
     if (!plot.empty()) *options.progress << plot << '\n';
   }
   return result;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "ContactPressure.hpp"
+#include "NearContact.hpp"
 #include "RigidTool.hpp"
 #include "atrapos/fem/FeProblem.hpp"
 #include "atrapos/fem/Mesh.hpp"
@@ -30,10 +31,12 @@ struct ContactPoints {
   std::vector<std::vector<double>> references;  ///< [term][point] Delta
   std::vector<std::vector<double>> closedGaps;  ///< [term][point] a point with a smaller gap is closed
   const RigidTool* tool = nullptr;
+  std::vector<const NearContact*> near;  ///< [term]
   ContactPressure pressure;
   int count = 0;
   double smallestGap = 0;  ///< at the start
   int attracted = 0;       ///< points farther off than a uniform Delta, which pulls at them
+  int numCarried() const;  ///< points that carry the law so far: those that came near the tool
 };
 
 /// State of one contact at a point of the path.
@@ -56,6 +59,10 @@ class Scene {
   const fem::FeProblem& problem() const { return *problem_; }
   const std::vector<ContactPoints>& contacts() const { return contacts_; }
   int numContactPoints() const;
+
+  /// The body at this load factor, which stays, with contacts whose regularisation falls: eta exp(-s), s in
+  /// place of the load factor in all members from now on. Throws std::logic_error where a law is not (15).
+  void sharpen(double loadFactor);
 
   path::Stops stops() const;
 
@@ -96,7 +103,9 @@ class Scene {
   deck::Deck deck_;
   fem::Mesh mesh_;
   std::unique_ptr<fem::FeProblem> problem_;
-  std::vector<SolidBlock> solids_;                 ///< [block]
+  std::unique_ptr<fem::FeProblem>
+      loaded_;                      ///< of a scene that sharpens: the problem before, owner of its terms
+  std::vector<SolidBlock> solids_;  ///< [block]
   std::vector<std::unique_ptr<RigidTool>> tools_;  ///< in the deck's order
   std::vector<ContactPoints> contacts_;
   /// [monitor] weights of a displacement monitor over the unknowns; null for the others

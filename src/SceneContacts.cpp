@@ -22,6 +22,8 @@ void Scene::makeTools() {
 void Scene::addContacts(fem::FeModel& model) {
   makeTools();
   const BodySize body = bodySize();
+  // A body that only its contacts hold needs the law of far points too.
+  const bool heldByContacts = !fem::freeBodies(mesh_, model.supports, {}).empty();
   for (const deck::Contact& contact : deck_.contacts) {
     const auto position = std::find_if(deck_.tools.begin(), deck_.tools.end(),
                                        [&](const deck::Tool& tool) { return tool.name == contact.tool; });
@@ -33,11 +35,15 @@ void Scene::addContacts(fem::FeModel& model) {
     else
       entry.points = fem::facePoints(mesh_, mesh_.sideSets.at(fem::findSideSet(mesh_, contact.set)),
                                      contact.quadratureDegree);
+    const bool all = contact.carried == deck::Contact::Carried::All || heldByContacts;
     measureGaps(contact, entry);
     choosePressure(contact, body, entry);
     for (std::size_t t = 0; t < entry.points.size(); ++t) {
       entry.terms.push_back(static_cast<int>(model.terms.size()));
-      model.terms.push_back(entry.tool->term(entry.pressure.law, entry.points[t], entry.references[t]));
+      auto term = std::make_unique<NearContact>(*entry.tool, entry.pressure.law, entry.points[t],
+                                                entry.references[t], all);
+      entry.near.push_back(term.get());
+      model.terms.push_back(std::move(term));
     }
     contacts_.push_back(std::move(entry));
   }
@@ -146,6 +152,11 @@ BodySize Scene::bodySize() const {
 int Scene::numContactPoints() const {
   return std::accumulate(contacts_.begin(), contacts_.end(), 0,
                          [](int n, const ContactPoints& c) { return n + c.count; });
+}
+
+int ContactPoints::numCarried() const {
+  return std::accumulate(near.begin(), near.end(), 0,
+                         [](int n, const NearContact* term) { return n + term->numCarried(); });
 }
 
 }  // namespace atrapos

@@ -245,6 +245,11 @@ struct Contact {
     Exponential,  ///< R = R_0 (exp(-h/l) - exp(-Delta/l))
     Penalty       ///< alpha max(-h, 0), its corner smoothed over l
   };
+  /// Which points have the law.
+  enum class Carried {
+    Near,  ///< those that come near the tool, found along the path
+    All
+  };
   std::string name;
   std::string tool;
   std::string set;  ///< side set; with nodes: node set, else side set
@@ -259,6 +264,7 @@ struct Contact {
   std::optional<double> touching;        ///< R_0 > 0 of the exponential law; empty = chosen
   std::optional<double> length;          ///< l > 0 of the exponential and penalty laws; empty = chosen
   std::optional<double> referenceGap;    ///< Delta > eta/alpha; empty = each point's own initial gap
+  Carried carried = Carried::Near;
   /// Whether 1/alpha = 0.
   bool isRigid() const { return rigid || law == Law::Barrier; }
 };
@@ -278,6 +284,8 @@ struct Path {
   double accuracy = 1e-6;  ///< delta of eq. (36)
   double residual = 1e-6;  ///< bound of the relative residual
   int direction = 1;       ///< sign of the load factor's first change
+  /// In (0, 1): at the path's end eta of all contacts falls by this factor; empty: does not.
+  std::optional<double> sharpen;
   Stop stop;
 };
 

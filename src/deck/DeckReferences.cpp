@@ -139,6 +139,14 @@ void checkReferences(const Value& root, const Deck& deck) {
     checkMonitor(root.at("output").at("monitors").at(monitor.name), monitor, deck);
   }
   checkStop(root.at("path").at("stop"), deck);
+  if (deck.path.sharpen) {
+    const auto hasEta = [](const Contact& c) {
+      return c.law == Contact::Law::Hyperbola || c.law == Contact::Law::Barrier;
+    };
+    if (deck.contacts.empty() || !std::all_of(deck.contacts.begin(), deck.contacts.end(), hasEta)) {
+      root.at("path").at("sharpen").fail("needs contacts with the law hyperbola or barrier");
+    }
+  }
   const auto& fields = deck.output.fields;
   if (deck.contacts.empty() &&
       std::find(fields.begin(), fields.end(), OutputField::Contact) != fields.end()) {

@@ -286,7 +286,10 @@ const Table<Contact>& contactTable() {
         ofLaws(positiveOr("length", &Contact::length, "auto",
                           "l over which the exponential law grows by e or the penalty's corner is smoothed"),
                {Law::Exponential, Law::Penalty}),
-        gap};
+        gap,
+        choice("carried", optional, &Contact::carried,
+               Choices<Contact::Carried>{{"near", Contact::Carried::Near}, {"all", Contact::Carried::All}},
+               "by which points the law is carried: those that come nearer than half of Delta, or all")};
   }();
   return table;
 }

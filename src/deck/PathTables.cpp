@@ -74,6 +74,8 @@ const Table<Path>& pathTable() {
         real("residual", optional, &Path::residual, check::fraction, "bound of the relative residual"),
         integer("direction", optional, &Path::direction, check::direction,
                 "1: the load factor first grows, -1: falls"),
+        real("sharpen", &Path::sharpen, check::fraction,
+             "at the path's end eta of all contacts falls by this factor, towards hard contact"),
         stop};
   }();
   return table;

@@ -29,7 +29,7 @@ class BadInput : public testing::Test {
     writeFile(folder_ / "box.exo", mesh_);
     std::filesystem::create_directory(folder_ / "deck_results");
     for (const char* name :
-         {"path.csv", "events.csv", "results.exo", "summary.json", "path.png", "notes.txt"})
+         {"path.csv", "events.csv", "sharpen.csv", "results.exo", "summary.json", "path.png", "notes.txt"})
       writeFile(folder_ / "deck_results" / name, std::string("kept: ") + name);
   }
 
@@ -176,6 +176,10 @@ TEST_F(BadInput, ContactLaws) {
   refusesDeck(law, "law: penalty, stiffness: rigid", {"stiffness: a penalty has a finite stiffness"});
   refusesDeck(law, "law: power, exponent: 0.5", {"exponent: must be from 1 to 16, got 0.5"});
   refusesDeck(law, "stiffness: soft", {"stiffness: expected a positive number, rigid or auto"});
+  writeFile(folder_ / "deck.yaml",
+            edited(edited(kSmallDeck, law, "law: penalty"), "order: 15", "order: 15\n  sharpen: 0.1"));
+  refuses({"run", "deck.yaml"}, {"path/sharpen: needs contacts with the law hyperbola or barrier"});
+  refusesDeck("order: 15", "order: 15\n  sharpen: 2", {"path/sharpen: must be above 0 and below 1, got 2"});
   refusesDeck(law, law + ", reference_gap: 1.0e-7", {"reference_gap: must be above"});
 }
 

@@ -131,6 +131,42 @@ TEST_F(Tools, BesideAPlateIsNoContact) {
   EXPECT_EQ(e.force, 0.0);
 }
 
+class Moving : public Tools {
+ protected:
+  /// End of the small deck without loads, with a tool and a clamp.
+  End endWith(const std::string& tool, const std::string& clamp = "z: 0") {
+    std::string deck = edited(kSmallDeck, kRoll, tool);
+    deck = edited(deck, "loads:\n  tip: {type: surface, set: x_max, total: [0, 0, -10]}\n", "");
+    writeFile(folder_ / "deck.yaml", edited(deck, "y: 0, z: 0}", "y: 0, " + clamp + "}"));
+    return endOfDeck(tool);
+  }
+};
+
+// A roll that comes up and a body that comes down are the same, seen from the body.
+TEST_F(Moving, AToolThatRisesIsABodyThatSinks) {
+  const End sinking = endWith(kRoll, "z: {per_load_factor: -1}");
+  EXPECT_GT(sinking.force, 1.0);
+  const auto rising = [&](const std::string& tool) {
+    End e = endWith(tool);
+    e.deflection -= 0.5;
+    same(e, sinking);
+  };
+  const std::string roll = kRoll.substr(0, kRoll.size() - 1);
+  rising(roll + ", motion: {shift: [0, 0, 1]}}");
+  rising(roll + ", motion: {shift: [[0, 0, 0.5], [0, 0, 1]]}}");  // as far at the load factor 0.5
+  rising(roll + ", motion: {shift: [0, 0, 1], angle: [200], axis: [0, 1, 0], pivot: [4, 0, -1.25]}}");
+  rising("{type: patches, surfaces: " + nurbsRoll() + ", motion: {shift: [0, 0, 1]}}");
+}
+
+// A sphere that swings up about a pivot ends where one that goes straight ends; so does the body.
+TEST_F(Moving, ATurnEndsWhereAShiftEnds) {
+  // 2 below the pivot, turned by 45 degrees.
+  const std::string sphere = "{type: sphere, center: [3, 0.5, -1.3], radius: 1, motion: ";
+  const End straight = endWith(sphere + "{shift: [2.8284271247461903, 0, 1.1715728752538097]}}");
+  EXPECT_GT(straight.force, 1.0);
+  same(endWith(sphere + "{angle: [-90], axis: [0, 1, 0], pivot: [3, 0.5, 0.7]}}"), straight);
+}
+
 class Laws : public Tools {
  protected:
   End endWith(const std::string& law) {
@@ -152,6 +188,30 @@ TEST_F(Laws, AllStopTheBody) {
     EXPECT_NEAR(e.deflection, hard.deflection, 0.03 * std::fabs(hard.deflection)) << law;
     EXPECT_NEAR(e.force, hard.force, 0.03 * hard.force) << law;
   }
+}
+
+// eta falls along a path to where a run with the smaller eta ends.
+TEST_F(Laws, SharpenedIsTheRunWithTheSmallerEta) {
+  const std::string law = "stiffness: 1.0e6, carried: all, regularisation: ";
+  const End sharp = endWith(law + "1.0e-6");
+  endWith(law + "1.0e-2");
+  writeFile(folder_ / "deck.yaml",
+            edited(readFile(folder_ / "deck.yaml"), "order: 15", "order: 15\n  sharpen: 1.0e-4"));
+  const End soft = endOfDeck("with sharpen");
+  EXPECT_GT(std::fabs(soft.force - sharp.force), 1e-3 * sharp.force);
+  std::istringstream lines(readFile(folder_ / "deck_results" / "sharpen.csv"));
+  std::string line, last;
+  std::getline(lines, line);
+  EXPECT_EQ(line, "factor,tip_uz,force,residual");
+  int rows = 0;
+  for (; std::getline(lines, line); ++rows) last = line;
+  End e;
+  double factor = 0;
+  ASSERT_EQ(std::sscanf(last.c_str(), "%lf,%lf,%lf", &factor, &e.deflection, &e.force), 3) << last;
+  EXPECT_NEAR(factor, 1e-4, 1e-12);
+  same(e, sharp);
+  EXPECT_GT(rows, 2);
+  EXPECT_NE(readFile(folder_ / "deck_results" / "summary.json").find("\"sharpened\""), std::string::npos);
 }
 
 }  // namespace
