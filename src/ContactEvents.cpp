@@ -91,11 +91,15 @@ class PointOnSeries {
   bool polynomial_ = true;
 };
 
-int nearestNode(const fem::PointSet& points, int point) {
+/// Of the mesh's nodes; those beyond are directors of shells.
+int nearestNode(const fem::PointSet& points, int point, int numMeshNodes) {
   const int N = points.nodesPerEntity, e = point / points.pointsPerEntity;
   const double* shape = &points.shape[static_cast<std::size_t>(point) * N];
-  const auto largest = std::max_element(shape, shape + N) - shape;
-  return points.nodes[static_cast<std::size_t>(e) * N + largest];
+  const int* nodes = &points.nodes[static_cast<std::size_t>(e) * N];
+  int best = -1;
+  for (int n = 0; n < N; ++n)
+    if (nodes[n] < numMeshNodes && (best < 0 || shape[n] > shape[best])) best = n;
+  return nodes[best];
 }
 
 }  // namespace
@@ -136,7 +140,7 @@ std::vector<ContactEvent> ContactEvents::onStep(int step, double pathLengthStart
           event.closes = closes;
           event.contact = static_cast<int>(c);
           event.point = number;
-          event.node = nearestNode(contact.points[t], p);
+          event.node = nearestNode(contact.points[t], p, scene_.mesh().numNodes());
           std::copy_n(x, 3, event.place);
           event.force = contact.points[t].weights[p] * R[0];
           events.push_back(event);

@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "atrapos/fem/EnhancedTerm.hpp"
 #include "atrapos/fem/PointSet.hpp"
 #include "atrapos/fem/Term.hpp"
 #include "deck/Deck.hpp"
@@ -11,5 +12,8 @@ namespace atrapos::registry {
 
 /// The term of a material at volume points.
 std::unique_ptr<fem::Term> materialTerm(const deck::Material& material, const fem::PointSet& points);
+
+/// The term of a material in shells, at their points.
+std::unique_ptr<fem::Term> shellTerm(const deck::Material& material, const fem::EnhancedPoints& points);
 
 }  // namespace atrapos::registry

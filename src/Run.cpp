@@ -54,7 +54,7 @@ class Recorder final : public path::Observer {
       : scene_(scene),
         options_(options),
         table_(options.directory + "/path.csv", scene.monitorNames()),
-        results_(options.directory + "/results.exo", scene.mesh(), names(scene)),
+        results_(options.directory + "/results.exo", scene.resultMesh(), names(scene)),
         work_(Teuchos::rcp(new path::Vector(scene.problem().map()))),
         residual_(Teuchos::rcp(new path::Vector(scene.problem().map()))),
         start_(std::chrono::steady_clock::now()) {
@@ -220,7 +220,7 @@ nlohmann::ordered_json summary(const Scene& scene, const path::Outcome& outcome,
   json["worst_residual_at_step_ends"] = outcome.worstResidual;
   json["nodes"] = scene.mesh().numNodes();
   json["elements"] = scene.mesh().numElements();
-  json["unknowns"] = 3 * scene.mesh().numNodes();
+  json["unknowns"] = scene.numUnknowns();
   json["free_unknowns"] = scene.problem().numFreeDofs();
   json["contact_points"] = scene.numContactPoints();
   json["contact_events"] = recorder.contactEvents();

@@ -7,9 +7,25 @@
 #include <numeric>
 
 #include "Scene.hpp"
+#include "atrapos/fem/Loads.hpp"
 #include "atrapos/fem/ReferenceCell.hpp"
+#include "atrapos/fem/ShellFaces.hpp"
 
 namespace atrapos {
+
+std::vector<fem::PointSet> Scene::pointsOf(const deck::Contact& contact) const {
+  const double zeta = zetaOf(contact.at);
+  try {
+    if (contact.points == deck::Contact::Points::Nodes)
+      return {zeta == 0 ? fem::nodePoints(mesh_, nodesOf(contact.set))
+                        : fem::shellNodePoints(mesh_, shells_.geometry, nodesOf(contact.set), zeta)};
+    const auto& set = mesh_.sideSets.at(fem::findSideSet(mesh_, contact.set));
+    return zeta == 0 ? fem::facePoints(mesh_, set, contact.quadratureDegree)
+                     : fem::shellFacePoints(mesh_, shells_.geometry, set, zeta, contact.quadratureDegree);
+  } catch (const std::runtime_error& e) {
+    fail("contact/" + contact.name + "/set", e.what());
+  }
+}
 
 void Scene::makeTools() {
   for (const deck::Tool& tool : deck_.tools) try {
@@ -23,18 +39,14 @@ void Scene::addContacts(fem::FeModel& model) {
   makeTools();
   const BodySize body = bodySize();
   // A body that only its contacts hold needs the law of far points too.
-  const bool heldByContacts = !fem::freeBodies(mesh_, model.supports, {}).empty();
+  const bool heldByContacts = !fem::freeBodies(mesh_, model.supports, {}, &shells_.geometry).empty();
   for (const deck::Contact& contact : deck_.contacts) {
     const auto position = std::find_if(deck_.tools.begin(), deck_.tools.end(),
                                        [&](const deck::Tool& tool) { return tool.name == contact.tool; });
     ContactPoints entry;
     entry.name = contact.name;
     entry.tool = tools_[position - deck_.tools.begin()].get();
-    if (contact.points == deck::Contact::Points::Nodes)
-      entry.points.push_back(fem::nodePoints(mesh_, nodesOf(contact.set)));
-    else
-      entry.points = fem::facePoints(mesh_, mesh_.sideSets.at(fem::findSideSet(mesh_, contact.set)),
-                                     contact.quadratureDegree);
+    entry.points = pointsOf(contact);
     const bool all = contact.carried == deck::Contact::Carried::All || heldByContacts;
     measureGaps(contact, entry);
     choosePressure(contact, body, entry);
@@ -137,7 +149,22 @@ BodySize Scene::bodySize() const {
     low[d % 3] = std::min(low[d % 3], mesh_.coordinates[d]);
     high[d % 3] = std::max(high[d % 3], mesh_.coordinates[d]);
   }
+  int element = 0;  // counted over all blocks
   for (const fem::Block& block : mesh_.blocks) {
+    const int count = static_cast<int>(block.nodes.size()) / fem::nodesPerElement(block.topology);
+    if (fem::isShell(block.topology)) {
+      const int b = static_cast<int>(&block - mesh_.blocks.data());
+      const auto& directors = shells_.geometry.find(b)->directors;
+      double halves = 0;
+      for (std::size_t d = 0; d < directors.size(); d += 3)
+        halves += std::hypot(directors[d], directors[d + 1], directors[d + 2]);
+      fem::SideSet faces;
+      for (int e = 0; e < count; ++e) faces.sides.push_back({element + e, 0});
+      volume += fem::areaOf(mesh_, faces) * 2 * halves / (directors.size() / 3.0);
+      element += count;
+      continue;
+    }
+    element += count;
     const auto points = fem::volumePoints(mesh_, block, fem::tabulate(block.topology));
     volume += std::accumulate(points.weights.begin(), points.weights.end(), 0.0);
   }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "ShellSurface.hpp"
 #include "atrapos/fem/LawTerm.hpp"
 #include "atrapos/fem/ReferenceCell.hpp"
 
@@ -125,6 +126,21 @@ void addShellAreaForce(const ShellElements& elements, double zeta, const std::ar
     addAt(elements, e, &t.values[q * 8], zeta, {area * perArea[0], area * perArea[1], area * perArea[2]},
           force);
   });
+}
+
+void addShellBodyForce(const ShellElements& elements, const std::array<double, 3>& perVolume,
+                       std::vector<double>& force) {
+  const fem::Tabulation t = surfaceTable();
+  for (int e = 0; e < elements.count(); ++e)
+    for (int q = 0; q < t.numPoints; ++q)
+      for (std::size_t layer = 0; layer < lineX.size(); ++layer) {  // N zeta J has degree 3 in zeta
+        const double zeta = lineX[layer];
+        const double* R = &elements.midsurface[24 * static_cast<std::size_t>(e)];
+        const double* D = &elements.directors[24 * static_cast<std::size_t>(e)];
+        const double volume = t.weights[q] * lineW[layer] * detail::baseAt(t, q, zeta, R, D).jacobian();
+        addAt(elements, e, &t.values[q * 8], zeta,
+              {volume * perVolume[0], volume * perVolume[1], volume * perVolume[2]}, force);
+      }
 }
 
 void addShellPressure(const ShellElements& elements, double zeta, double pressure,

@@ -25,6 +25,10 @@ struct ShellEdge {
 void addShellAreaForce(const ShellElements& elements, double zeta, const std::array<double, 3>& perArea,
                        std::vector<double>& force);
 
+/// A force per undeformed volume, over all elements.
+void addShellBodyForce(const ShellElements& elements, const std::array<double, 3>& perVolume,
+                       std::vector<double>& force);
+
 /// A pressure against the undeformed normal of a surface: -pressure n per undeformed area.
 void addShellPressure(const ShellElements& elements, double zeta, double pressure,
                       std::vector<double>& force);
