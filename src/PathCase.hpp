@@ -1,10 +1,14 @@
 #pragma once
 
 #include <memory>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "atrapos/linear/TangentSolver.hpp"
+#include "atrapos/path/Options.hpp"
+#include "atrapos/path/Series.hpp"
 #include "atrapos/path/Stops.hpp"
 #include "deck/Deck.hpp"
 
@@ -28,6 +32,18 @@ class FieldFile {
   virtual void copyFrom(const std::string& file, int count) = 0;
 };
 
+/// Looks at every step for what belongs to one kind of case, and writes it to a table of its own.
+class StepWatch {
+ public:
+  virtual ~StepWatch() = default;
+  virtual void onStep(int branch, int step, double pathLengthStart, double length,
+                      const path::Series& series) = 0;
+  /// Takes over what an earlier run wrote up to step `last`. Throws std::invalid_argument, one line, where
+  /// that was another table.
+  virtual void copyFrom(const std::string& file, int last) = 0;
+  virtual int count() const = 0;  ///< of what was found
+};
+
 /// What a run follows the path of, and what it watches on the way: a finite-element scene or a model problem.
 class PathCase {
  public:
@@ -48,6 +64,18 @@ class PathCase {
   virtual int activeContacts(const path::Vector& /*u*/, double /*lambda*/) const { return 0; }
   /// Null where there are no fields to write.
   virtual std::unique_ptr<FieldFile> makeFieldFile(const std::string& /*file*/) const { return nullptr; }
+  /// Null where there is nothing to watch.
+  virtual std::unique_ptr<StepWatch> makeWatch(const std::string& /*file*/) const { return nullptr; }
+  /// Lines for the user before the first step: what was chosen for him.
+  virtual std::vector<std::string> remarks() const { return {}; }
+  /// What belongs into summary.json besides.
+  virtual void summarize(nlohmann::ordered_json& /*summary*/) const {}
+  /// What the deck asks for where the path has reached its stop; a line for the user, or none.
+  virtual std::string finish(const path::State& /*end*/, const path::Options& /*options*/,
+                             linear::TangentSolver& /*solver*/, const std::string& /*directory*/,
+                             nlohmann::ordered_json& /*summary*/) {
+    return {};
+  }
   /// Sizes for summary.json: name -> number.
   virtual std::vector<std::pair<std::string, long long>> sizes() const = 0;
 };

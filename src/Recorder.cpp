@@ -36,13 +36,16 @@ Recorder::Recorder(PathCase& pathCase, std::string directory, std::ostream* prog
   if (settings.restart && settings.branches == path::Follow::none && case_.problem().eventCount() == 0)
     restart_.emplace(file("restart.bin") + beside);
   fields_ = case_.makeFieldFile(file(fieldsName(0)) + beside);
+  watch_ = case_.makeWatch(file("events.csv") + beside);
   if (continued) try {
       goOn(*continued);
     } catch (...) {
-      for (const char* name : {"path.csv", "points.csv", "restart.bin", "results.exo"})
+      for (const char* name : {"path.csv", "points.csv", "events.csv", "restart.bin", "results.exo"})
         std::filesystem::remove(file(name) + kBeside);
       throw;
     }
+  if (progress_)
+    for (const std::string& line : case_.remarks()) *progress_ << line << '\n';
   printHead();
 }
 
@@ -54,6 +57,7 @@ void Recorder::goOn(const Continued& continued) {
   path_.copyFrom(old("path.csv"), 0, last);
   points_.copyFrom(old("points.csv"), 0, last);
   if (fields_) fields_->copyFrom(old(fieldsName(0)), last + 1);
+  if (watch_) watch_->copyFrom(old("events.csv"), last);
   if (restart_) restart_->copyFrom(old("restart.bin"), last);
   // The restart file first: whatever ends this in the middle, the others hold at least what it names.
   const auto replace = [&](const std::string& name) {
@@ -61,6 +65,7 @@ void Recorder::goOn(const Continued& continued) {
   };
   if (restart_) replace("restart.bin");
   if (fields_) replace(fieldsName(0));
+  if (watch_) replace("events.csv");
   replace("path.csv");
   replace("points.csv");
   started_ = true;
@@ -101,6 +106,7 @@ bool Recorder::onStep(int branch, const path::StepReport& report, const path::Se
   const long long negative = negativeAt(report.length);
   writeRow(report.step, report.pathLengthEnd, *report.end.u, report.end.lambda, negative);
   writePoints(report, series);
+  if (watch_) watch_->onStep(branch, report.step, report.pathLengthStart, report.length, series);
   if (fields_)
     fields_->write(*report.end.u, report.end.lambda,
                    {report.pathLengthEnd, report.radius, report.residual, report.order, negative, branch_});

@@ -19,7 +19,7 @@ struct Continued {
   path::Start from;
 };
 
-/// Writes what a run finds, step by step: path.csv, points.csv, restart.bin, results.exo and
+/// Writes what a run finds, step by step: path.csv, points.csv, events.csv, restart.bin, results.exo and
 /// results_branch<n>.exo; one line a step for the user. Every finished step is on disk before the next one
 /// begins, its restart record last.
 class Recorder final : public path::BranchObserver {
@@ -38,6 +38,7 @@ class Recorder final : public path::BranchObserver {
 
   int limitPoints() const { return limitPoints_; }
   int unexplained() const { return unexplained_; }
+  int contactEvents() const { return watch_ ? watch_->count() : 0; }
   double worstResidual() const { return worstResidual_; }  ///< over all output points
   double outputSeconds() const { return outputSeconds_; }
   double seconds() const;
@@ -57,6 +58,7 @@ class Recorder final : public path::BranchObserver {
   Table path_, points_;
   std::optional<RestartFile> restart_;
   std::unique_ptr<FieldFile> fields_;  ///< of the branch under way
+  std::unique_ptr<StepWatch> watch_;
   path::RCP<path::Vector> work_, residual_;
   std::chrono::steady_clock::time_point start_;
   int branch_ = 0;

@@ -39,7 +39,7 @@ bool isBranchFile(const std::string& name) {
 
 /// A run that is killed must not leave an earlier run's files beside its own.
 void removeStale(const std::string& directory) {
-  for (const char* old : {"summary.json", "branches.csv", "path.png"})
+  for (const char* old : {"summary.json", "branches.csv", "path.png", "sharpen.csv"})
     std::filesystem::remove(directory + "/" + old);
   std::vector<std::filesystem::path> branches;
   for (const auto& entry : std::filesystem::directory_iterator(directory))
@@ -99,8 +99,8 @@ RunResult runPath(PathCase& pathCase, const RunOptions& options) {
   path::BranchFollower tree(problem, *solver, settings, stops, branchOptions(deck.path));
   const auto continued = continuedRun(pathCase, options);
 
-  prepareFolder(options.directory, {"path.csv", "points.csv", "branches.csv", "results.exo", "restart.bin",
-                                    "summary.json", "path.png"});
+  prepareFolder(options.directory, {"path.csv", "points.csv", "events.csv", "branches.csv", "results.exo",
+                                    "restart.bin", "sharpen.csv", "summary.json", "path.png"});
   Interrupt interrupt;
   Recorder recorder(pathCase, options.directory, options.progress, continued);
   removeStale(options.directory);
@@ -119,6 +119,10 @@ RunResult runPath(PathCase& pathCase, const RunOptions& options) {
 
   auto summary = runSummary(pathCase, diagram, *solver, recorder);
   if (continued) summary["restarted_behind_step"] = continued->from.steps;
+  std::string finished;
+  const path::Outcome& first = diagram.branches[0].outcome;
+  if (first.reason == path::EndReason::stopReached && !Interrupt::came())
+    finished = pathCase.finish(first.final, settings, *solver, options.directory, summary);
   replaceFile(options.directory + "/summary.json", summary.dump(2) + "\n");
   replaceFile(options.directory + "/branches.csv", branchTable(diagram));
   const std::string plot = plotPath(options.directory, deck.title, pathCase.monitorNames(),
@@ -128,6 +132,7 @@ RunResult runPath(PathCase& pathCase, const RunOptions& options) {
         "{} steps, {} factorizations, {} solves, {:.2f} s; worst residual {:.2e}\n",
         summary["steps"].get<int>(), summary["factorizations"].get<int>(), summary["solves"].get<int>(),
         recorder.seconds(), recorder.worstResidual());
+    if (!finished.empty()) *options.progress << finished << '\n';
     if (!plot.empty()) *options.progress << plot << '\n';
   }
   return resultOf(diagram);

@@ -114,6 +114,8 @@ nlohmann::ordered_json runSummary(const PathCase& pathCase, const path::BranchDi
   json["branches"] = branchesOf(diagram);
   json["branches_complete"] = diagram.complete;
   for (const auto& [name, size] : pathCase.sizes()) json[name] = size;
+  json["contact_events"] = recorder.contactEvents();
+  pathCase.summarize(json);
   json["solver"] = solver.name();
   json["execution_space"] = Kokkos::DefaultExecutionSpace::name();
   json["threads"] = Kokkos::DefaultExecutionSpace::concurrency();

@@ -5,8 +5,6 @@
 #include <Tpetra_Map.hpp>
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numeric>
 
 #include "FollowerLoads.hpp"
 #include "Registry.hpp"
@@ -91,90 +89,17 @@ void Scene::addSupports(fem::FeModel& model) const {
         }
 }
 
-const deck::Tool& Scene::toolOf(const deck::Contact& contact) const {
-  return *std::find_if(deck_.tools.begin(), deck_.tools.end(),
-                       [&](const deck::Tool& tool) { return tool.name == contact.tool; });
-}
-
-std::vector<fem::PointSet> Scene::pointsOf(const deck::Contact& contact) const {
-  const double zeta = zetaOf(contact.at);
-  try {
-    if (contact.points == deck::Contact::Points::Nodes)
-      return {zeta == 0 ? fem::nodePoints(mesh_, nodesOf(contact.set))
-                        : fem::shellNodePoints(mesh_, shells_.geometry, nodesOf(contact.set), zeta)};
-    const auto& set = mesh_.sideSets.at(fem::findSideSet(mesh_, contact.set));
-    return zeta == 0 ? fem::facePoints(mesh_, set, contact.quadratureDegree)
-                     : fem::shellFacePoints(mesh_, shells_.geometry, set, zeta, contact.quadratureDegree);
-  } catch (const std::runtime_error& e) {
-    fail("contact/" + contact.name + "/set", e.what());
-  }
-}
-
-void Scene::addContacts(fem::FeModel& model) {
-  for (const deck::Tool& tool : deck_.tools) try {
-      registry::validate(tool);
-    } catch (const std::invalid_argument& e) {
-      fail("tools/" + tool.name, e.what());
-    }
-  for (const deck::Contact& contact : deck_.contacts) {
-    const deck::Tool& tool = toolOf(contact);
-    contact::RegularisedPressure pressure;
-    pressure.compliance = contact.stiffness ? 1.0 / *contact.stiffness : 0.0;
-    pressure.eta = contact.regularisation;
-
-    ContactPoints entry;
-    entry.name = contact.name;
-    entry.points = pointsOf(contact);
-    entry.smallestGap = std::numeric_limits<double>::infinity();
-    for (const fem::PointSet& points : entry.points) {
-      std::vector<double> gaps, references;
-      for (int p = 0; p < points.numPoints(); ++p) {
-        const double* x = &points.positions[3 * static_cast<std::size_t>(p)];
-        const std::string ambiguity = registry::ambiguity(tool, x);
-        const double gap = registry::project(tool, x)[0];
-        if (!ambiguity.empty() || !std::isfinite(gap))
-          fail("contact/" + contact.name,
-               fmt::format("the point ({:.6g}, {:.6g}, {:.6g}) has no unique projection on tool '{}'{}{}",
-                           x[0], x[1], x[2], tool.name, ambiguity.empty() ? "" : ": it ", ambiguity));
-        // Rounding of coordinates as large as the scene; anything deeper is meant.
-        const double rounding = 1e-12 * (1 + std::abs(x[0]) + std::abs(x[1]) + std::abs(x[2]));
-        if (gap < -rounding)
-          fail("contact/" + contact.name, fmt::format("tool '{}' penetrates the body at the start: gap "
-                                                      "{:.6g} at ({:.6g}, {:.6g}, {:.6g}); move the "
-                                                      "tool or the mesh apart",
-                                                      tool.name, gap, x[0], x[1], x[2]));
-        // Law (15) needs Delta > eta/alpha; a point that touches at the start gets the least sensible value.
-        const double least = 2 * pressure.eta * pressure.compliance;
-        if (!contact.referenceGap && !(std::max(gap, least) > 0))
-          fail("contact/" + contact.name + "/reference_gap",
-               fmt::format(
-                   "the body touches tool '{}' at ({:.6g}, {:.6g}, {:.6g}): a rigid contact needs a positive "
-                   "reference_gap there, give a number",
-                   tool.name, x[0], x[1], x[2]));
-        gaps.push_back(gap);
-        references.push_back(contact.referenceGap ? *contact.referenceGap : std::max(gap, least));
-        entry.smallestGap = std::min(entry.smallestGap, gap);
-      }
-      entry.count += points.numPoints();
-      entry.terms.push_back(static_cast<int>(model.terms.size()));
-      entry.gaps.push_back(std::move(gaps));
-      model.terms.push_back(registry::contactTerm(tool, pressure, points, references));
-    }
-    contacts_.push_back(std::move(entry));
-  }
-}
-
 void Scene::requireSupport(const fem::Supports& supports) const {
   std::vector<fem::HeldDirection> held;
-  for (std::size_t c = 0; c < contacts_.size(); ++c) {
-    const deck::Tool& tool = toolOf(deck_.contacts[c]);
-    for (const fem::PointSet& points : contacts_[c].points)
+  for (const ContactPoints& contact : contacts_)
+    for (const fem::PointSet& points : contact.points)
       for (int n : points.nodes) {
         if (n >= mesh_.numNodes()) continue;  // a director
-        const auto y = registry::project(tool, &mesh_.coordinates[3 * static_cast<std::size_t>(n)]);
-        held.push_back({n, {y[1], y[2], y[3]}});
+        const double* x = &mesh_.coordinates[3 * static_cast<std::size_t>(n)];
+        const double place[4] = {x[0], x[1], x[2], 0};
+        const ToolProjection over = contact.tool->project(place);
+        if (std::isfinite(over.gap)) held.push_back({n, {over.normal[0], over.normal[1], over.normal[2]}});
       }
-  }
   for (const fem::FreeBody& body : fem::freeBodies(mesh_, supports, held, &shells_.geometry))
     fail("supports",
          fmt::format("the body with block '{}' can still move freely in {} rigid motion{}: prescribe more "
@@ -184,16 +109,13 @@ void Scene::requireSupport(const fem::Supports& supports) const {
 
 void Scene::requireEffect(const fem::FeModel& model) const {
   if (model.supports.driven()) return;
+  for (const ContactPoints& contact : contacts_)
+    if (contact.tool->moves()) return;
   for (const deck::Load& load : deck_.loads)
     if (followers::isFollower(load) && !load.constant) return;
   for (std::size_t dof = 0; dof < model.load.size(); ++dof)
     if (model.load[dof] != 0 && !model.supports.fixed(static_cast<int>(dof))) return;
   fail("loads", "without effect: all that depends on the load factor acts on supported displacements");
-}
-
-int Scene::numContactPoints() const {
-  return std::accumulate(contacts_.begin(), contacts_.end(), 0,
-                         [](int n, const ContactPoints& c) { return n + c.count; });
 }
 
 int Scene::numUnknowns() const { return static_cast<int>(problem_->map()->getGlobalNumElements()); }

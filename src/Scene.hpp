@@ -7,6 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "ContactPressure.hpp"
+#include "NearContact.hpp"
+#include "RigidTool.hpp"
 #include "Shells.hpp"
 #include "atrapos/fem/FeProblem.hpp"
 #include "atrapos/fem/Mesh.hpp"
@@ -30,15 +33,23 @@ struct ContactPoints {
   std::string name;
   std::vector<int> terms;  ///< positions of its terms in the problem (one a face shape)
   std::vector<fem::PointSet> points;
-  std::vector<std::vector<double>> gaps;  ///< [term][point] initial gap
+  std::vector<std::vector<double>> gaps;        ///< [term][point] initial gap
+  std::vector<std::vector<double>> references;  ///< [term][point] Delta
+  std::vector<std::vector<double>> closedGaps;  ///< [term][point] a point with a smaller gap is closed
+  const RigidTool* tool = nullptr;
+  std::vector<const NearContact*> near;  ///< [term]
+  ContactPressure pressure;
   int count = 0;
   double smallestGap = 0;  ///< at the start
+  int attracted = 0;       ///< points farther off than a uniform Delta, which pulls at them
+  int numCarried() const;  ///< points that carry the law so far: those that came near the tool
 };
 
 /// State of one contact at a point of the path.
 struct ContactState {
   double normalForce = 0;  ///< sum of weight * R over the points
-  /// Closed points: h <= 2 eta/alpha, the vertex of the hyperbola (15); rigid: h <= 1e-3 of the initial gap.
+  /// Closed points: h <= 2 eta/alpha, the vertex of the hyperbola (15); rigid: h <= 1e-3 Delta; h <= 0 with
+  /// laws without eta.
   int active = 0;
 };
 
@@ -57,6 +68,10 @@ class Scene {
   int numContactPoints() const;
   /// Of the problem, supported ones included: three for each node of the mesh and each director.
   int numUnknowns() const;
+
+  /// The body at this load factor, which stays, with contacts whose regularisation falls: eta exp(-s), s in
+  /// place of the load factor in all members from now on. Throws std::logic_error where a law is not (15).
+  void sharpen(double loadFactor);
 
   path::Stops stops() const;
 
@@ -91,7 +106,10 @@ class Scene {
   void addFollowers(fem::FeModel& model) const;
   void addContacts(fem::FeModel& model);
   void addMonitors();
-  const deck::Tool& toolOf(const deck::Contact& contact) const;
+  void makeTools();
+  BodySize bodySize() const;
+  void measureGaps(const deck::Contact& contact, ContactPoints& entry) const;
+  void choosePressure(const deck::Contact& contact, BodySize body, ContactPoints& entry) const;
   void requireSupport(const fem::Supports& supports) const;
   void requireEffect(const fem::FeModel& model) const;
   [[noreturn]] void fail(const std::string& key, const std::string& problem) const;
@@ -108,7 +126,10 @@ class Scene {
   SceneShells shells_;
   std::optional<fem::ShellBody> body_;  ///< where the results are on the bodies of shells
   std::unique_ptr<fem::FeProblem> problem_;
-  std::vector<BodyBlock> bodies_;  ///< [block]
+  /// Of a scene that sharpens: the problem before, owner of its terms.
+  std::unique_ptr<fem::FeProblem> loaded_;
+  std::vector<std::unique_ptr<RigidTool>> tools_;  ///< in the deck's order
+  std::vector<BodyBlock> bodies_;                  ///< [block]
   std::vector<ContactPoints> contacts_;
   /// [monitor] weights of a displacement monitor over the unknowns; null for the others
   std::vector<linear::RCP<path::Vector>> displacementWeights_;

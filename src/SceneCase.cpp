@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <nlohmann/json.hpp>
 #include <sstream>
 #include <stdexcept>
 
+#include "ContactEvents.hpp"
+#include "Sharpen.hpp"
 #include "atrapos/exodus/ResultReader.hpp"
 #include "atrapos/exodus/ResultWriter.hpp"
 
@@ -80,6 +83,47 @@ int SceneCase::activeContacts(const path::Vector& u, double lambda) const {
 
 std::unique_ptr<FieldFile> SceneCase::makeFieldFile(const std::string& file) const {
   return std::make_unique<SceneFields>(*this, scene_, file);
+}
+
+std::unique_ptr<StepWatch> SceneCase::makeWatch(const std::string& file) const {
+  if (scene_.contacts().empty()) return nullptr;
+  return std::make_unique<ContactEvents>(scene_, file);
+}
+
+std::vector<std::string> SceneCase::remarks() const {
+  std::vector<std::string> lines;
+  for (const ContactPoints& contact : scene_.contacts())
+    lines.push_back(fmt::format("contact {}: {}", contact.name, contact.pressure.text));
+  return lines;
+}
+
+void SceneCase::summarize(nlohmann::ordered_json& summary) const {
+  auto contacts = nlohmann::ordered_json::object();
+  for (const ContactPoints& contact : scene_.contacts()) {
+    auto& entry = contacts[contact.name];
+    entry["law"] = contact.pressure.text;
+    for (const auto& [name, value] : contact.pressure.numbers) entry[name] = value;
+    entry["points"] = contact.count;
+    entry["points_carried"] = contact.numCarried();
+  }
+  summary["contacts"] = contacts;
+}
+
+std::string SceneCase::finish(const path::State& end, const path::Options& options,
+                              linear::TangentSolver& solver, const std::string& directory,
+                              nlohmann::ordered_json& summary) {
+  if (!scene_.deck().path.sharpen) return {};
+  const auto names = scene_.monitorNames();
+  const Sharpened sharpened =
+      sharpen(scene_, end, *scene_.deck().path.sharpen, options, solver, directory + "/sharpen.csv");
+  auto& entry = summary["sharpened"];
+  entry["reached"] = sharpened.reached;
+  if (!sharpened.reached) entry["why"] = sharpened.text;
+  entry["factor"] = sharpened.factor;
+  entry["steps"] = sharpened.steps;
+  for (std::size_t m = 0; m < names.size(); ++m) entry["monitors"][names[m]] = sharpened.monitors[m];
+  return fmt::format("eta times {:.3g} in {} steps{}{}", sharpened.factor, sharpened.steps,
+                     sharpened.reached ? "" : ": ", sharpened.text);
 }
 
 std::vector<std::pair<std::string, long long>> SceneCase::sizes() const {

@@ -20,6 +20,12 @@ class SceneCase final : public PathCase {
   }
   int activeContacts(const path::Vector& u, double lambda) const override;
   std::unique_ptr<FieldFile> makeFieldFile(const std::string& file) const override;
+  std::unique_ptr<StepWatch> makeWatch(const std::string& file) const override;
+  std::vector<std::string> remarks() const override;
+  void summarize(nlohmann::ordered_json& summary) const override;
+  /// Sharpens the contacts where the deck says so.
+  std::string finish(const path::State& end, const path::Options& options, linear::TangentSolver& solver,
+                     const std::string& directory, nlohmann::ordered_json& summary) override;
   std::vector<std::pair<std::string, long long>> sizes() const override;
 
  private:

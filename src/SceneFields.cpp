@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include "Scene.hpp"
 #include "ShellFields.hpp"
@@ -124,6 +125,7 @@ std::vector<std::vector<double>> Scene::nodalContact(const path::Vector& u, doub
     forEachContactPoint(contact, u, lambda, [&](std::size_t t, int p, const double* gapAndPressure) {
       const fem::PointSet& points = contact.points[t];
       const int N = points.nodesPerEntity, e = p / points.pointsPerEntity;
+      if (std::isinf(gapAndPressure[0])) return;  // over no part of the tool
       for (int n = 0; n < N; ++n) {
         const int node = points.nodes[static_cast<std::size_t>(e) * N + n];
         if (node >= numNodes) continue;

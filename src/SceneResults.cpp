@@ -58,14 +58,10 @@ void Scene::forEachContactPoint(const ContactPoints& contact, const path::Vector
 }
 
 ContactState Scene::contactState(const ContactPoints& contact, const path::Vector& u, double lambda) const {
-  const auto& entry = *std::find_if(deck_.contacts.begin(), deck_.contacts.end(),
-                                    [&](const deck::Contact& c) { return c.name == contact.name; });
   ContactState state;
   forEachContactPoint(contact, u, lambda, [&](std::size_t t, int p, const double* gapAndPressure) {
     const double gap = gapAndPressure[0], pressure = gapAndPressure[1];
-    const double turn =
-        entry.stiffness ? 2 * entry.regularisation / *entry.stiffness : 1e-3 * contact.gaps[t][p];
-    state.active += gap <= turn;
+    state.active += gap <= contact.closedGaps[t][p];
     state.normalForce += contact.points[t].weights[p] * pressure;
   });
   return state;

@@ -199,17 +199,57 @@ struct PlaneTool {
   Vector3 normal{};  ///< to the free side, not zero, any length
 };
 
-struct Tool {
+/// One Bezier patch (no knots) or one B-spline surface; with weights rational.
+struct SplineSurface {
   std::string name;
-  std::variant<CylinderTool, PlaneTool, SphereTool, ConeTool, TorusTool, TaperedRollTool, CrownedRollTool>
-      surface;
+  std::array<int, 2> degree{1, 1};
+  std::vector<Vector3> points;               ///< [i][j], j runs fastest
+  std::vector<double> weights;               ///< of the points; empty: all 1
+  std::array<std::vector<double>, 2> knots;  ///< count + degree + 1 in each direction
 };
 
-/// Contact of a set with a tool by R (R/alpha + h) = eta (Delta - h), eq. (15) of the paper.
+/// Parametric surfaces, paper (13), which may continue each other.
+struct PatchesTool {
+  std::vector<SplineSurface> surfaces;
+  std::string file;                 ///< as written in the deck; the surfaces are read from it. Empty: none
+  bool reversed = false;            ///< the free side is against S_1 x S_2
+  std::optional<double> thickness;  ///< length: deeper points are behind the tool; empty = unlimited
+};
+
+/// How a tool moves with the load factor: a turn about an axis through the pivot, then a shift.
+struct ToolMotion {
+  std::vector<Vector3> shift;  ///< factors of the powers 1, 2, 3 of the load factor, lengths
+  std::vector<double> angle;   ///< the same of the angle, degrees
+  Vector3 axis{0, 0, 1};       ///< direction, any length
+  Vector3 pivot{};
+  bool moves() const { return !shift.empty() || !angle.empty(); }
+};
+
+struct Tool {
+  std::string name;
+  std::variant<CylinderTool, PlaneTool, SphereTool, ConeTool, TorusTool, TaperedRollTool, CrownedRollTool,
+               PatchesTool>
+      surface;
+  ToolMotion motion;
+};
+
+/// Contact of a set with a tool: a law between the pressure R and the gap h with R = 0 at h = Delta.
 struct Contact {
   enum class Points {
     Nodes,      ///< R, eta: force at each node; alpha: force per length
     Quadrature  ///< R, eta: pressure; alpha: pressure per length
+  };
+  enum class Law {
+    Hyperbola,    ///< R (R/alpha + h) = eta (Delta - h), eq. (15) of the paper
+    Barrier,      ///< the same with 1/alpha = 0: R = eta (Delta - h)/h
+    Power,        ///< (R + eta) ((h + R/alpha)/Delta)^m = eta
+    Exponential,  ///< R = R_0 (exp(-h/l) - exp(-Delta/l))
+    Penalty       ///< alpha max(-h, 0), its corner smoothed over l
+  };
+  /// Which points have the law.
+  enum class Carried {
+    Near,  ///< those that come near the tool, found along the path
+    All
   };
   std::string name;
   std::string tool;
@@ -217,9 +257,17 @@ struct Contact {
   Points points = Points::Quadrature;
   ShellPlace at = ShellPlace::Middle;  ///< of shells
   int quadratureDegree = 4;            ///< polynomial degree integrated exactly; unused with nodes
-  std::optional<double> stiffness;     ///< alpha > 0; empty = rigid, 1/alpha = 0
-  double regularisation = 0;           ///< eta > 0
-  std::optional<double> referenceGap;  ///< Delta > eta/alpha; empty = each point's own initial gap
+  Law law = Law::Hyperbola;
+  bool rigid = false;                    ///< 1/alpha = 0: hyperbola and power
+  std::optional<double> stiffness;       ///< alpha > 0; empty = chosen, unless rigid
+  std::optional<double> regularisation;  ///< eta > 0; empty = chosen
+  double exponent = 2;                   ///< m of the power law
+  std::optional<double> touching;        ///< R_0 > 0 of the exponential law; empty = chosen
+  std::optional<double> length;          ///< l > 0 of the exponential and penalty laws; empty = chosen
+  std::optional<double> referenceGap;    ///< Delta > eta/alpha; empty = each point's own initial gap
+  Carried carried = Carried::Near;
+  /// Whether 1/alpha = 0.
+  bool isRigid() const { return rigid || law == Law::Barrier; }
 };
 
 // ----------------------------------------------------------------------------------------------- path
@@ -251,6 +299,8 @@ struct Path {
   int branchDepth = 4;   ///< bifurcations between the first path and a branch
   int branchCount = 20;  ///< half-branches followed besides the first path
   bool restart = true;   ///< keeps what a restart needs at every step
+  /// In (0, 1): at the path's end eta of all contacts falls by this factor; empty: does not.
+  std::optional<double> sharpen;
   Stop stop;
 };
 

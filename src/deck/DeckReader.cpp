@@ -11,6 +11,7 @@
 
 #include "deck/DeckReferences.hpp"
 #include "deck/DeckTables.hpp"
+#include "deck/Entries.hpp"
 #include "deck/YamlText.hpp"
 
 namespace atrapos::deck {
@@ -66,6 +67,47 @@ Teuchos::RCP<Teuchos::ParameterList> parse(const YamlText& text, const std::stri
   }
 }
 
+std::string readText(const std::string& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::ostringstream text;
+  if (!in || (in.peek() != EOF && !(text << in.rdbuf()))) {
+    throw DeckError(fmt::format("{}: cannot be read: {}", file, std::strerror(errno)));
+  }
+  return text.str();
+}
+
+/// A file of surfaces: a deck with the one key `surfaces`.
+struct SurfaceFile {
+  std::vector<SplineSurface> surfaces;
+};
+
+std::vector<SplineSurface> readSurfaces(const std::string& file) {
+  static const Table<SurfaceFile> table{entries("surfaces", required, &SurfaceFile::surfaces,
+                                                splineSurfaceTable(), "each with degree, points, ...",
+                                                "Bezier, B-spline and NURBS surfaces")};
+  const YamlText yaml(readText(file), file);
+  const auto list = parse(yaml, file);
+  SurfaceFile content;
+  read(table, Value(*list, yaml, file), content);
+  return content.surfaces;
+}
+
+/// Reads what the tools have in files beside the deck.
+void readToolFiles(const Value& root, const std::filesystem::path& folder, Deck& deck) {
+  for (Tool& tool : deck.tools) {
+    auto* patches = std::get_if<PatchesTool>(&tool.surface);
+    if (patches == nullptr || patches->file.empty()) {
+      continue;
+    }
+    const auto path = (folder / patches->file).lexically_normal();
+    if (!std::filesystem::is_regular_file(path)) {
+      root.at("tools").at(tool.name).at("file").fail(
+          fmt::format("the file '{}' does not exist", path.string()));
+    }
+    patches->surfaces = readSurfaces(path.string());
+  }
+}
+
 }  // namespace
 
 Deck readDeckText(const std::string& text, const std::string& file) {
@@ -94,6 +136,7 @@ Deck readDeckText(const std::string& text, const std::string& file) {
   }
   checkReferences(root, deck);
 
+  readToolFiles(root, path.parent_path(), deck);
   if (deck.title.empty()) {
     deck.title = path.stem().string();
   }
@@ -105,12 +148,7 @@ Deck readDeck(const std::string& file) {
   if (std::filesystem::is_directory(file)) {
     throw DeckError(file + ": is a folder; expected a deck file");
   }
-  std::ifstream in(file, std::ios::binary);
-  std::ostringstream text;
-  if (!in || (in.peek() != EOF && !(text << in.rdbuf()))) {
-    throw DeckError(fmt::format("{}: cannot be read: {}", file, std::strerror(errno)));
-  }
-  return readDeckText(text.str(), file);
+  return readDeckText(readText(file), file);
 }
 
 }  // namespace atrapos::deck

@@ -115,10 +115,16 @@ void checkSomethingIsDriven(const Value& root, const Deck& deck) {
       }
     }
   }
+  for (const auto& contact : deck.contacts) {
+    for (const auto& tool : deck.tools) {
+      if (tool.name == contact.tool && tool.motion.moves()) {
+        return;
+      }
+    }
+  }
   root.fail(
-      "nothing depends on the load factor; expected a load that is neither constant nor zero, or a support "
-      "with "
-      "per_load_factor");
+      "nothing depends on the load factor; expected a load that is neither constant nor zero, a support with "
+      "per_load_factor, or a contact with a tool that moves");
 }
 
 }  // namespace
@@ -145,6 +151,14 @@ void checkReferences(const Value& root, const Deck& deck) {
   }
   checkStop(root.at("path").at("stop"), deck);
   checkBranches(root, deck);
+  if (deck.path.sharpen) {
+    const auto hasEta = [](const Contact& c) {
+      return c.law == Contact::Law::Hyperbola || c.law == Contact::Law::Barrier;
+    };
+    if (deck.contacts.empty() || !std::all_of(deck.contacts.begin(), deck.contacts.end(), hasEta)) {
+      root.at("path").at("sharpen").fail("needs contacts with the law hyperbola or barrier");
+    }
+  }
   const auto& fields = deck.output.fields;
   if (deck.contacts.empty() &&
       std::find(fields.begin(), fields.end(), OutputField::Contact) != fields.end()) {

@@ -19,6 +19,8 @@ const Table<ShellSection>& shellSectionTable();
 const Table<Support>& supportTable();
 const Variants<Load, decltype(Load::load)>& loadVariants();
 const Variants<Tool, decltype(Tool::surface)>& toolVariants();
+const Table<ToolMotion>& motionTable();
+const Table<SplineSurface>& splineSurfaceTable();
 const Table<Contact>& contactTable();
 const Table<Stop>& stopTable();
 const Table<Path>& pathTable();

@@ -27,6 +27,7 @@ const Check direction{[](double x) { return x == 1 || x == -1; }, "1 or -1"};
 const Check poissonsRatio{[](double x) { return x > -1 && x < 0.5; }, "above -1 and below 0.5"};
 const Check acuteAngle{[](double x) { return x > 0 && x < 90; }, "above 0 and below 90 degrees"};
 const Check slopeAngle{[](double x) { return x > -90 && x < 90; }, "above -90 and below 90 degrees"};
+const Check exponent{[](double x) { return x >= 1 && x <= 16; }, "from 1 to 16"};
 }  // namespace check
 
 namespace {
@@ -253,6 +254,37 @@ std::vector<double> Value::reals() const {
     fail(fmt::format("expected a list of finite numbers, got {}", shown()));
   }
   return x;
+}
+
+std::vector<std::array<double, 3>> Value::rowsOf3() const {
+  std::vector<std::array<double, 3>> rows;
+  const auto take = [&](const auto* table) {
+    if (table == nullptr || table->getNumCols() != 3) {
+      return;
+    }
+    for (Teuchos::Ordinal i = 0; i < table->getNumRows(); ++i) {
+      rows.push_back({static_cast<double>((*table)(i, 0)), static_cast<double>((*table)(i, 1)),
+                      static_cast<double>((*table)(i, 2))});
+    }
+  };
+  take(as<Teuchos::TwoDArray<int>>(entry_));
+  take(as<Teuchos::TwoDArray<long long>>(entry_));
+  take(as<Teuchos::TwoDArray<double>>(entry_));
+  const auto single = realList();
+  if (single.size() == 3) {
+    rows.push_back({single[0], single[1], single[2]});
+  }
+  for (const auto& row : rows) {
+    for (const double x : row) {
+      if (!std::isfinite(x)) {
+        fail(fmt::format("must be finite numbers, got {}", x));
+      }
+    }
+  }
+  if (rows.empty()) {
+    fail(fmt::format("expected a list of lists of 3 finite numbers, got {}", shown()));
+  }
+  return rows;
 }
 
 std::vector<int> Value::integers(std::size_t size, const Check& check) const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Teuchos_ParameterList.hpp>
+#include <array>
 #include <string>
 #include <vector>
 
@@ -16,7 +17,7 @@ struct Check {
 
 namespace check {
 extern const Check any, positive, nonzero, fraction, count, natural, order, degree, direction, poissonsRatio,
-    acuteAngle, slopeAngle;
+    acuteAngle, slopeAngle, exponent;
 }
 
 /// A value of the deck with its key path. Every accessor throws DeckError where the value is not of its kind.
@@ -46,6 +47,8 @@ class Value {
   std::vector<double> reals(std::size_t size) const;
   /// One or more finite numbers.
   std::vector<double> reals() const;
+  /// Rows of three numbers, at least one; a list of three numbers is one row.
+  std::vector<std::array<double, 3>> rowsOf3() const;
   std::vector<int> integers(std::size_t size, const Check& check) const;
   /// One or more texts.
   std::vector<std::string> texts() const;

@@ -108,6 +108,8 @@ void describeKeys(std::ostream& out) {
   printKeys("supports/NAME/", supportTable(), out);
   printKeys("loads/NAME/", loadVariants(), out);
   printKeys("tools/NAME/", toolVariants(), out);
+  printKeys("tools/NAME/surfaces/NAME/", splineSurfaceTable(), out);
+  printKeys("tools/NAME/motion/", motionTable(), out);
   printKeys("contact/NAME/", contactTable(), out);
   printKeys("path/", pathTable(), out);
   printKeys("path/stop/", stopTable(), out);

@@ -1,4 +1,6 @@
 // Keys of the blocks that describe the body and what acts on it: materials, loads, contact.
+#include <algorithm>
+
 #include "deck/DeckTables.hpp"
 
 namespace atrapos::deck {
@@ -77,10 +79,10 @@ void requireExactlyOne(const Value& map, const std::vector<std::string>& keys) {
 }
 
 /// A positive number or one word for its absence.
-Field<Contact> positiveOr(std::string key, Need need, std::optional<double> Contact::*member,
-                          const std::string& word, std::string meaning) {
+Field<Contact> positiveOr(std::string key, std::optional<double> Contact::*member, const std::string& word,
+                          std::string meaning) {
   return {std::move(key),
-          need == required,
+          false,
           "a positive number or " + word,
           std::move(meaning),
           [=](const Value& v, Contact& s) {
@@ -94,6 +96,55 @@ Field<Contact> positiveOr(std::string key, Need need, std::optional<double> Cont
           },
           [=](const Contact& s) {
             return Node{s.*member ? yaml(*(s.*member)) : word, {}};
+          }};
+}
+
+using ContactLaw = Contact::Law;
+
+const Choices<ContactLaw>& contactLaws() {
+  static const Choices<ContactLaw> laws{{"hyperbola", ContactLaw::Hyperbola},
+                                        {"barrier", ContactLaw::Barrier},
+                                        {"power", ContactLaw::Power},
+                                        {"exponential", ContactLaw::Exponential},
+                                        {"penalty", ContactLaw::Penalty}};
+  return laws;
+}
+
+/// The field where it has a meaning: with one of these laws.
+Field<Contact> ofLaws(Field<Contact> field, const std::vector<ContactLaw>& laws) {
+  const auto has = [=](const Contact& s) { return std::find(laws.begin(), laws.end(), s.law) != laws.end(); };
+  field.read = [=, inner = field.read](const Value& v, Contact& s) {
+    if (!has(s)) {
+      v.fail(fmt::format("has no meaning with law: {}", wordOf(s.law, contactLaws())));
+    }
+    inner(v, s);
+  };
+  field.print = [=, inner = field.print](const Contact& s) { return has(s) ? inner(s) : Node{}; };
+  return field;
+}
+
+/// alpha: a number, or one of two words.
+Field<Contact> contactStiffness() {
+  const std::string accepts = "a positive number, rigid or auto";
+  return {"stiffness",
+          false,
+          accepts,
+          "alpha: pressure per length, with points: nodes force per length; rigid: 1/alpha = 0",
+          [=](const Value& v, Contact& s) {
+            if (!v.isText()) {
+              s.stiffness = v.real(check::positive);
+              return;
+            }
+            s.rigid = v.text() == "rigid";
+            if (s.rigid && s.law == ContactLaw::Penalty) {
+              v.fail("a penalty has a finite stiffness");
+            }
+            if (!s.rigid && v.text() != "auto") {
+              v.fail(fmt::format("expected {}, got {}", accepts, v.shown()));
+            }
+          },
+          [](const Contact& s) {
+            return Node{s.rigid ? "rigid" : s.stiffness ? yaml(*s.stiffness) : "auto", {}};
           }};
 }
 
@@ -204,15 +255,17 @@ const Table<Contact>& contactTable() {
       }
       inner(v, s);
     };
-    auto gap = positiveOr("reference_gap", optional, &Contact::referenceGap, "initial",
+    auto gap = positiveOr("reference_gap", &Contact::referenceGap, "initial",
                           "Delta, the gap at which the force is zero; initial: that of each point");
     gap.read = [inner = gap.read](const Value& v, Contact& s) {
       inner(v, s);
-      const double least = s.stiffness ? s.regularisation / *s.stiffness : 0.0;
+      const bool bounded = s.law == ContactLaw::Hyperbola && s.stiffness && s.regularisation;
+      const double least = bounded ? *s.regularisation / *s.stiffness : 0.0;
       if (s.referenceGap && *s.referenceGap <= least) {
         v.fail(fmt::format("must be above regularisation/stiffness = {}, got {}", least, v.shown()));
       }
     };
+    using Law = ContactLaw;
     return Table<Contact>{
         name("tool", required, &Contact::tool, "the name of a tool", "what the set may touch"),
         name("set", required, &Contact::set, "a side set (with points: nodes also a node set), name or id",
@@ -220,11 +273,23 @@ const Table<Contact>& contactTable() {
         choice("points", optional, &Contact::points, points, "where the law acts"),
         choice("at", optional, &Contact::at, shellPlaces(), "where in the thickness of shells"),
         degree,
-        positiveOr("stiffness", required, &Contact::stiffness, "rigid",
-                   "alpha: pressure per length, with points: nodes force per length; rigid: 1/alpha = 0"),
-        real("regularisation", required, &Contact::regularisation, check::positive,
-             "eta: a pressure, with points: nodes a force"),
-        gap};
+        choice("law", optional, &Contact::law, contactLaws(), "pressure as a function of the gap"),
+        ofLaws(contactStiffness(), {Law::Hyperbola, Law::Power, Law::Penalty}),
+        ofLaws(positiveOr("regularisation", &Contact::regularisation, "auto",
+                          "eta: a pressure, with points: nodes a force"),
+               {Law::Hyperbola, Law::Barrier, Law::Power}),
+        ofLaws(real("exponent", optional, &Contact::exponent, check::exponent, "m of the power law"),
+               {Law::Power}),
+        ofLaws(positiveOr("touching", &Contact::touching, "auto",
+                          "R_0 of the exponential law, the pressure (nodes: force) at zero gap"),
+               {Law::Exponential}),
+        ofLaws(positiveOr("length", &Contact::length, "auto",
+                          "l over which the exponential law grows by e or the penalty's corner is smoothed"),
+               {Law::Exponential, Law::Penalty}),
+        gap,
+        choice("carried", optional, &Contact::carried,
+               Choices<Contact::Carried>{{"near", Contact::Carried::Near}, {"all", Contact::Carried::All}},
+               "by which points the law is carried: those that come nearer than half of Delta, or all")};
   }();
   return table;
 }

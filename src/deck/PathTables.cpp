@@ -153,6 +153,8 @@ Table<Path> pathKeys(const Table<Stop>& stops, Need needStop) {
       integer("branch_count", optional, &Path::branchCount, check::natural,
               "most branches followed besides the first path"),
       keepsRestart(),
+      real("sharpen", &Path::sharpen, check::fraction,
+           "at the path's end eta of all contacts falls by this factor, towards hard contact"),
       stop};
 }
 

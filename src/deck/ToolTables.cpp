@@ -1,6 +1,8 @@
 // Keys of the tools. Whether the numbers make a surface is for the tools themselves to say (Registry).
 #include "deck/DeckTables.hpp"
 
+#include "deck/Entries.hpp"
+
 namespace atrapos::deck {
 namespace {
 
@@ -26,12 +28,110 @@ void requireOneProfile(const Value& map, const CrownedRollTool& roll) {
   }
 }
 
+template <class S>
+Field<S> rows3(std::string key, Need need, std::vector<Vector3> S::*member, std::string meaning) {
+  return {std::move(key),
+          need == required,
+          "a list of lists of 3 numbers",
+          std::move(meaning),
+          [=](const Value& v, S& s) { s.*member = v.rowsOf3(); },
+          [=](const S& s) {
+            std::string text;
+            for (const Vector3& row : s.*member) {
+              text += (text.empty() ? "[" : ", ") + yamlList(row);
+            }
+            return text.empty() ? Node{} : Node{text + "]", {}};
+          }};
+}
+
+Field<SplineSurface> knots(const std::string& key, std::size_t direction) {
+  return {key,
+          false,
+          "a list of numbers",
+          "ascending, number of points + degree + 1 in this direction; without knots a Bezier patch",
+          [=](const Value& v, SplineSurface& s) { s.knots[direction] = v.reals(); },
+          [=](const SplineSurface& s) {
+            return s.knots[direction].empty() ? Node{} : Node{yamlList(s.knots[direction]), {}};
+          }};
+}
+
+void requireMotion(const Value& map, const ToolMotion& motion) {
+  if (!motion.moves()) {
+    map.fail("moves nothing; expected shift or angle");
+  }
+  if (!motion.angle.empty() && !map.has("axis")) {
+    map.failMissing("axis", "a list of 3 numbers, not all zero");
+  }
+  if (motion.shift.size() > 3) {
+    map.at("shift").fail("expected factors of at most the powers 1, 2, 3 of the load factor");
+  }
+  if (motion.angle.size() > 3) {
+    map.at("angle").fail("expected factors of at most the powers 1, 2, 3 of the load factor");
+  }
+}
+
+void requireSurfaces(const Value& map, const PatchesTool& patches) {
+  if (patches.surfaces.empty() == patches.file.empty()) {
+    map.fail("needs either surfaces or file");
+  }
+}
+
 }  // namespace
+
+const Table<ToolMotion>& motionTable() {
+  static const Table<ToolMotion> table{
+      rows3("shift", optional, &ToolMotion::shift,
+            "shift per load factor, a vector; or up to 3, factors of its powers 1, 2, 3"),
+      reals("angle", optional, &ToolMotion::angle,
+            "turn in degrees, right-handed about the axis: factors of the powers 1, 2, 3 of the load factor"),
+      direction("axis", optional, &ToolMotion::axis, "of the turn, of any length"),
+      vector3("pivot", optional, &ToolMotion::pivot, "point on the axis of the turn")};
+  return table;
+}
+
+const Table<SplineSurface>& splineSurfaceTable() {
+  static const Table<SplineSurface> table = [] {
+    const Field<SplineSurface> degree{"degree",
+                                      true,
+                                      "a list of 2 whole numbers, each from 1 to 20",
+                                      "in the first and in the second direction",
+                                      [](const Value& v, SplineSurface& s) {
+                                        const auto p = v.integers(2, check::degree);
+                                        s.degree = {p[0], p[1]};
+                                      },
+                                      [](const SplineSurface& s) {
+                                        return Node{yamlList(s.degree), {}};
+                                      }};
+    return Table<SplineSurface>{
+        degree,
+        rows3("points", required, &SplineSurface::points,
+              "control points, those of the second direction run fastest"),
+        reals("weights", optional, &SplineSurface::weights, "of the points, > 0; none: all 1"),
+        knots("knots_1", 0), knots("knots_2", 1)};
+  }();
+  return table;
+}
 
 const Variants<Tool, decltype(Tool::surface)>& toolVariants() {
   using V = decltype(Tool::surface);
   using Taper = TaperedRollTool;
   using Crown = CrownedRollTool;
+  static const Field<Tool> motion = [] {
+    auto field = block("motion", optional, &Tool::motion, motionTable(), "how it moves with the load factor");
+    field.read = [inner = field.read](const Value& v, Tool& tool) {
+      inner(v, tool);
+      requireMotion(v, tool.motion);
+    };
+    field.print = [inner = field.print](const Tool& tool) {
+      return tool.motion.moves() ? inner(tool) : Node{};
+    };
+    return field;
+  }();
+  auto surfaces = entries("surfaces", optional, &PatchesTool::surfaces, splineSurfaceTable(),
+                          "each with degree, points, ...", "Bezier, B-spline and NURBS surfaces; or");
+  surfaces.print = [inner = surfaces.print](const PatchesTool& s) {
+    return s.file.empty() ? inner(s) : Node{};
+  };
   static const Variants<Tool, V> variants{
       "type",
       &Tool::surface,
@@ -79,8 +179,21 @@ const Variants<Tool, decltype(Tool::surface)>& toolVariants() {
                   "radius = sum of coefficient i times place^i, i = 0, 1, ...; or"),
             reals("places", optional, &Crown::places, "places along the axis, ascending, and"),
             reals("radii", optional, &Crown::radii, "the radius at each of them")},
-           requireOneProfile)},
-      {}};
+           requireOneProfile),
+       alternative<V, PatchesTool>(
+           "patches",
+           {surfaces,
+            text("file", optional, &PatchesTool::file, "a text",
+                 "YAML file with such a map under the key surfaces"),
+            {"reversed", false, "true or false", "the free side is against S_1 x S_2",
+             [](const Value& v, PatchesTool& s) { s.reversed = v.boolean(); },
+             [](const PatchesTool& s) {
+               return Node{s.reversed ? "true" : "false", {}};
+             }},
+            real("thickness", &PatchesTool::thickness, check::positive,
+                 "how deep the tool is behind its surface; deeper points are behind it and free")},
+           requireSurfaces)},
+      {motion}};
   return variants;
 }
 

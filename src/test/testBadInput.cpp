@@ -28,7 +28,8 @@ class BadInput : public testing::Test {
     writeFile(folder_ / "deck.yaml", kSmallDeck);
     writeFile(folder_ / "box.exo", mesh_);
     std::filesystem::create_directory(folder_ / "deck_results");
-    for (const char* name : {"path.csv", "results.exo", "summary.json", "path.png", "notes.txt"})
+    for (const char* name :
+         {"path.csv", "events.csv", "sharpen.csv", "results.exo", "summary.json", "path.png", "notes.txt"})
       writeFile(folder_ / "deck_results" / name, std::string("kept: ") + name);
   }
 
@@ -122,6 +123,64 @@ TEST_F(BadInput, ToolsThatAreNoSurface) {
               "{type: tapered_roll, center: [4, 0, -9], axis: [0, 1, 0], radius: 1, flat: -1, angle: 3, "
               "smoothing: 0.1}",
               {"tools/roll", "flat length must be >= 0 where both ends taper"});
+}
+
+// Patches: repeated knots, weights, numbers of points and knots, a normal that vanishes, a body inside.
+TEST_F(BadInput, PatchesThatAreNoSurface) {
+  const std::string roll = "{type: cylinder, center: [4, 0, -1.25], axis: [0, 1, 0], radius: 1}";
+  const auto refusesSurface = [&](const std::string& surface, const std::vector<std::string>& words) {
+    refusesDeck(roll, "{type: patches, surfaces: {s: {" + surface + "}}}", words);
+  };
+  const std::string flat = "points: [[-9, -9, -1], [-9, 9, -1], [9, -9, -1], [9, 9, -1]]";
+  refusesSurface("degree: [1, 1], " + flat + ", knots_1: [0, 0, 0, 1], knots_2: [0, 0, 1, 1]",
+                 {"tools/roll: surface 's': NURBS surface: knot 0 is repeated more than 2 times (degree 1)"});
+  refusesSurface("degree: [1, 1], " + flat + ", knots_1: [0, 1, 0, 1], knots_2: [0, 0, 1, 1]",
+                 {"tools/roll: surface 's'", "knots must ascend, got 0 after 1"});
+  refusesSurface("degree: [1, 1], " + flat + ", knots_2: [0, 0, 1, 1]",
+                 {"tools/roll: surface 's': knots_1 is missing"});
+  refusesSurface("degree: [1, 1], " + flat + ", weights: [1, 1, 0, 1]",
+                 {"tools/roll: surface 's': Bezier patch: weight must be > 0 and finite, got 0"});
+  refusesSurface("degree: [1, 1], " + flat + ", weights: [1, 1, 1]", {"needs 4 weights or none, got 3"});
+  refusesSurface("degree: [2, 1], " + flat, {"needs 6 control points, got 4"});
+  refusesSurface("degree: [0, 1], " + flat, {"tools/roll/surfaces/s/degree", "from 1 to 20"});
+  refusesSurface("degree: [1, 1], points: [[0, 0], [1, 0]]",
+                 {"tools/roll/surfaces/s/points: expected a list of lists of 3 finite numbers"});
+  refusesSurface("degree: [1, 1], points: [[-9, 0, -1], [-9, 0, -1], [9, -9, -1], [9, 9, -1]]",
+                 {"tools/roll: patch surface: the normal of patch 1 vanishes at (-9, 0, -1)"});
+  refusesSurface("degree: [1, 1], points: [[-9, -9, 0.5], [-9, 9, 0.5], [9, -9, 0.5], [9, 9, 0.5]]",
+                 {"contact/lower: tool 'roll' penetrates the body at the start: gap -0.5"});
+  refusesDeck(roll, "{type: patches, file: nowhere.yaml}",
+              {"tools/roll/file: the file 'nowhere.yaml' does not exist"});
+  refusesDeck(roll, "{type: patches, reversed: true}", {"tools/roll: needs either surfaces or file"});
+  writeFile(folder_ / "surfaces.yaml", "surfaces: {s: {degree: [1, 1]}}\n");
+  refusesDeck(roll, "{type: patches, file: surfaces.yaml}",
+              {"surfaces.yaml: surfaces/s/points: is missing", "(line 1)"});
+}
+
+TEST_F(BadInput, MotionsThatAreNone) {
+  const auto refusesMotion = [&](const std::string& motion, const std::vector<std::string>& words) {
+    refusesDeck("radius: 1}", "radius: 1, motion: {" + motion + "}}", words);
+  };
+  refusesMotion("pivot: [0, 0, 0]", {"tools/roll/motion: moves nothing; expected shift or angle"});
+  refusesMotion("angle: [5]", {"tools/roll/motion/axis: is missing"});
+  refusesMotion("shift: [[0, 0, 1], [0, 0, 1], [0, 0, 1], [0, 0, 1]]",
+                {"tools/roll/motion/shift", "1, 2, 3"});
+  refusesMotion("shift: [0, 1]", {"tools/roll/motion/shift: expected a list of lists of 3"});
+}
+
+TEST_F(BadInput, ContactLaws) {
+  const std::string law = "stiffness: 1000, regularisation: 1.0e-3";
+  refusesDeck(law, "law: spring", {"contact/lower/law: 'spring' is not a choice here"});
+  refusesDeck(law, "law: penalty, regularisation: 1", {"regularisation: has no meaning with law: penalty"});
+  refusesDeck(law, "law: barrier, stiffness: 1", {"stiffness: has no meaning with law: barrier"});
+  refusesDeck(law, "law: penalty, stiffness: rigid", {"stiffness: a penalty has a finite stiffness"});
+  refusesDeck(law, "law: power, exponent: 0.5", {"exponent: must be from 1 to 16, got 0.5"});
+  refusesDeck(law, "stiffness: soft", {"stiffness: expected a positive number, rigid or auto"});
+  writeFile(folder_ / "deck.yaml",
+            edited(edited(kSmallDeck, law, "law: penalty"), "order: 15", "order: 15\n  sharpen: 0.1"));
+  refuses({"run", "deck.yaml"}, {"path/sharpen: needs contacts with the law hyperbola or barrier"});
+  refusesDeck("order: 15", "order: 15\n  sharpen: 2", {"path/sharpen: must be above 0 and below 1, got 2"});
+  refusesDeck(law, law + ", reference_gap: 1.0e-7", {"reference_gap: must be above"});
 }
 
 TEST_F(BadInput, PointWithoutAUniqueProjection) {

@@ -232,6 +232,7 @@ output:
   EXPECT_EQ(table.normal, (Vector3{0, 0, 2}));
   EXPECT_EQ(deck.contacts[0].points, Contact::Points::Nodes);
   EXPECT_FALSE(deck.contacts[0].stiffness);
+  EXPECT_TRUE(deck.contacts[0].isRigid());
   EXPECT_EQ(deck.contacts[0].referenceGap, 4.0);
   EXPECT_EQ(deck.path.direction, -1);
   EXPECT_EQ(deck.path.accuracy, 1e-8);
@@ -491,7 +492,6 @@ TEST(BadDeck, missingBlocksAndKeys) {
               "tools/roll/type: is missing; expected one of cylinder, plane, sphere", {});
   expectError(", poissons_ratio: 0", "", "materials/steel/poissons_ratio: is missing",
               {"above -1 and below 0.5"});
-  expectError("regularisation: 0.1", "quadrature_degree: 2", "contact/lower/regularisation: is missing", {});
   expectError("  stop: {load_factor: 0.25}\n", "", "path/stop: is missing", {"load_factor, steps"});
   expectError("{load_factor: 0.25}", "{}", "path/stop: is empty", {"at least one of load_factor"});
   expectError("  roll: {type: cylinder, center: [200, 0, -54.4], axis: [0, 1, 0], radius: 50}\n", "",
@@ -571,7 +571,7 @@ TEST(BadDeck, valuesOutOfRange) {
               "mesh/generate/divisions: each number must be at least 1", {});
   expectError("stiffness: 1.0e3", "stiffness: 0", "contact/lower/stiffness: must be positive, got 0", {});
   expectError("stiffness: 1.0e3", "stiffness: stiff",
-              "contact/lower/stiffness: expected a positive number or rigid", {"'stiff'"});
+              "contact/lower/stiffness: expected a positive number, rigid or auto", {"'stiff'"});
   expectError("regularisation: 0.1", "regularisation: 0.1, reference_gap: 1.0e-4",
               "contact/lower/reference_gap: must be above regularisation/stiffness = 0.0001, got 0.0001", {});
   expectError("regularisation: 0.1", "regularisation: 0.1, quadrature_degree: 0",
@@ -604,6 +604,18 @@ TEST(Deck, tools) {
     EXPECT_EQ(once.str(), twice.str());
     return deck.tools[0].surface;
   };
+  const auto patches = std::get<PatchesTool>(read(
+      "{type: patches, reversed: true, thickness: 2, surfaces: {a: {degree: [1, 1], points: [[0, 0, 0], [0, "
+      "1, 0.5], [1, 0, 0], [1, 1, 0]]}, b: {degree: [1, 1], points: [[1, 0, 0], [1, 1, 0], [2, 0, 0], [2, "
+      "1, 0]], weights: [1, 1, 1, 2], knots_1: [0, 0, 1, 1], knots_2: [0, 0, 1, 1]}}}"));
+  ASSERT_EQ(patches.surfaces.size(), 2u);
+  EXPECT_TRUE(patches.reversed);
+  EXPECT_EQ(patches.thickness, 2.0);
+  EXPECT_EQ(patches.surfaces[0].points[1], (Vector3{0, 1, 0.5}));
+  EXPECT_TRUE(patches.surfaces[0].weights.empty());
+  EXPECT_EQ(patches.surfaces[1].points[3], (Vector3{2, 1, 0}));
+  EXPECT_EQ(patches.surfaces[1].weights, (std::vector<double>{1, 1, 1, 2}));
+  EXPECT_EQ(patches.surfaces[1].knots[1], (std::vector<double>{0, 0, 1, 1}));
   EXPECT_EQ(std::get<CylinderTool>(
                 read("{type: cylinder, center: [1, 2, 3], axis: [0, 1, 0], radius: 4, side: inside}"))
                 .side,
@@ -637,6 +649,52 @@ TEST(Deck, tools) {
                                      "[-10, 0, 10], radii: [49, 50, 49]}"));
   EXPECT_EQ(table.places, (std::vector<double>{-10, 0, 10}));
   EXPECT_EQ(table.radii, (std::vector<double>{49, 50, 49}));
+}
+
+TEST(Deck, motions) {
+  const auto read = [](const std::string& motion) {
+    const std::string text =
+        withTool("{type: sphere, center: [0, 0, -9], radius: 1, motion: {" + motion + "}}");
+    const Deck deck = readDeckText(text, "tools.yaml");
+    std::ostringstream once, twice;
+    describe(deck, once);
+    describe(readDeckText(once.str(), "tools.yaml"), twice);
+    EXPECT_EQ(once.str(), twice.str());
+    return deck.tools[0].motion;
+  };
+  EXPECT_EQ(read("shift: [0, 0, 1.5]").shift, (std::vector<Vector3>{{0, 0, 1.5}}));
+  const ToolMotion both =
+      read("shift: [[0, 0, 1], [0, 2, 0]], angle: [30], axis: [0, 2, 0], pivot: [1, 2, 3]");
+  EXPECT_EQ(both.shift, (std::vector<Vector3>{{0, 0, 1}, {0, 2, 0}}));
+  EXPECT_EQ(both.angle, std::vector<double>{30});
+  EXPECT_EQ(both.axis, (Vector3{0, 2, 0}));
+  EXPECT_EQ(both.pivot, (Vector3{1, 2, 3}));
+}
+
+TEST(Deck, contactLaws) {
+  const auto read = [](const std::string& law) {
+    const std::string text = changed("stiffness: 1.0e3, regularisation: 0.1", law);
+    const Deck deck = readDeckText(text, "laws.yaml");
+    std::ostringstream once, twice;
+    describe(deck, once);
+    describe(readDeckText(once.str(), "laws.yaml"), twice);
+    EXPECT_EQ(once.str(), twice.str());
+    return deck.contacts[0];
+  };
+  const Contact plain = read("law: hyperbola");
+  EXPECT_FALSE(plain.stiffness);
+  EXPECT_FALSE(plain.isRigid());
+  EXPECT_FALSE(plain.regularisation);
+  EXPECT_TRUE(read("law: barrier, regularisation: 0.5").isRigid());
+  const Contact power = read("law: power, stiffness: rigid, exponent: 3");
+  EXPECT_TRUE(power.isRigid());
+  EXPECT_EQ(power.exponent, 3.0);
+  const Contact exponential = read("law: exponential, touching: 2, length: auto");
+  EXPECT_EQ(exponential.touching, 2.0);
+  EXPECT_FALSE(exponential.length);
+  const Contact penalty = read("law: penalty, stiffness: auto, length: 0.5");
+  EXPECT_FALSE(penalty.stiffness);
+  EXPECT_EQ(penalty.length, 0.5);
 }
 
 TEST(BadDeck, tools) {

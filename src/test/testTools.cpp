@@ -28,6 +28,10 @@ class Tools : public testing::Test {
   End end(const std::string& tool) {
     SCOPED_TRACE(tool);
     writeFile(folder_ / "deck.yaml", edited(kSmallDeck, kRoll, tool));
+    return endOfDeck(tool);
+  }
+
+  End endOfDeck(const std::string& what) {
     const CommandResult r = runAtrapos({"run", "-q", "deck.yaml"}, folder_.path());
     EXPECT_EQ(r.exitCode, 0) << r.err;
     std::istringstream lines(readFile(folder_ / "deck_results" / "path.csv"));
@@ -36,7 +40,7 @@ class Tools : public testing::Test {
     End e;
     EXPECT_EQ(std::sscanf(last.c_str(), "%*d,%*f,%lf,%lf,%lf", &e.loadFactor, &e.deflection, &e.force), 3)
         << last;
-    EXPECT_NEAR(e.loadFactor, 0.5, 1e-12) << tool;
+    EXPECT_NEAR(e.loadFactor, 0.5, 1e-12) << what;
     return e;
   }
 
@@ -86,6 +90,128 @@ TEST_F(Tools, EveryKindStopsTheBody) {
     EXPECT_GT(e.force, 2.5) << tool;  // of the 5 that pull the tip down
     EXPECT_LT(e.force, 5.0) << tool;
   }
+}
+
+/// The roll of the small deck as a NURBS surface of four quarters, |y| <= 3.
+std::string nurbsRoll() {
+  const double corner[9][2] = {{1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}, {0, -1}, {1, -1}, {1, 0}};
+  std::ostringstream points, weights;
+  points.precision(17);
+  weights.precision(17);
+  for (int i = 0; i < 9; ++i)
+    for (const double y : {3.0, -3.0}) {  // S_1 x S_2 outwards
+      points << (points.tellp() > 0 ? ", [" : "[") << 4 + corner[i][0] << ", " << y << ", "
+             << corner[i][1] - 1.25 << "]";
+      weights << (weights.tellp() > 0 ? ", " : "") << (i % 2 == 0 ? 1.0 : std::sqrt(0.5));
+    }
+  return "{roll: {degree: [2, 1], points: [" + points.str() + "], weights: [" + weights.str() +
+         "], knots_1: [0, 0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 4], knots_2: [0, 0, 1, 1]}}";
+}
+
+TEST_F(Tools, ANurbsCylinderIsTheCylinder) {
+  const End cylinder = end(kRoll);
+  same(end("{type: patches, surfaces: " + nurbsRoll() + "}"), cylinder);
+  writeFile(folder_ / "roll.yaml", "# a roll\nsurfaces: " + nurbsRoll() + "\n");
+  same(end("{type: patches, file: roll.yaml}"), cylinder);
+  // Two half planes side by side, one the other way round, are the plane.
+  const End plane = end("{type: plane, point: [0, 0, -0.25], normal: [0, 0, 1]}");
+  same(
+      end("{type: patches, surfaces: {left: {degree: [1, 1], points: [[-9, -9, -0.25], [-9, 9, -0.25], [3.7, "
+          "-9, -0.25], [3.7, 9, -0.25]]}, right: {degree: [1, 1], points: [[9, 9, -0.25], [9, -9, -0.25], "
+          "[3.7, 9, -0.25], [3.7, -9, -0.25]]}}}"),
+      plane);
+}
+
+// The tip is beyond the plate: without contact it goes down by 0.82.
+TEST_F(Tools, BesideAPlateIsNoContact) {
+  const End e = end(
+      "{type: patches, surfaces: {plate: {degree: [1, 1], points: [[-9, -9, -0.25], [-9, 9, -0.25], [-1, -9, "
+      "-0.25], [-1, 9, -0.25]]}}}");
+  EXPECT_LT(e.deflection, -0.8);
+  EXPECT_EQ(e.force, 0.0);
+}
+
+class Moving : public Tools {
+ protected:
+  /// End of the small deck without loads, with a tool and a clamp.
+  End endWith(const std::string& tool, const std::string& clamp = "z: 0") {
+    std::string deck = edited(kSmallDeck, kRoll, tool);
+    deck = edited(deck, "loads:\n  tip: {type: surface, set: x_max, total: [0, 0, -10]}\n", "");
+    writeFile(folder_ / "deck.yaml", edited(deck, "y: 0, z: 0}", "y: 0, " + clamp + "}"));
+    return endOfDeck(tool);
+  }
+};
+
+// A roll that comes up and a body that comes down are the same, seen from the body.
+TEST_F(Moving, AToolThatRisesIsABodyThatSinks) {
+  const End sinking = endWith(kRoll, "z: {per_load_factor: -1}");
+  EXPECT_GT(sinking.force, 1.0);
+  const auto rising = [&](const std::string& tool) {
+    End e = endWith(tool);
+    e.deflection -= 0.5;
+    same(e, sinking);
+  };
+  const std::string roll = kRoll.substr(0, kRoll.size() - 1);
+  rising(roll + ", motion: {shift: [0, 0, 1]}}");
+  rising(roll + ", motion: {shift: [[0, 0, 0.5], [0, 0, 1]]}}");  // as far at the load factor 0.5
+  rising(roll + ", motion: {shift: [0, 0, 1], angle: [200], axis: [0, 1, 0], pivot: [4, 0, -1.25]}}");
+  rising("{type: patches, surfaces: " + nurbsRoll() + ", motion: {shift: [0, 0, 1]}}");
+}
+
+// A sphere that swings up about a pivot ends where one that goes straight ends; so does the body.
+TEST_F(Moving, ATurnEndsWhereAShiftEnds) {
+  // 2 below the pivot, turned by 45 degrees.
+  const std::string sphere = "{type: sphere, center: [3, 0.5, -1.3], radius: 1, motion: ";
+  const End straight = endWith(sphere + "{shift: [2.8284271247461903, 0, 1.1715728752538097]}}");
+  EXPECT_GT(straight.force, 1.0);
+  same(endWith(sphere + "{angle: [-90], axis: [0, 1, 0], pivot: [3, 0.5, 0.7]}}"), straight);
+}
+
+class Laws : public Tools {
+ protected:
+  End endWith(const std::string& law) {
+    writeFile(folder_ / "deck.yaml", edited(kSmallDeck, "stiffness: 1000, regularisation: 1.0e-3", law));
+    return endOfDeck(law);
+  }
+};
+
+// All laws stop the body at the surface, 0.25 below it, up to what they yield: with the chosen stiffness,
+// that of a layer as thick as the body, about 2 %.
+TEST_F(Laws, AllStopTheBody) {
+  const End hard = endWith("law: barrier, regularisation: 1.0e-5");
+  for (const char* law : {"law: hyperbola, stiffness: 1.0e6, regularisation: 1.0e-6", "law: hyperbola",
+                          "law: barrier", "law: power, stiffness: 1.0e6, regularisation: 1.0e-6, exponent: 3",
+                          "law: power, stiffness: rigid, regularisation: 1.0e-9",
+                          "law: exponential, touching: 1, length: 1.0e-3",
+                          "law: penalty, stiffness: 1.0e6, length: 1.0e-4", "law: penalty"}) {
+    const End e = endWith(law);
+    EXPECT_NEAR(e.deflection, hard.deflection, 0.03 * std::fabs(hard.deflection)) << law;
+    EXPECT_NEAR(e.force, hard.force, 0.03 * hard.force) << law;
+  }
+}
+
+// eta falls along a path to where a run with the smaller eta ends.
+TEST_F(Laws, SharpenedIsTheRunWithTheSmallerEta) {
+  const std::string law = "stiffness: 1.0e6, carried: all, regularisation: ";
+  const End sharp = endWith(law + "1.0e-6");
+  endWith(law + "1.0e-2");
+  writeFile(folder_ / "deck.yaml",
+            edited(readFile(folder_ / "deck.yaml"), "order: 15", "order: 15\n  sharpen: 1.0e-4"));
+  const End soft = endOfDeck("with sharpen");
+  EXPECT_GT(std::fabs(soft.force - sharp.force), 1e-3 * sharp.force);
+  std::istringstream lines(readFile(folder_ / "deck_results" / "sharpen.csv"));
+  std::string line, last;
+  std::getline(lines, line);
+  EXPECT_EQ(line, "factor,tip_uz,force,residual");
+  int rows = 0;
+  for (; std::getline(lines, line); ++rows) last = line;
+  End e;
+  double factor = 0;
+  ASSERT_EQ(std::sscanf(last.c_str(), "%lf,%lf,%lf", &factor, &e.deflection, &e.force), 3) << last;
+  EXPECT_NEAR(factor, 1e-4, 1e-12);
+  same(e, sharp);
+  EXPECT_GT(rows, 2);
+  EXPECT_NE(readFile(folder_ / "deck_results" / "summary.json").find("\"sharpened\""), std::string::npos);
 }
 
 }  // namespace

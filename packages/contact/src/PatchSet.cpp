@@ -12,7 +12,10 @@ double distance(const PatchPoint& s, const double* x) { return std::sqrt(2 * Squ
 
 }  // namespace
 
-PatchSet::PatchSet(std::vector<BezierPatch> patches, bool reversed) {
+PatchSet::PatchSet(std::vector<BezierPatch> patches, bool reversed, double thickness)
+    : thickness_(thickness) {
+  if (!(thickness > 0))
+    detail::refuse("patch surface", "thickness must be > 0, got " + detail::shown(thickness));
   if (patches.empty()) detail::refuse("patch surface", "needs at least one patch, got none");
   for (const BezierPatch& patch : patches) {
     patch.validate();
@@ -105,7 +108,12 @@ Foot PatchSet::nearestOn(int patch, const double* x) const {
   const int n = numSamples_;
   int best = 0, other = -1;
   std::vector<double> squares;
-  for (const PatchPoint& s : samples) squares.push_back(SquaredDistance(s, x).value);
+  squares.reserve(samples.size());
+  for (const PatchPoint& s : samples) {
+    double square = 0;
+    for (int c = 0; c < 3; ++c) square += (x[c] - s.S[c]) * (x[c] - s.S[c]);
+    squares.push_back(square);
+  }
   best = static_cast<int>(std::min_element(squares.begin(), squares.end()) - squares.begin());
   for (int i = 0; i < n * n; ++i) {
     const bool neighbour = std::abs(i / n - best / n) <= 1 && std::abs(i % n - best % n) <= 1;
@@ -164,7 +172,16 @@ Foot PatchSet::nearest(const double* x) const {
 
 std::array<double, 3> PatchSet::locate(const double* x) const {
   const Foot foot = nearest(x);
+  if (foot.patch < 0 || gapAt(foot, x) < -thickness_) return {-1, 0, 0};
   return {static_cast<double>(foot.patch), foot.t[0], foot.t[1]};
+}
+
+double PatchSet::gapAt(const Foot& foot, const double* x) const {
+  const PatchPoint s = point(foot.patch, foot.t);
+  double N[3], side = 0;
+  s.cross(N);
+  for (int c = 0; c < 3; ++c) side += (x[c] - s.S[c]) * N[c];
+  return side * tool_.orientation < 0 ? -foot.distance : foot.distance;
 }
 
 PatchSet::Following PatchSet::follow(const double* x, double* data) const {
@@ -267,9 +284,12 @@ void PatchSet::makeTool(bool reversed) {
   plane[4 + 1] = size_;                 // t2 along y
   Kokkos::deep_copy(all, host);
   tool_.numPatches = numPatches();
+  tool_.scale = 0;
   std::copy(degree_.begin(), degree_.end(), tool_.degree);
   tool_.rational = rational_;
   tool_.orientation = reversed ? -1 : 1;
+  for (const Patch& patch : patches_)
+    for (int c = 0; c < 3; ++c) tool_.scale = std::max(tool_.scale, patch.high[c] - patch.low[c]);
   tool_.coefficients = all;
 }
 

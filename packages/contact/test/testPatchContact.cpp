@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "atrapos/contact/PatchSearch.hpp"
 #include "support/ContactModel.hpp"
 #include "support/PatchSurfaces.hpp"
 
@@ -33,19 +34,24 @@ fem::FeModel pushed(const fem::Mesh& mesh) {
 
 const RegularisedPressure pressure{1e-3, 1e-2};
 
-/// Contact with patches: four data a point, found by the global search.
-void addContact(fem::FeModel& model, const fem::PointSet& points, const PatchSet& set, double least) {
+/// Contact with patches: four data a point, found at every state.
+void addContact(fem::FeModel& model, const fem::PointSet& points, std::shared_ptr<const PatchSet> set,
+                double least) {
   std::vector<double> data;
   for (int p = 0; p < points.numPoints(); ++p) {
     const double* x = &points.positions[3 * p];
-    const auto place = set.locate(x);
+    const auto place = set->locate(x);
     double y[6] = {};
-    if (place[0] >= 0) taylor::solveImplicit<3, 6, 3>(set.tool(), x, place.data(), y);
-    data.insert(data.end(), {std::max(y[0], least), place[0], place[1], place[2]});
+    if (place[0] >= 0) taylor::solveImplicit<3, 6, 3>(set->tool(), x, place.data(), y);
+    data.insert(data.end(), {std::max(y[0], least), -1, 0, 0});
   }
   using Law = ContactLaw<PatchTool>;
-  model.terms.push_back(
-      std::make_unique<fem::LawTerm<Law, fem::CurrentPosition>>(Law{set.tool(), pressure}, points, data));
+  const PatchTool tool = set->tool();
+  model.terms.push_back(std::make_unique<fem::LawTerm<Law, fem::CurrentPosition>>(
+      Law{tool, pressure}, points, data, PatchSearch<PatchTool>{std::move(set), tool}));
+}
+std::shared_ptr<const PatchSet> setOf(const std::vector<BezierPatch>& patches) {
+  return std::make_shared<PatchSet>(patches);
 }
 
 struct Result {
@@ -71,8 +77,8 @@ TEST(PatchContact, SameRollThreeWays) {
   const double least = 1e-3;
   fem::FeModel implicit = pushed(mesh), nurbs = pushed(mesh), bezier = pushed(mesh);
   test::addContact(implicit, points, roll(), pressure, least);
-  addContact(nurbs, points, PatchSet(nurbsCylinder(roll(), 5).patches()), least);
-  addContact(bezier, points, PatchSet(bezierCylinder(roll(), 5, 7)), least);
+  addContact(nurbs, points, setOf(nurbsCylinder(roll(), 5).patches()), least);
+  addContact(bezier, points, setOf(bezierCylinder(roll(), 5, 7)), least);
   const Result a = pathEnd(std::move(implicit)), b = pathEnd(std::move(nurbs)),
                c = pathEnd(std::move(bezier));
   EXPECT_GT(a.force, 0.1);
@@ -92,9 +98,8 @@ TEST(PatchContact, PointsBeyondTheEdgeCarryNothing) {
   const auto points = contactPoints(mesh, "z_min", Where::Quadrature, 2);
   BezierPatch plate;  // under the half of the face with x < 0.5
   plate.points = {{-1, -1, -0.01}, {-1, 2, -0.01}, {0.5, -1, -0.01}, {0.5, 2, -0.01}};
-  const PatchSet set({plate});
   fem::FeModel model = pushed(mesh);
-  addContact(model, points, set, 1e-3);
+  addContact(model, points, setOf({plate}), 1e-3);
   fem::FeProblem problem(std::move(model));
   const path::State start{problem.initialState(0), 0.0};
   const auto outcome = follow(problem, start, 1.0);
@@ -114,6 +119,105 @@ TEST(PatchContact, PointsBeyondTheEdgeCarryNothing) {
   EXPECT_GT(over, 5);
   EXPECT_GT(pressed, 2);
   EXPECT_GT(beyond, 5);
+}
+
+/// A block whose top is pushed down and along x by a half: its points cross what is at x = 0.5 below it.
+fem::FeModel slid(const fem::Mesh& mesh) {
+  fem::FeModel model = solidModel(mesh, 10, 0.3);
+  const double way[3] = {0.5, 0, -0.1};
+  for (int n : fem::test::nodesOfSet(mesh, "z_max"))
+    for (int i = 0; i < 3; ++i) model.supports.prescribe(n, i, 0, way[i]);
+  return model;
+}
+
+/// A wavy bicubic surface below the block.
+BezierPatch washboard() {
+  BezierPatch patch;
+  patch.degree = {3, 1};
+  const double x[4] = {-1, 0, 1, 2}, z[4] = {-0.2, 0.18, -0.22, -0.1};
+  for (int i = 0; i < 4; ++i)
+    for (const double y : {-1.0, 2.0}) patch.points.push_back({x[i], y, z[i] - 0.05});
+  return patch;
+}
+
+struct Slide : testing::Test {
+  fem::Mesh mesh = block();
+  fem::PointSet points = contactPoints(mesh, "z_min", Where::Quadrature, 2);
+};
+
+// Cut in two at x = 0.5, where pressed points cross: the same path, whichever side they come from.
+TEST_F(Slide, TwoSideBySideAreOne) {
+  fem::FeModel one = slid(mesh), two = slid(mesh);
+  addContact(one, points, setOf({washboard()}), 1e-3);
+  addContact(two, points, setOf(halves(washboard(), 0)), 1e-3);
+  const Result a = pathEnd(std::move(one)), b = pathEnd(std::move(two));
+  EXPECT_GT(a.force, 0.05);
+  EXPECT_EQ(a.steps, b.steps);
+  EXPECT_NEAR(b.force, a.force, 1e-9 * a.force);  // bound of the residual on the path: 1e-10
+  for (std::size_t i = 0; i < a.u.size(); ++i) EXPECT_NEAR(b.u[i], a.u[i], 1e-9);
+}
+
+/// Keeps how every step ended.
+struct Ends final : path::Observer {
+  std::vector<path::Start> next;
+  bool onStep(const path::StepReport& report, const path::Series&) override {
+    next.push_back(report.next);
+    return true;
+  }
+};
+
+// Another problem that begins at the end of a step in the middle goes on with the same bits: which patch a
+// point is over is no matter of where it came from.
+TEST_F(Slide, GoesOnBitByBitFromTheMiddle) {
+  const auto set = setOf(halves(washboard(), 0));
+  const auto problem = [&] {
+    fem::FeModel model = slid(mesh);
+    addContact(model, points, set, 1e-3);
+    return fem::FeProblem(std::move(model));
+  };
+  path::Stops stops;
+  stops.loadFactors = {1.0};
+  const auto run = [&](fem::FeProblem& on, const path::Start& start, Ends& ends) {
+    const auto solver = linear::makeTangentSolver();
+    path::PathFollower follower(on, *solver, tightOptions(), stops);
+    return follower.run(start, ends);
+  };
+  fem::FeProblem whole = problem();
+  Ends ends, rest;
+  const auto outcome = run(whole, path::Start{{whole.initialState(0), 0.0}}, ends);
+  ASSERT_EQ(outcome.reason, path::EndReason::stopReached) << outcome.text;
+  ASSERT_GT(ends.next.size(), 4u);
+  fem::FeProblem other = problem();
+  const auto again = run(other, ends.next[ends.next.size() / 2], rest);
+  EXPECT_EQ(again.steps, outcome.steps);
+  EXPECT_EQ(again.final.lambda, outcome.final.lambda);
+  EXPECT_EQ(fem::FeProblem::values(*again.final.u), fem::FeProblem::values(*outcome.final.u));
+}
+
+// Two patches that meet with a common tangent but not the same curvature: a plate that turns up into an arc.
+// The step that crosses is cut back until the mismatch does not matter; both ways of cutting the plate agree.
+TEST_F(Slide, OverAJumpOfTheCurvature) {
+  const auto surface = [](double border) {
+    std::vector<BezierPatch> patches(3);
+    const auto plate = [](double from, double to) {
+      BezierPatch p;
+      p.points = {{from, -1, -0.05}, {from, 2, -0.05}, {to, -1, -0.05}, {to, 2, -0.05}};
+      return p;
+    };
+    patches[0] = plate(-1, border);
+    patches[1] = plate(border, 0.55);
+    patches[2].degree = {2, 1};
+    patches[2].points = {{0.55, -1, -0.05}, {0.55, 2, -0.05}, {1.3, -1, -0.05},
+                         {1.3, 2, -0.05},   {2, -1, 0.3},     {2, 2, 0.3}};
+    return patches;
+  };
+  fem::FeModel one = slid(mesh), two = slid(mesh);
+  addContact(one, points, setOf(surface(0)), 1e-3);
+  addContact(two, points, setOf(surface(-0.4)), 1e-3);
+  const Result a = pathEnd(std::move(one)), b = pathEnd(std::move(two));
+  EXPECT_GT(a.force, 0.05);
+  EXPECT_NEAR(b.force, a.force, 1e-8 * a.force);  // residuals of 1e-10 at the ends of steps
+  for (std::size_t i = 0; i < a.u.size(); ++i) EXPECT_NEAR(b.u[i], a.u[i], 1e-8);
 }
 
 }  // namespace

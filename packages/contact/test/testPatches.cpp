@@ -58,6 +58,19 @@ TEST(Patches, NurbsCylinderIsTheCylinder) {
   }
 }
 
+// Coordinates and parts of the normal that are zero, points far away: rounding is all that is left of whole
+// equations there.
+TEST(Patches, PointsInPlanesOfSymmetry) {
+  const Cylinder cylinder{{200, 0, -54.4}, {0, 1, 0}, 50};
+  const PatchSet set(nurbsCylinder(cylinder, 50).patches());
+  for (const Vector3& x : {Vector3{200, 0, 0}, Vector3{0, 0, -54.4}, Vector3{2.3, -0.47, -0.4},
+                           Vector3{2.3, 0, -0.4}, Vector3{190, 0, -0.4}, Vector3{200, 3, 150}}) {
+    const auto exact = project(cylinder, x), y = project(set, x);
+    EXPECT_NEAR(y[0], exact[0], 50 * 300 * eps);  // 50 operations on coordinates up to 300
+    for (int c = 1; c < 4; ++c) EXPECT_NEAR(y[c], exact[c], 100 * eps);
+  }
+}
+
 // The force of the contact law, all orders: from both descriptions.
 TEST(Patches, NurbsCylinderHasTheCylindersSeries) {
   Random random(42);

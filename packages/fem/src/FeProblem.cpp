@@ -392,6 +392,7 @@ std::vector<double> FeProblem::forces(const Term& term, const Vector& u, double 
 
 std::vector<double> FeProblem::values(const Vector& u) { return toHost(field(u)); }
 
+const FeModel& FeProblem::model() const { return impl_->model; }
 const Term& FeProblem::term(int i) const { return *impl_->model.terms.at(i); }
 int FeProblem::numTerms() const { return static_cast<int>(impl_->model.terms.size()); }
 int FeProblem::numFreeDofs() const { return impl_->numFree; }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -19,9 +20,11 @@ struct Foot {
 /// The patches of one tool on the host: makes the law, finds where points are over it, says what is wrong.
 class PatchSet {
  public:
-  /// The free side is that of S_1 x S_2, of all patches, or the other one with `reversed`. Throws
-  /// std::invalid_argument, one line, for patches that are none or have a normal that vanishes.
-  explicit PatchSet(std::vector<BezierPatch> patches, bool reversed = false);
+  /// The free side is that of S_1 x S_2, of all patches, or the other one with `reversed`. `thickness`: how
+  /// deep the tool is behind its surface, a length; a point deeper than that is behind the tool and free.
+  /// Throws std::invalid_argument, one line, for patches that are none or have a normal that vanishes.
+  explicit PatchSet(std::vector<BezierPatch> patches, bool reversed = false,
+                    double thickness = std::numeric_limits<double>::infinity());
 
   const PatchTool& tool() const { return tool_; }
   int numPatches() const { return static_cast<int>(patches_.size()); }
@@ -30,7 +33,8 @@ class PatchSet {
   /// edge which no other patch continues and x is beyond it.
   Foot nearest(const double* x) const;
 
-  /// The law's data of a point at the start of a path: patch, t1, t2.
+  /// The law's data of a point that is now at x: patch, t1, t2; patch = -1 also where it is deeper than the
+  /// thickness. A function of the place alone.
   std::array<double, 3> locate(const double* x) const;
 
   enum class Event {
@@ -44,8 +48,9 @@ class PatchSet {
     double mismatch = 0;  ///< |change of the gap| by crossing: how far the old patch is off the new one there
   };
 
-  /// Brings the data of a point that is now at x up to date, staying on its sheet: from the foot on its own
-  /// patch over borders to the patches that continue it. To be called between steps.
+  /// Brings the data of a point that is now at x up to date, staying on its sheet however near another one
+  /// is: from the foot on its own patch over borders to the patches that continue it. For callers that keep
+  /// the data from state to state; `locate` needs no memory.
   Following follow(const double* x, double* data) const;
 
   /// Why the point at x has no unique projection; empty where it has one.
@@ -64,6 +69,7 @@ class PatchSet {
   Foot descend(int patch, double t1, double t2, const double* x) const;
   double boxDistance(const Patch& patch, const double* x) const;
   bool beyondEdge(const Foot& foot, const double* x) const;
+  double gapAt(const Foot& foot, const double* x) const;
   void requireNormals() const;
   void findSharedEdges();
   void makeTool(bool reversed);
@@ -71,6 +77,7 @@ class PatchSet {
   std::array<int, 2> degree_{1, 1};
   int numSamples_ = 0;
   double size_ = 0;  ///< of the whole set
+  double thickness_;
   std::vector<Patch> patches_;
   bool rational_ = false;
   PatchTool tool_;

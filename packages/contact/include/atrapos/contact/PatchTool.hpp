@@ -29,6 +29,7 @@ struct PatchTool {
   int degree[2] = {1, 1};
   bool rational = false;   ///< some weight is not 1
   double orientation = 1;  ///< n = orientation S_1 x S_2/|S_1 x S_2|
+  double scale = 1;        ///< size of a patch, a length
   /// [patch][i][j][4], of t1^i t2^j: coordinates times weight, weight. After the last patch follows a plane,
   /// on which points without a patch are projected so that all lanes have numbers.
   Kokkos::View<const double*> coefficients;
@@ -63,13 +64,16 @@ struct PatchTool {
         }
       }
 
+    // Times a length it is added to the other equations: each is judged by the size of its terms, and all of
+    // those of a coordinate vanish where a point lies in a plane of symmetry.
+    g[3] = y[1] * y[1] + y[2] * y[2] + y[3] * y[3] - 1.0;
+    const T unit = scale * g[3];
     for (int c = 0; c < 3; ++c) {
       const T foot = x[c] - y[0] * y[1 + c];
-      g[c] = (rational ? T(A[0][3] * foot) : foot) - A[0][c];
+      g[c] = (rational ? T(A[0][3] * foot) : foot) - A[0][c] + unit;
     }
-    g[3] = y[1] * y[1] + y[2] * y[2] + y[3] * y[3] - 1.0;
     for (int i = 1; i <= 2; ++i) {
-      g[3 + i] = T(0.0);
+      g[3 + i] = unit;
       for (int c = 0; c < 3; ++c) g[3 + i] += y[1 + c] * (rational ? T(A[i][c] - A[i][3] * x[c]) : A[i][c]);
       if (rational) g[3 + i] += y[0] * A[i][3];
     }

@@ -72,6 +72,9 @@ class FeProblem final : public path::Problem {
   /// Nodal forces F(u, lambda) of one term.
   std::vector<double> forces(const Term& term, const path::Vector& u, double lambda) const;
 
+  /// What the problem was made of; its terms are the problem's own.
+  const FeModel& model() const;
+
   /// A vector of the map as plain numbers [3 node + component].
   static std::vector<double> values(const path::Vector& u);
 

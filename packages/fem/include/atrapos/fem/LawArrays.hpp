@@ -240,15 +240,26 @@ struct LawArrays {
           for (int m = 0; m < N * C; ++m) s[(target * N * C + m) * L + lane] = p.shape[source * N * C + m];
           if (C == 1)
             for (int i = 0; i < 3; ++i) x[(target * I + i) * L + lane] = p.positions[source * 3 + i];
-          for (int m = 0; m < D; ++m) d[(target * D + m) * L + lane] = pointData[source * D + m];
         }
       }
+    pack(pointData, D, batches, d.data());
     nodes = upload("nodes", n);
     shape = upload("shape", s);
     weight = upload("weight", w);
     offset = upload("offset", x);
     data = upload("data", d);
     order = upload("order", grouped.order);
+  }
+
+  /// [entity][point][m] -> [batch][point][m][lane], m < count; lanes beyond the last entity copy it.
+  void pack(const std::vector<double>& from, int count, std::size_t batches, double* to) const {
+    for (std::size_t b = 0; b < batches; ++b)
+      for (int lane = 0; lane < L; ++lane) {
+        const std::size_t e = std::min<std::size_t>(b * L + lane, numEntities - 1);
+        for (int q = 0; q < Q; ++q)
+          for (int m = 0; m < count; ++m)
+            to[((b * Q + q) * count + m) * L + lane] = from[(e * Q + q) * count + m];
+      }
   }
 
   void setPositions(const std::vector<int>& of, int numBatches) {

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <functional>
+#include <utility>
+
 #include "atrapos/fem/LawArrays.hpp"
 
 namespace atrapos::fem {
@@ -16,6 +19,15 @@ struct CurrentPosition {
   static constexpr int numInputs = 3;
 };
 
+/// Brings passive data of all points of a term up to date before the law reads them: which piece of a surface
+/// a point is over, a table's cell, ...
+///
+/// in: [point][law input] (with CurrentPosition the place, and the load factor where the law reads it). data:
+/// [point][datum], on entry those that the term was made with, whatever was evaluated before: the result is
+/// a function of `in` alone, so that a residual, a tangent and a path do not depend on what came before them.
+/// Called on the host, once a loop for all points.
+using DataUpdate = std::function<void(int numPoints, const double* in, double* data)>;
+
 /// A law at the points of a PointSet: gather, B, law, B^T, scatter.
 ///
 /// Law (see taylor/Law.hpp) maps the operator's inputs to their work conjugates: the virtual work of the term
@@ -24,7 +36,8 @@ struct CurrentPosition {
 ///     static constexpr int numObserved;  static std::vector<std::string> observedNames();
 ///     void observe(const double* in, const double* data, double* observed) const;
 /// A law says `static constexpr bool symmetric` when d out/d in is symmetric.
-/// `data` holds Law::numData passive numbers a point: [entity][point][datum].
+/// `data` holds Law::numData passive numbers a point: [entity][point][datum]. With an `update` they are
+/// brought up to date at every state that is evaluated; a series keeps those of its start.
 template <class Law, class Operator>
 class LawTerm final : public Term {
   static constexpr int L = kLanes, C = Operator::components, I = Operator::numInputs, D = Law::numData;
@@ -36,10 +49,15 @@ class LawTerm final : public Term {
   using Arrays = LawArrays<Law, C>;
 
  public:
-  LawTerm(const Law& law, const PointSet& points, const std::vector<double>& data = {})
+  LawTerm(const Law& law, const PointSet& points, const std::vector<double>& data = {},
+          DataUpdate update = {})
       : entityNodes_(points.nodes),
-        batches_(makeBatches(L, points.numEntities, points.nodesPerEntity, points.nodes)) {
+        batches_(makeBatches(L, points.numEntities, points.nodesPerEntity, points.nodes)),
+        update_(std::move(update)) {
     a_.fill(law, points, data, batches_);
+    if (!update_) return;
+    initialData_ = data;
+    seriesData_ = View<double*>("seriesData", a_.data.size());
   }
 
   int numEntities() const override { return a_.numEntities; }
@@ -56,7 +74,7 @@ class LawTerm final : public Term {
   }
 
   double addResidual(const ConstField& u, double lambda, const Field& f) const override {
-    const Arrays a = a_;
+    const Arrays a = updated(u, lambda, a_.data);
     const View<double*> squares("squares", batches_.count);
     forEachBatch(
         "residual", batches_, a.order, KOKKOS_LAMBDA(int b) {
@@ -75,7 +93,7 @@ class LawTerm final : public Term {
   }
 
   void addTangent(const ConstField& u, double lambda, const TangentSink& sink) const override {
-    const Arrays a = a_;
+    const Arrays a = updated(u, lambda, a_.data);
     forEachBatch(
         "tangent", batches_, a.order, KOKKOS_LAMBDA(int b) {
           Pack local[3 * kMaxNodes], in[J];
@@ -109,7 +127,7 @@ class LawTerm final : public Term {
 
   void beginSeries(const ConstField& u, double lambda, int maxOrder) override {
     a_.reserveHistory(batches_.count, maxOrder);
-    const Arrays a = a_;
+    const Arrays a = updated(u, lambda, seriesData_);
     const View<LawFailure*> failures("failures", batches_.count);
     forEachBatch(
         "beginSeries", batches_, a.order, KOKKOS_LAMBDA(int b) {
@@ -129,6 +147,7 @@ class LawTerm final : public Term {
 
   void addOrder(int k, const ConstField& last, double lastLambda, const Field& f) override {
     Arrays a = a_;
+    if (update_) a.data = seriesData_;
     a.block = taylor::orderBlock(k, a.maxOrder);
     forEachBatch(
         "addOrder", batches_, a.order, KOKKOS_LAMBDA(int b) {
@@ -156,7 +175,7 @@ class LawTerm final : public Term {
     result.names = Law::observedNames();
     constexpr int M = Law::numObserved;
     View<double*> values("observed", static_cast<std::size_t>(a_.numEntities) * a_.Q * M);
-    const Arrays a = a_;
+    const Arrays a = updated(u, lambda, a_.data);
     forEachBatch(
         "observe", batches_, a.order, KOKKOS_LAMBDA(int b) {
           Pack local[3 * kMaxNodes], in[J];
@@ -185,9 +204,38 @@ class LawTerm final : public Term {
     if constexpr (seesLambda) in[I] = Pack(lambda);
   }
 
+  /// The arrays, with `data` in place of theirs and brought up to date at the state where there is an update.
+  Arrays updated(const ConstField& u, double lambda, const View<double*>& data) const {
+    if (!update_) return a_;
+    Arrays a = a_;
+    const int Q = a.Q;
+    const View<double*> all("inputs", static_cast<std::size_t>(a.numEntities) * Q * J);
+    forEachBatch(
+        "inputs", batches_, a.order, KOKKOS_LAMBDA(int b) {
+          Pack local[3 * kMaxNodes], in[J];
+          a.gather(b, u, local);
+          for (int q = 0; q < Q; ++q) {
+            inputs(a, b, q, local, lambda, in);
+            for (int lane = 0; lane < a.lanesIn(b); ++lane)
+              a.lanesOf(in, J, lane, &all((static_cast<std::size_t>(b * L + lane) * Q + q) * J));
+          }
+        });
+    const auto host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), all);
+    std::vector<double> renewed = initialData_;
+    update_(a.numEntities * Q, host.data(), renewed.data());
+    auto mirror = Kokkos::create_mirror_view(data);
+    a.pack(renewed, D, batches_.count, mirror.data());
+    Kokkos::deep_copy(data, mirror);
+    a.data = data;
+    return a;
+  }
+
   std::vector<int> entityNodes_;
   Batches batches_;
   Arrays a_;
+  DataUpdate update_;
+  std::vector<double> initialData_;
+  View<double*> seriesData_;  ///< those of the series under way, as a_.data
 };
 
 }  // namespace atrapos::fem

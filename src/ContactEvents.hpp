@@ -1,0 +1,48 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "PathCase.hpp"
+#include "PathTable.hpp"
+#include "Scene.hpp"
+#include "atrapos/path/Series.hpp"
+
+namespace atrapos {
+
+/// A contact point that closes or opens: its gap falls or rises through ContactPoints::closedGaps.
+struct ContactEvent {
+  double a = 0;  ///< on the step's series
+  double loadFactor = 0;
+  bool closes = false;
+  int contact = 0;              ///< of Scene::contacts
+  int point = 0;                ///< among the contact's points, from 0
+  int node = 0;                 ///< that of the point, or the nearest one of its face, from 0
+  double place[3] = {0, 0, 0};  ///< where the point is then
+  double force = 0;             ///< weight times pressure there
+};
+
+/// Finds the events of every step on its series and writes them to events.csv.
+///
+/// The gap of a point is projected at 17 places of the step; between two with different signs its root is
+/// found on the series to rounding. Two events of one point within a sixteenth of a step are not seen. Points
+/// whose way in the step is shorter than their distance from closing are passed over.
+class ContactEvents final : public StepWatch {
+ public:
+  /// Throws std::runtime_error where the file cannot be written.
+  ContactEvents(const Scene& scene, const std::string& file);
+
+  void onStep(int branch, int step, double pathLengthStart, double length,
+              const path::Series& series) override;
+  void copyFrom(const std::string& file, int last) override { table_.copyFrom(file, 0, last); }
+  int count() const override { return count_; }
+
+ private:
+  const Scene& scene_;
+  Table table_;
+  int branch_ = 0;
+  std::vector<std::vector<char>> closed_;  ///< [contact][point] at the end of the last step; empty: none yet
+  int count_ = 0;
+};
+
+}  // namespace atrapos

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <array>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "atrapos/contact/OneOf.hpp"
+#include "atrapos/fem/PointSet.hpp"
+#include "atrapos/fem/Term.hpp"
+#include "deck/Deck.hpp"
+
+namespace atrapos {
+
+/// Where a place is over a tool.
+struct ToolProjection {
+  double gap = std::numeric_limits<double>::infinity();  ///< infinity: over no part of the tool
+  std::array<double, 3> normal{0, 0, 0};                 ///< from the tool; zero where the gap is infinity
+  double distance = 0;                                   ///< to the nearest point of the tool, >= 0
+};
+
+/// A tool of a deck. Places are (x, y, z, load factor).
+class RigidTool {
+ public:
+  virtual ~RigidTool() = default;
+
+  virtual bool moves() const = 0;
+
+  /// Why the place has no unique projection, as the end of "the point ..."; empty where it has one.
+  virtual std::string ambiguity(const double* place) const = 0;
+
+  /// A gap that is not a number where there is none.
+  virtual ToolProjection project(const double* place) const = 0;
+
+  /// The term of a contact at face or node points; referenceGaps is [point], > 0.
+  virtual std::unique_ptr<fem::Term> term(const contact::AnyPressure& pressure, const fem::PointSet& points,
+                                          const std::vector<double>& referenceGaps) const = 0;
+
+  /// The same with law (15) where eta falls to eta exp(-s), s what the term sees as the load factor, and the
+  /// tool stands where it is at `loadFactor`.
+  virtual std::unique_ptr<fem::Term> sharpened(const contact::RegularisedPressure& pressure,
+                                               const fem::PointSet& points,
+                                               const std::vector<double>& referenceGaps,
+                                               double loadFactor) const = 0;
+};
+
+/// Throws std::invalid_argument, one line, where the tool's numbers make no surface.
+std::unique_ptr<RigidTool> makeTool(const deck::Tool& tool);
+
+}  // namespace atrapos

@@ -1,0 +1,9 @@
+#include "RigidToolOf.hpp"
+
+namespace atrapos {
+
+std::unique_ptr<RigidTool> rigidTool(const contact::AnyTool& tool) {
+  return std::make_unique<RigidToolOf<contact::AnyTool>>(tool);
+}
+
+}  // namespace atrapos

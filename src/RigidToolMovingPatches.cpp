@@ -1,0 +1,11 @@
+#include "RigidToolOf.hpp"
+
+namespace atrapos {
+
+std::unique_ptr<RigidTool> patchTool(std::shared_ptr<const contact::PatchSet> set,
+                                     const contact::Motion& motion) {
+  const contact::MovingTool<contact::PatchTool> tool{set->tool(), motion};
+  return std::make_unique<RigidToolOf<contact::MovingTool<contact::PatchTool>>>(tool, std::move(set));
+}
+
+}  // namespace atrapos

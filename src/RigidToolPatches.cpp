@@ -1,0 +1,10 @@
+#include "RigidToolOf.hpp"
+
+namespace atrapos {
+
+std::unique_ptr<RigidTool> patchTool(std::shared_ptr<const contact::PatchSet> set) {
+  const contact::PatchTool tool = set->tool();
+  return std::make_unique<RigidToolOf<contact::PatchTool>>(tool, std::move(set));
+}
+
+}  // namespace atrapos

@@ -1,0 +1,99 @@
+// events.csv: where contact points close and open.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <sstream>
+
+#include "atrapos/exodus/ResultReader.hpp"
+#include "support/Command.hpp"
+#include "support/Folder.hpp"
+#include "support/SmallDeck.hpp"
+
+namespace atrapos::test {
+namespace {
+
+const std::string kLaw = "{tool: roll, set: z_min, stiffness: 1000, regularisation: 1.0e-3}";
+constexpr double closedGap = 2e-6;  // 2 eta/alpha
+
+struct Event {
+  int step = 0, point = 0, node = 0;
+  double pathLength = 0;
+  std::string loadFactor;  ///< as written: 17 digits
+  bool closes = false;
+  double force = 0;
+};
+
+class ContactEvents : public testing::Test {
+ protected:
+  /// Runs a deck and gives its events.
+  std::vector<Event> run(const std::string& deck) {
+    writeFile(folder_ / "deck.yaml", deck);
+    if (!std::filesystem::exists(folder_ / "box.exo")) {
+      const CommandResult made = runAtrapos({"mesh", "-q", "deck.yaml"}, folder_.path());
+      EXPECT_EQ(made.exitCode, 0) << made.err;
+    }
+    const CommandResult r = runAtrapos({"run", "-q", "deck.yaml"}, folder_.path());
+    EXPECT_EQ(r.exitCode, 0) << r.err;
+    std::istringstream lines(readFile(folder_ / "deck_results" / "events.csv"));
+    std::string line;
+    std::getline(lines, line);
+    EXPECT_EQ(line, "step,path_length,load_factor,contact,event,point,node,x,y,z,force");
+    std::vector<Event> events;
+    while (std::getline(lines, line)) {
+      std::istringstream cells(line);
+      std::vector<std::string> cell;
+      for (std::string c; std::getline(cells, c, ',');) cell.push_back(c);
+      EXPECT_EQ(cell.size(), 11u) << line;
+      EXPECT_EQ(cell[3], "lower");
+      EXPECT_TRUE(cell[4] == "closes" || cell[4] == "opens") << line;
+      events.push_back({std::stoi(cell[0]), std::stoi(cell[5]), std::stoi(cell[6]), std::stod(cell[1]),
+                        cell[2], cell[4] == "closes", std::stod(cell[10])});
+    }
+    return events;
+  }
+
+  TemporaryFolder folder_;
+};
+
+// A path that ends at the load of an event ends with that node's gap at the threshold.
+TEST_F(ContactEvents, LieOnThePath) {
+  const std::string deck = edited(
+      kSmallDeck, kLaw, "{tool: roll, set: z_min, points: nodes, stiffness: 1000, regularisation: 1.0e-3}");
+  const auto events = run(edited(deck, "{load_factor: 0.5}", "{load_factor: 1.5}"));
+  ASSERT_GT(events.size(), 1u);
+  int checked = 0;
+  for (const Event& event : events) {
+    run(edited(deck, "{load_factor: 0.5}", "{load_factor: " + event.loadFactor + "}"));
+    exodus::ResultReader results((folder_ / "deck_results" / "results.exo").string());
+    const auto gap = results.nodal(results.numSteps() - 1, "contact_gap");
+    // The residual's bound is 1e-8 of about 5 to 15; the gap follows it by a compliance of 1/1000.
+    EXPECT_NEAR(gap[event.node - 1], closedGap, 1e-9) << event.loadFactor;
+    EXPECT_NEAR(event.force, std::sqrt(1000 * 1e-3 * 0.25), 0.3);  // R at the vertex, Delta near 0.25
+    if (++checked == 3) break;
+  }
+}
+
+// As many as the state needs: every point alternates, and what closed and did not open is closed at the end.
+TEST_F(ContactEvents, AddUpToTheActivePoints) {
+  const auto events = run(edited(kSmallDeck, "{load_factor: 0.5}", "{load_factor: 1.5}"));
+  ASSERT_FALSE(events.empty());
+  std::map<int, bool> closed;
+  double last = 0;
+  for (const Event& event : events) {
+    EXPECT_NE(closed[event.point], event.closes) << "point " << event.point;
+    closed[event.point] = event.closes;
+    EXPECT_GE(event.pathLength, last);
+    last = event.pathLength;
+  }
+  int active = 0;
+  for (const auto& [point, isClosed] : closed) active += isClosed;
+  exodus::ResultReader results((folder_ / "deck_results" / "results.exo").string());
+  EXPECT_EQ(active, results.global(results.numSteps() - 1, "active_contacts"));
+  EXPECT_NE(readFile(folder_ / "deck_results" / "summary.json")
+                .find("\"contact_events\": " + std::to_string(events.size())),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace atrapos::test

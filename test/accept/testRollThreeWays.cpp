@@ -1,0 +1,127 @@
+// The strip on the roll with the roll as the implicit cylinder, as a NURBS surface and as Bezier patches: one
+// path.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <sstream>
+
+#include "support/StripRun.hpp"
+
+namespace atrapos::test {
+namespace {
+
+const std::string kRoll = "{type: cylinder, center: [200, 0, -54.4], axis: [0, 1, 0], radius: 50}";
+
+/// A coarse strip to a small load, with bounds so tight that what differs is the tool.
+StripRun runWith(const std::string& roll) {
+  return StripRun("solid.yaml", Edits{{"divisions: [40, 2, 1]", "divisions: [20, 1, 1]"},
+                                      {"quadrature_degree: 8", "quadrature_degree: 4"},
+                                      {"residual: 1.0e-6", "residual: 1.0e-8"},
+                                      {"load_factor: 0.25", "load_factor: 0.02"},
+                                      {kRoll, roll}});
+}
+
+class Points {
+ public:
+  Points() { text_.precision(17); }
+  /// A control point (x, z) of the roll's section, at both ends of the roll: S_1 x S_2 points outwards.
+  void add(double x, double z) {
+    for (const char* y : {"50", "-50"})
+      text_ << (text_.tellp() > 0 ? ", [" : "[") << 200 + 50 * x << ", " << y << ", " << 50 * z - 54.4 << "]";
+  }
+  std::string text() const { return "[" + text_.str() + "]"; }
+
+ private:
+  std::ostringstream text_;
+};
+
+/// Four quarters of degree 2, exact.
+std::string nurbsRoll() {
+  const double corner[9][2] = {{1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}, {0, -1}, {1, -1}, {1, 0}};
+  Points points;
+  std::ostringstream weights;
+  weights.precision(17);
+  for (int i = 0; i < 9; ++i) {
+    points.add(corner[i][0], corner[i][1]);
+    for (int end = 0; end < 2; ++end)
+      weights << (weights.tellp() > 0 ? ", " : "") << (i % 2 == 0 ? 1.0 : std::sqrt(0.5));
+  }
+  return "{type: patches, surfaces: {roll: {degree: [2, 1], points: " + points.text() + ", weights: [" +
+         weights.str() + "], knots_1: [0, 0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 4], knots_2: [0, 0, 1, 1]}}}";
+}
+
+/// Eight arcs of degree p: Taylor polynomials about their middles, off the circle by 50 (pi/8)^(p+1)/(p+1)!.
+std::string bezierRoll(int p) {
+  const double half = std::acos(-1.0) / 8;
+  std::string surfaces;
+  for (int n = 0; n < 8; ++n) {
+    Points points;
+    for (int i = 0; i <= p; ++i) {
+      // Bernstein coefficient i of sum_k c_k t^k over t in [-1, 1]: blossom of the powers.
+      double x = 0, z = 0, factor = 1;
+      for (int k = 0; k <= p; ++k) {
+        if (k > 0) factor *= half / k;
+        // Mean of the products of k of the p arguments, i of them 1 and p - i of them -1.
+        double mean = 0;
+        const auto binomial = [](int a, int b) {
+          double c = 1;
+          for (int j = 0; j < b; ++j) c = c * (a - j) / (j + 1);
+          return b > a ? 0.0 : c;
+        };
+        for (int m = 0; m <= k; ++m)
+          mean += binomial(i, m) * binomial(p - i, k - m) * ((k - m) % 2 == 0 ? 1 : -1) / binomial(p, k);
+        const double phase = (2 * n + 1) * half + k * 4 * half;
+        x += factor * mean * std::cos(phase);
+        z += factor * mean * std::sin(phase);
+      }
+      points.add(x, z);
+    }
+    surfaces += (n > 0 ? ", " : "") + std::string("arc") + std::to_string(n) + ": {degree: [" +
+                std::to_string(p) + ", 1], points: " + points.text() + "}";
+  }
+  return "{type: patches, surfaces: {" + surfaces + "}}";
+}
+
+TEST(RollThreeWays, OnePath) {
+  const StripRun cylinder = runWith(kRoll), nurbs = runWith(nurbsRoll()), bezier = runWith(bezierRoll(7));
+  EXPECT_GT(cylinder.path->column("contact_force").back(), 3.0);
+  EXPECT_GT(cylinder.summary.at("contact_events"), 4);
+  for (const StripRun* run : {&nurbs, &bezier}) {
+    // The Bezier roll is off by 7e-7 mm; the residual's bound of 1e-8 is worth some 1e-5 mm at the tip.
+    for (const char* name : {"tip_ux", "tip_uz", "contact_force"})
+      EXPECT_NEAR(run->path->column(name).back(), cylinder.path->column(name).back(), 1e-4) << name;
+    EXPECT_EQ(run->summary.at("contact_events"), cylinder.summary.at("contact_events"));
+    // Step lengths are rounded to 7 bits: now and then rounding makes another one.
+    EXPECT_NEAR(run->summary.at("steps"), cylinder.summary.at("steps"),
+                0.05 * cylinder.summary.at("steps").get<double>());
+  }
+}
+
+// Points that never come near the roll carry no law, and what they would add is below eta.
+TEST(ContactPointsCarried, AreThoseThatComeNear) {
+  const std::string law = "reference_gap: initial}";
+  const auto run = [&](const std::string& carried) {
+    return StripRun("solid.yaml", Edits{{"divisions: [40, 2, 1]", "divisions: [20, 1, 1]"},
+                                        {"quadrature_degree: 8", "quadrature_degree: 4"},
+                                        {"load_factor: 0.25", "load_factor: 0.02"},
+                                        {law, "reference_gap: initial, carried: " + carried + "}"}});
+  };
+  const StripRun near = run("near"), all = run("all");
+  const auto carried = [](const StripRun& r) {
+    return r.summary.at("contacts").at("lower").at("points_carried").get<int>();
+  };
+  const int present = near.summary.at("contacts").at("lower").at("points");
+  EXPECT_EQ(present, 20 * 9);
+  EXPECT_EQ(carried(all), present);
+  EXPECT_GT(carried(near), 5 * 9);
+  EXPECT_LT(carried(near), present);
+  // eta = 1e-6 MPa on the 8000 mm2 of all points, against 2 N at the tip: 4e-3 of the deflection if all of it
+  // acted there; it acts on both sides of the roll's top, mostly on the far side of Delta/2 with less than
+  // eta.
+  const double uz = all.path->column("tip_uz").back();
+  EXPECT_NEAR(near.path->column("tip_uz").back(), uz, 4e-3 * std::fabs(uz));
+  EXPECT_NE(near.path->column("tip_uz").back(), uz);
+}
+
+}  // namespace
+}  // namespace atrapos::test
