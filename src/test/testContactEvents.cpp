@@ -38,17 +38,17 @@ class ContactEvents : public testing::Test {
     std::istringstream lines(readFile(folder_ / "deck_results" / "events.csv"));
     std::string line;
     std::getline(lines, line);
-    EXPECT_EQ(line, "step,path_length,load_factor,contact,event,point,node,x,y,z,force");
+    EXPECT_EQ(line, "step,branch,path_length,load_factor,contact,event,point,node,x,y,z,force");
     std::vector<Event> events;
     while (std::getline(lines, line)) {
       std::istringstream cells(line);
       std::vector<std::string> cell;
       for (std::string c; std::getline(cells, c, ',');) cell.push_back(c);
-      EXPECT_EQ(cell.size(), 11u) << line;
-      EXPECT_EQ(cell[3], "lower");
-      EXPECT_TRUE(cell[4] == "closes" || cell[4] == "opens") << line;
-      events.push_back({std::stoi(cell[0]), std::stoi(cell[5]), std::stoi(cell[6]), std::stod(cell[1]),
-                        cell[2], cell[4] == "closes", std::stod(cell[10])});
+      EXPECT_EQ(cell.size(), 12u) << line;
+      EXPECT_EQ(cell[4], "lower");
+      EXPECT_TRUE(cell[5] == "closes" || cell[5] == "opens") << line;
+      events.push_back({std::stoi(cell[0]), std::stoi(cell[6]), std::stoi(cell[7]), std::stod(cell[2]),
+                        cell[3], cell[5] == "closes", std::stod(cell[11])});
     }
     return events;
   }
