@@ -90,7 +90,7 @@ struct FeProblem::Impl {
   int numFree = 0;
 
   explicit Impl(FeModel m) : model(std::move(m)) {
-    const auto comm = Tpetra::getDefaultComm();
+    const auto comm = model.comm.is_null() ? Tpetra::getDefaultComm() : model.comm;
     if (comm->getSize() != 1)
       throw std::invalid_argument(
           "finite-element problems run on one rank so far: start without mpirun, or with -np 1");
