@@ -101,6 +101,45 @@ TEST(ShellRuns, PressureOnTheOtherSide) {
   EXPECT_NEAR(outer.radius - 1, -0.01 * 1.05 / 100, 0.01 * 1e-4);
 }
 
+/// A quarter of a roof on rigid diaphragms, under its weight.
+const std::string kRoof = R"(mesh:
+  file: roof.exo
+  generate: {shape: shell_cylinder, radius: 25, theta: [0, 40], length: 25, divisions: [4, 4], block: roof}
+materials:
+  roof: {law: saint_venant_kirchhoff, youngs_modulus: 4.32e8, poissons_ratio: 0, blocks: [roof]}
+shells:
+  sections:
+    roof: {blocks: [roof], thickness: 0.25}
+supports:
+  crown: {set: theta_min, condition: symmetry_x}
+  middle: {set: y_min, condition: symmetry_y}
+  diaphragm: {set: y_max, x: 0, z: 0, director_x: 0, director_z: 0}
+loads:
+  weight: {type: volume, blocks: [roof], force: [0, 0, -360]}
+path:
+  stop: {load_factor: 1}
+output:
+  monitors:
+    edge_uz: {type: displacement, set: theta_max_y_min, component: z}
+)";
+
+// Conditions of symmetry make a quarter of a body the whole. Its directors there are means of the normals of
+// one side only, off by 2e-4; that costs 1e-7 of the deflection.
+TEST(ShellRuns, AQuarterIsTheWhole) {
+  std::string whole = edited(kRoof, "theta: [0, 40], length: 25, divisions: [4, 4]",
+                             "theta: [-40, 40], y_min: -25, length: 50, divisions: [8, 8]");
+  whole = edited(
+      whole,
+      "  crown: {set: theta_min, condition: symmetry_x}\n  middle: {set: y_min, condition: symmetry_y}\n",
+      "  along: {set: theta_mid_y_mid, y: 0}\n"
+      "  other: {set: y_min, x: 0, z: 0, director_x: 0, director_z: 0}\n");
+  whole = edited(whole, "set: theta_max_y_min", "set: theta_max_y_mid");
+  const double quarter = DeckRun(kRoof).last("edge_uz"), full = DeckRun(whole).last("edge_uz");
+  EXPECT_LT(quarter, -0.2);
+  // The residual's bound is 1e-6.
+  EXPECT_NEAR(quarter, full, 1e-5 * std::abs(full));
+}
+
 const std::string kStrip = R"(mesh:
   file: strip.exo
   generate: {shape: shell_plate, length: 12, width: 1, divisions: [12, 1], block: strip}
@@ -181,6 +220,32 @@ output:
   EXPECT_GT(area, 1.05);
   EXPECT_NEAR(run.last("force"), 1.5 * area,
               1e-5);  // the residual's bound is 1e-6 of some forces of size one
+}
+
+// A strip pressed down on a floor: contact of its bottom is that of its middle with a floor half a thickness
+// higher, as long as it turns little.
+TEST(ShellRuns, ContactOfTheBottom) {
+  const auto deck = [](const std::string& place, const std::string& floor, const std::string& points) {
+    std::string text = edited(kStrip, "turn: {type: edge, set: x_max, follower_moment: -20}",
+                              "press: {type: edge, set: x_max, total: [0, 0, -1]}");
+    text = edited(text, "path:\n",
+                  "tools:\n  floor: {type: plane, point: [0, 0, " + floor +
+                      "], normal: [0, 0, 1]}\ncontact:\n  below: {tool: floor, set: bottom, " + points +
+                      ", at: " + place + ", stiffness: 1000, regularisation: 1.0e-3}\npath:\n");
+    return text +
+           "    force: {type: contact_force, contact: below}\n"
+           "    force_z: {type: contact_force, contact: below, component: z}\n";
+  };
+  for (const char* points : {"points: nodes", "points: quadrature"}) {
+    SCOPED_TRACE(points);
+    const DeckRun bottom(deck("bottom", "-0.25", points)), middle(deck("middle", "-0.2", points));
+    EXPECT_GT(bottom.last("force"), 0.5);  // of the load of 1
+    EXPECT_LT(bottom.last("force"), 1.2);
+    // Turned by 0.03 at most: the bottom is 5e-4 of 0.05 higher.
+    EXPECT_NEAR(bottom.last("force"), middle.last("force"), 1e-3);
+    EXPECT_NEAR(bottom.last("force_z"), bottom.last("force"), 1e-6);
+    EXPECT_NEAR(bottom.last("tip_uz"), middle.last("tip_uz"), 1e-3);
+  }
 }
 
 /// Two meshes side by side in one.
