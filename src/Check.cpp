@@ -7,6 +7,17 @@
 #include "MeshCommand.hpp"
 
 namespace atrapos {
+namespace {
+
+/// Nodes where several directors stand.
+int hinges(const fem::ShellGeometry& shells) {
+  int count = 0;
+  for (int n = 0; n < shells.numMeshNodes; ++n)
+    count += shells.firstDirector[n + 1] - shells.firstDirector[n] > 1;
+  return count;
+}
+
+}  // namespace
 
 void printCheck(Scene& scene, std::ostream& out) {
   deck::describe(scene.deck(), out);
@@ -14,6 +25,13 @@ void printCheck(Scene& scene, std::ostream& out) {
   out << fmt::format("\n# mesh      {}\n", describeMesh(scene.mesh()));
   out << fmt::format("# unknowns  {} ({} free), {} tangent\n", scene.numUnknowns(), problem.numFreeDofs(),
                      problem.symmetric() ? "symmetric" : "unsymmetric");
+  const fem::ShellGeometry& shells = scene.shells().geometry;
+  for (const fem::ShellBlock& block : shells.blocks)
+    out << fmt::format("# shells    {} elements in block '{}'\n", block.numElements(),
+                       scene.mesh().blocks[block.block].name);
+  if (!shells.blocks.empty())
+    out << fmt::format("# directors {}, at {} nodes more than one (hinges)\n", shells.numDirectors(),
+                       hinges(shells));
   for (const ContactPoints& contact : scene.contacts()) {
     out << fmt::format("# contact   {}: {} points, smallest gap {:.6g}, {}\n", contact.name, contact.count,
                        contact.smallestGap, contact.pressure.text);

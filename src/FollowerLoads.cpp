@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "atrapos/fem/PointSet.hpp"
+#include "atrapos/solid/FacePressure.hpp"
 
 namespace atrapos::followers {
 namespace {
@@ -27,17 +28,17 @@ struct Maker {
     const std::size_t blocks = shells.elements.size();
     // Pressure > 0 pushes on the body: against the normal of a top side, along it on a bottom side.
     std::vector<std::vector<int>> loaded(2 * blocks);
+    fem::SideSet solids = sides(load.set);
+    solids.sides.clear();
     for (const fem::Side& side : sides(load.set).sides) {
       const fem::ElementAddress at = fem::addressOf(mesh, side.element);
       const int i = shells.find(at.block);
       if (i < 0)
-        throw std::invalid_argument(fmt::format(
-            "the side set '{}' has faces of solids, on which pressures cannot follow; accepted are faces of "
-            "shells, or follower: false",
-            load.set));
-      loaded[2 * i + side.side].push_back(at.element);
+        solids.sides.push_back(side);
+      else
+        loaded[2 * i + side.side].push_back(at.element);
     }
-    Terms result;
+    Terms result = solid::followerPressure(mesh, solids, amount(load.pressure));
     for (std::size_t k = 0; k < loaded.size(); ++k)
       if (!loaded[k].empty())
         result.push_back(solid::followerPressure(shells.elements[k / 2], loaded[k], zetaOf(load.at),

@@ -12,8 +12,8 @@ namespace atrapos::followers {
 
 bool isFollower(const deck::Load& load);
 
-/// The terms of such a load, one for each block of shells that it acts on. Throws
-/// std::invalid_argument, one line, for faces of solids and for moments about the director.
+/// The terms of such a load, for each block of shells, and each shape of face of solids, that it
+/// acts on. Throws std::invalid_argument, one line, for moments about the director.
 std::vector<std::unique_ptr<fem::Term>> terms(const deck::Load& load, const fem::Mesh& mesh,
                                               const SceneShells& shells);
 

@@ -8,6 +8,7 @@
 
 #include "FollowerLoads.hpp"
 #include "Registry.hpp"
+#include "Sets.hpp"
 #include "atrapos/fem/ReferenceCell.hpp"
 #include "atrapos/fem/ShellFaces.hpp"
 #include "atrapos/solid/ShellResults.hpp"
@@ -39,11 +40,7 @@ void Scene::fail(const std::string& key, const std::string& problem) const {
   throw deck::DeckError(fmt::format("{}: {}: {}", deck_.file, key, problem));
 }
 
-std::vector<int> Scene::nodesOf(const std::string& set) const {
-  const int n = fem::findNodeSet(mesh_, set);
-  if (n >= 0) return mesh_.nodeSets[n].nodes;
-  return fem::nodesOf(mesh_, mesh_.sideSets.at(fem::findSideSet(mesh_, set)));
-}
+std::vector<int> Scene::nodesOf(const std::string& set) const { return atrapos::nodesOf(mesh_, set); }
 
 void Scene::addMaterials(fem::FeModel& model) {
   bodies_.resize(mesh_.blocks.size());

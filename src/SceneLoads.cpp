@@ -1,7 +1,6 @@
-#include <functional>
-
 #include "FollowerLoads.hpp"
 #include "Scene.hpp"
+#include "Sets.hpp"
 #include "atrapos/fem/Loads.hpp"
 #include "atrapos/fem/ShellFaces.hpp"
 #include "atrapos/solid/ShellLoads.hpp"
@@ -14,7 +13,6 @@ namespace {
 struct DeadLoads {
   const fem::Mesh& mesh;
   const SceneShells& shells;
-  std::function<std::vector<int>(const std::string&)> nodesOf;
   std::vector<double>& force;
 
   const fem::SideSet& sides(const std::string& set) const {
@@ -22,7 +20,7 @@ struct DeadLoads {
   }
 
   void operator()(const deck::NodalLoad& load) const {
-    const auto nodes = nodesOf(load.set);
+    const auto nodes = nodesOf(mesh, load.set);
     deck::Vector3 each = load.force;
     if (!load.perNode)
       for (double& f : each) f /= static_cast<double>(nodes.size());
@@ -74,8 +72,7 @@ void Scene::addLoads(fem::FeModel& model) const {
     if (followers::isFollower(load)) continue;
     std::vector<double>& force = load.constant ? model.constantLoad : model.load;
     try {
-      std::visit(DeadLoads{mesh_, shells_, [&](const std::string& set) { return nodesOf(set); }, force},
-                 load.load);
+      std::visit(DeadLoads{mesh_, shells_, force}, load.load);
     } catch (const std::runtime_error& e) {
       fail("loads/" + load.name, e.what());
     }

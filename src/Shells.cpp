@@ -9,7 +9,7 @@
 namespace atrapos {
 namespace {
 
-fem::ShellGeometry geometryOf(const deck::Deck& deck, const fem::Mesh& mesh) {
+std::vector<fem::ShellSection> sectionsOf(const deck::Deck& deck, const fem::Mesh& mesh) {
   std::vector<fem::ShellSection> sections;
   for (int b = 0; b < static_cast<int>(mesh.blocks.size()); ++b)
     if (fem::isShell(mesh.blocks[b].topology)) sections.push_back({b, std::nullopt});
@@ -17,10 +17,14 @@ fem::ShellGeometry geometryOf(const deck::Deck& deck, const fem::Mesh& mesh) {
     for (const std::string& name : section.blocks)
       for (fem::ShellSection& s : sections)
         if (s.block == fem::findBlock(mesh, name)) s.thickness = section.thickness;
+  return sections;
+}
+
+fem::ShellGeometry geometryOf(const deck::Deck& deck, const fem::Mesh& mesh) {
   fem::ShellGeometryOptions options;
   options.foldAngle = deck.shells.foldAngle;
   try {
-    return fem::shellGeometry(mesh, sections, options);
+    return fem::shellGeometry(mesh, sectionsOf(deck, mesh), options);
   } catch (const std::invalid_argument& e) {
     throw deck::DeckError(fmt::format("{}: shells: {}", deck.file, e.what()));
   }

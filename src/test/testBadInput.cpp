@@ -265,9 +265,9 @@ TEST_F(BadInput, CommandLine) {
   refuses({"run", "deck.yaml", "--threads", "two"}, {"--threads", "two"});
 }
 
-TEST_F(BadInput, PressureThatFollowsASolid) {
-  refusesDeck("total: [0, 0, -10]", "pressure: 1, follower: true",
-              {"loads/tip: the side set 'x_max' has faces of solids", "accepted are faces of shells"});
+TEST_F(BadInput, BodyOfShellsWithoutShells) {
+  refusesDeck("  points_per_step: 2", "  points_per_step: 2\n  shells: body",
+              {"output/shells: the mesh has no shells"});
 }
 
 }  // namespace

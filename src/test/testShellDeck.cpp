@@ -228,6 +228,35 @@ TEST(ShellDeck, valuesOutOfRange) {
               "shells/sections/more/blocks: block 'plate' already has the section 'skin'");
 }
 
+TEST(ShellDeck, whatIsWrittenOfShells) {
+  const std::string text = std::string(goodDeck) + R"(output:
+  shells: body
+  monitors:
+    middle: {type: contact_force, contact: points, near: [5, 1, 0]}
+    total: {type: contact_force, contact: points}
+)";
+  const Deck deck = readDeckText(text, "shell.yaml");
+  EXPECT_EQ(deck.output.shells, Output::Shells::Body);
+  EXPECT_EQ(*std::get<ContactForceMonitor>(deck.output.monitors[0].quantity).near, (Vector3{5, 1, 0}));
+  EXPECT_FALSE(std::get<ContactForceMonitor>(deck.output.monitors[1].quantity).near);
+  std::ostringstream first, second;
+  describe(deck, first);
+  describe(readDeckText(first.str(), "shell.yaml"), second);
+  EXPECT_EQ(first.str(), second.str());
+  EXPECT_EQ(readDeckText(goodDeck, "shell.yaml").output.shells, Output::Shells::Surface);
+  EXPECT_EQ(errorOf(changed("points, near: [5, 1, 0]}", "points, component: x, near: [5, 1, 0]}", text)),
+            "shell.yaml: output/monitors/middle/near: has a meaning with component: normal only (line 31)");
+  EXPECT_NE(errorOf(changed("shells: body", "shells: solid", text)).find("output/shells: 'solid' is not a"),
+            std::string::npos);
+}
+
+TEST(ShellDeck, platesCanBeGraded) {
+  const Deck deck = readDeckText(changed("divisions: [5, 1]", "grading: 1.5, divisions: [5, 1]"), "s.yaml");
+  EXPECT_EQ(std::get<fem::ShellPlateOptions>(*deck.mesh.generate).grading, 1.5);
+  expectError("divisions: [5, 1]", "grading: 0.5, divisions: [5, 1]",
+              "mesh/generate/grading: must be at least 1, got 0.5");
+}
+
 TEST(ShellDeck, directorsCanBeAllThatIsDriven) {
   std::string text = changed("per_load_factor: 0.1", "per_load_factor: 0");
   for (const char* line : {"  line: {type: edge, set: x_max, force: [0, 0, 1]}\n",

@@ -17,10 +17,10 @@ namespace atrapos::test {
 namespace {
 
 /// A deck run in a folder of its own, on a mesh that is given or that it generates.
-struct Run {
+struct DeckRun {
   TemporaryFolder folder;
 
-  explicit Run(const std::string& deck, const fem::Mesh* mesh = nullptr) {
+  explicit DeckRun(const std::string& deck, const fem::Mesh* mesh = nullptr) {
     writeFile(folder / "deck.yaml", deck);
     if (mesh != nullptr)
       exodus::writeMesh(*mesh, (folder / "mesh.exo").string());
@@ -41,7 +41,7 @@ struct Run {
 };
 
 /// A quarter of a tube of radius 1 and thickness 0.1, held in its length, under a pressure of 20 on its inner
-/// surface: hoop strains of a quarter.
+/// surface: hoop strains of a sixth.
 const std::string kTube = R"(mesh:
   file: tube.exo
   generate: {shape: shell_cylinder, radius: 1, theta: [0, 90], length: 0.2, divisions: [8, 1], block: tube}
@@ -67,14 +67,15 @@ output:
 struct Ring {
   double radius = 0, halfThickness = 0, hoop = 0;
   explicit Ring(const std::string& deck) {
-    const Run run(deck);
+    const DeckRun run(deck);
     const auto results = run.results();
     const int step = results.numSteps() - 1;
     radius = 1 + run.last("crown_uz");
-    // The crown's director stands along z; node 1 is at theta = 0.
+    // The crown's director stands along z, up to the error of the normal of a parabola for an arc, 2e-4; node
+    // 1 is at theta = 0.
     halfThickness = results.nodal(step, "director_z").at(0);
     hoop = results.element(step, "n_11").at(0);  // where x is the hoop's direction
-    EXPECT_NEAR(results.nodal(step, "director_x").at(0), 0, 1e-12);
+    EXPECT_NEAR(results.nodal(step, "director_x").at(0), 0, 5e-4 * 0.05);
     EXPECT_NEAR(results.nodal(step, "thickness_change").at(0), 2 * halfThickness - 0.1, 1e-6);
   }
 };
@@ -84,7 +85,7 @@ struct Ring {
 // of the radius.
 TEST(ShellRuns, TubeUnderPressure) {
   const Ring follower(kTube);
-  EXPECT_GT(follower.radius, 1.2);
+  EXPECT_GT(follower.radius, 1.15);
   EXPECT_NEAR(follower.hoop, 20 * (follower.radius - follower.halfThickness), 2e-3 * follower.hoop);
   const Ring dead(edited(kTube, ", follower: true", ""));
   EXPECT_NEAR(dead.hoop, 20 * 0.95, 2e-3 * dead.hoop);
@@ -98,6 +99,45 @@ TEST(ShellRuns, PressureOnTheOtherSide) {
   const Ring inner(small), outer(edited(edited(small, "set: inner", "set: outer"), "at: bottom", "at: top"));
   EXPECT_NEAR(inner.radius - 1, 0.01 * 0.95 / 100, 0.01 * 1e-4);  // p R_i/(E t), thin
   EXPECT_NEAR(outer.radius - 1, -0.01 * 1.05 / 100, 0.01 * 1e-4);
+}
+
+/// A quarter of a roof on rigid diaphragms, under its weight.
+const std::string kRoof = R"(mesh:
+  file: roof.exo
+  generate: {shape: shell_cylinder, radius: 25, theta: [0, 40], length: 25, divisions: [4, 4], block: roof}
+materials:
+  roof: {law: saint_venant_kirchhoff, youngs_modulus: 4.32e8, poissons_ratio: 0, blocks: [roof]}
+shells:
+  sections:
+    roof: {blocks: [roof], thickness: 0.25}
+supports:
+  crown: {set: theta_min, condition: symmetry_x}
+  middle: {set: y_min, condition: symmetry_y}
+  diaphragm: {set: y_max, x: 0, z: 0, director_x: 0, director_z: 0}
+loads:
+  weight: {type: volume, blocks: [roof], force: [0, 0, -360]}
+path:
+  stop: {load_factor: 1}
+output:
+  monitors:
+    edge_uz: {type: displacement, set: theta_max_y_min, component: z}
+)";
+
+// Conditions of symmetry make a quarter of a body the whole. Its directors there are means of the normals of
+// one side only, off by 2e-4; that costs 1e-7 of the deflection.
+TEST(ShellRuns, AQuarterIsTheWhole) {
+  std::string whole = edited(kRoof, "theta: [0, 40], length: 25, divisions: [4, 4]",
+                             "theta: [-40, 40], y_min: -25, length: 50, divisions: [8, 8]");
+  whole = edited(
+      whole,
+      "  crown: {set: theta_min, condition: symmetry_x}\n  middle: {set: y_min, condition: symmetry_y}\n",
+      "  along: {set: theta_mid_y_mid, y: 0}\n"
+      "  other: {set: y_min, x: 0, z: 0, director_x: 0, director_z: 0}\n");
+  whole = edited(whole, "set: theta_max_y_min", "set: theta_max_y_mid");
+  const double quarter = DeckRun(kRoof).last("edge_uz"), full = DeckRun(whole).last("edge_uz");
+  EXPECT_LT(quarter, -0.2);
+  // The residual's bound is 1e-6.
+  EXPECT_NEAR(quarter, full, 1e-5 * std::abs(full));
 }
 
 const std::string kStrip = R"(mesh:
@@ -122,7 +162,7 @@ output:
 
 // In a plane a moment that keeps its direction and one that follows the edge are the same.
 TEST(ShellRuns, DeadAndFollowingMomentInAPlane) {
-  const Run follower(kStrip), dead(edited(kStrip, "follower_moment: -20", "moment: [0, -20, 0]"));
+  const DeckRun follower(kStrip), dead(edited(kStrip, "follower_moment: -20", "moment: [0, -20, 0]"));
   EXPECT_GT(follower.last("tip_uz"), 5);
   // Both are corrected to a residual of 1e-6 of the elements' forces.
   EXPECT_NEAR(dead.last("tip_uz"), follower.last("tip_uz"), 1e-4);
@@ -134,7 +174,7 @@ TEST(ShellRuns, DeadAndFollowingMomentInAPlane) {
 TEST(ShellRuns, ForceAlongTheDirector) {
   const std::string deck = edited(edited(kStrip, "follower_moment: -20", "follower_force: [0, 0, 2]"),
                                   "output:\n", "output:\n  fields: [displacement, reaction]\n");
-  const Run run(deck);
+  const DeckRun run(deck);
   const auto results = run.results();
   const int step = results.numSteps() - 1;
   double x = 0, z = 0, dx = 0, dz = 0;
@@ -151,6 +191,61 @@ TEST(ShellRuns, ForceAlongTheDirector) {
   EXPECT_NEAR(std::hypot(x, z), 2, 1e-4);
   EXPECT_NEAR(x, -2 * dx / std::hypot(dx, dz), 1e-3);
   EXPECT_NEAR(z, -2 * dz / std::hypot(dx, dz), 1e-3);
+}
+
+// A block that is pressed at one end while its faces are free to spread: homogeneous, and the reaction is the
+// pressure times the end's area as deformed.
+TEST(ShellRuns, PressureThatFollowsASolid) {
+  const std::string deck = R"(mesh:
+  file: box.exo
+  generate: {shape: box, lengths: [2, 1, 1], divisions: [2, 1, 1], cell: HEX20}
+materials:
+  rubber: {law: saint_venant_kirchhoff, youngs_modulus: 10, poissons_ratio: 0.3, blocks: [body]}
+supports:
+  left: {set: x_min, x: 0}
+  front: {set: y_min, y: 0}
+  below: {set: z_min, z: 0}
+loads:
+  push: {type: surface, set: x_max, pressure: 1.5, follower: true}
+path:
+  stop: {load_factor: 1}
+output:
+  monitors:
+    y: {type: displacement, set: y_max, component: y}
+    z: {type: displacement, set: z_max, component: z}
+    force: {type: reaction, support: left, component: x}
+)";
+  const DeckRun run(deck);
+  const double area = (1 + run.last("y")) * (1 + run.last("z"));
+  EXPECT_GT(area, 1.05);
+  EXPECT_NEAR(run.last("force"), 1.5 * area,
+              1e-5);  // the residual's bound is 1e-6 of some forces of size one
+}
+
+// A strip pressed down on a floor: contact of its bottom is that of its middle with a floor half a thickness
+// higher, as long as it turns little.
+TEST(ShellRuns, ContactOfTheBottom) {
+  const auto deck = [](const std::string& place, const std::string& floor, const std::string& points) {
+    std::string text = edited(kStrip, "turn: {type: edge, set: x_max, follower_moment: -20}",
+                              "press: {type: edge, set: x_max, total: [0, 0, -1]}");
+    text = edited(text, "path:\n",
+                  "tools:\n  floor: {type: plane, point: [0, 0, " + floor +
+                      "], normal: [0, 0, 1]}\ncontact:\n  below: {tool: floor, set: bottom, " + points +
+                      ", at: " + place + ", stiffness: 1000, regularisation: 1.0e-3}\npath:\n");
+    return text +
+           "    force: {type: contact_force, contact: below}\n"
+           "    force_z: {type: contact_force, contact: below, component: z}\n";
+  };
+  for (const char* points : {"points: nodes", "points: quadrature"}) {
+    SCOPED_TRACE(points);
+    const DeckRun bottom(deck("bottom", "-0.25", points)), middle(deck("middle", "-0.2", points));
+    EXPECT_GT(bottom.last("force"), 0.5);  // of the load of 1
+    EXPECT_LT(bottom.last("force"), 1.2);
+    // Turned by 0.03 at most: the bottom is 5e-4 of 0.05 higher.
+    EXPECT_NEAR(bottom.last("force"), middle.last("force"), 1e-3);
+    EXPECT_NEAR(bottom.last("force_z"), bottom.last("force"), 1e-6);
+    EXPECT_NEAR(bottom.last("tip_uz"), middle.last("tip_uz"), 1e-3);
+  }
 }
 
 /// Two meshes side by side in one.
@@ -215,7 +310,7 @@ TEST(ShellRuns, ShellsBesideSolids) {
   const fem::Mesh mesh = together(fem::stripMesh(solid), fem::shellPlateMesh(shell));
   for (const char* shells : {"surface", "body"}) {
     SCOPED_TRACE(shells);
-    const Run run(edited(kBoth, "output:\n", std::string("output:\n  shells: ") + shells + "\n"), &mesh);
+    const DeckRun run(edited(kBoth, "output:\n", std::string("output:\n  shells: ") + shells + "\n"), &mesh);
     EXPECT_NEAR(run.last("solid_fz"), 1, 1e-4);
     EXPECT_NEAR(run.last("shell_fz"), 1, 1e-4);
     // Deflections of a tenth of the length; a clamped solid end is held a little differently.
