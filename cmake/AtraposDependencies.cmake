@@ -4,7 +4,7 @@
 # components named in find_package(Atrapos COMPONENTS ...) need.
 include_guard(DIRECTORY)
 
-# The part of Trilinos that needs no MPI.
+# The part of Trilinos that can do without MPI. Where MPI is used, it is found before everything else.
 set(atrapos_trilinos_without_mpi Kokkos Sacado)
 
 # Kokkos says which devices the Trilinos at hand was built for, and where that Trilinos is. An installed Atrapos
@@ -47,8 +47,11 @@ function(atrapos_find_trilinos name)
   add_library(Trilinos::${name} INTERFACE IMPORTED GLOBAL)
   target_include_directories(Trilinos::${name} SYSTEM INTERFACE ${include_dir})
   target_link_libraries(Trilinos::${name} INTERFACE ${libraries})
-  if(NOT name IN_LIST atrapos_trilinos_without_mpi)
+  if(TARGET MPI::MPI_CXX)
     target_link_libraries(Trilinos::${name} INTERFACE MPI::MPI_CXX)
+  elseif(name STREQUAL "Sacado")
+    # Sacado's views of Fad scalars include mpi.h; the scalars themselves do not.
+    target_compile_definitions(Trilinos::Sacado INTERFACE SACADO_DISABLE_FAD_VIEW_SPEC)
   endif()
   if(Kokkos_DEVICES MATCHES "OPENMP")
     find_package(OpenMP REQUIRED COMPONENTS CXX)

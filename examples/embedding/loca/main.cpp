@@ -45,9 +45,9 @@ static int compare() {
   stepper.set("Continuation Method", "Arc Length");
   stepper.set("Continuation Parameter", "load factor");
   stepper.set("Initial Value", 0.0);
-  stepper.set("Min Value", 4.0);  // on the way back
+  stepper.set("Min Value", -1.0);
   stepper.set("Max Value", 10.0);
-  stepper.set("Max Steps", 200);
+  stepper.set("Max Steps", 30);
   stepper.set("Max Nonlinear Iterations", 10);
   stepper.set("Compute Eigenvalues", false);
   auto& length = list->sublist("LOCA").sublist("Step Size");

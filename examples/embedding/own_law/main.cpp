@@ -86,20 +86,20 @@ class ForceLimit : public path::Observer {
   double travel = 0;  ///< load factor where the limit is reached
 
   bool onStep(const path::StepReport& report, const path::Series& series) override {
-    if (force(*report.end.u) < limit_) return true;
+    if (force(*report.end.u, report.end.lambda) < limit_) return true;
     auto u = Teuchos::rcp(new path::Vector(problem_.map()));
     double from = 0, to = report.length;
     for (int i = 0; i < 60; ++i) {  // bisection: no solve, the series is the path
       const double a = 0.5 * (from + to);
       travel = series.evaluate(a, *u);
-      (force(*u) < limit_ ? from : to) = a;
+      (force(*u, travel) < limit_ ? from : to) = a;
     }
     return false;
   }
 
   /// Vertical force of the tool on the block.
-  double force(const path::Vector& u) const {
-    const auto forces = problem_.forces(problem_.term(1), u);
+  double force(const path::Vector& u, double lambda) const {
+    const auto forces = problem_.forces(problem_.term(1), u, lambda);
     double sum = 0;
     for (std::size_t i = 2; i < forces.size(); i += 3) sum -= forces[i];
     return sum;
@@ -156,7 +156,7 @@ static int press() {
   double support = 0;
   const auto reactions = problem.reactions(*outcome.final.u, outcome.final.lambda);
   for (std::size_t i = 2; i < reactions.size(); i += 3) support -= reactions[i];
-  const double force = observer.force(*outcome.final.u);
+  const double force = observer.force(*outcome.final.u, outcome.final.lambda);
   const bool good = outcome.reason == path::EndReason::observerStopped && observer.travel > 0.1 &&
                     observer.travel <= outcome.final.lambda && force >= 1.0 &&
                     std::abs(support - force) < 1e-4 * force;  // the residual bound, 1e-6 of larger forces

@@ -169,8 +169,10 @@ class Application {
             overlapping_->insertGlobalValues(row, 1, &zero, &column);
           }
     overlapping_->fillComplete(owned_, owned_);
-    matrix_ = rcp(new Matrix(owned_, 9));
-    matrix_->doExport(*overlapping_, *export_, Tpetra::ADD);
+    Matrix pattern(owned_, 9);
+    pattern.doExport(*overlapping_, *export_, Tpetra::ADD);
+    pattern.fillComplete();
+    matrix_ = rcp(new Matrix(pattern.getCrsGraph()));  // whose pattern stays: exports only add to its values
     matrix_->fillComplete();
   }
 

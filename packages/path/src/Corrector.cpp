@@ -40,16 +40,19 @@ Augmented Corrector::tangent(const Augmented& direction, double weight) const {
   return x;
 }
 
-Corrector::Result Corrector::correct(State& state, Vector& r, const Augmented& direction, double weight) {
+Corrector::Result Corrector::correct(State& state, Vector& r, const Augmented& direction, double weight,
+                                     double s) {
   Result result;
   result.first = result.residual = calls_.residual(state, r).relative();
-  double before = 0;
+  double before = s;  // the correction before; the step stands for it at first, the predictor being of order s^2
+  double left = 0;    // estimate of the next one
   bool stale = true;
   const auto fail = [&](const std::string& why) {
     result.trouble = why;
     return result;
   };
-  while (result.iterations < options_.minIterations || !(result.residual <= options_.residualBound)) {
+  while (result.iterations < options_.minIterations || !(result.residual <= options_.residualBound) ||
+         !(left <= 0.1 * options_.accuracy)) {
     if (!std::isfinite(result.residual)) return fail("the residual is not finite");
     if (result.iterations == options_.maxIterations)
       return fail("not converged after " + std::to_string(options_.maxIterations) + " iterations");
@@ -65,6 +68,8 @@ Corrector::Result Corrector::correct(State& state, Vector& r, const Augmented& d
       distance_ += size;
       result.residual = calls_.residual(state, r).relative();
       const bool done = result.residual <= options_.residualBound;
+      const double contraction = size / before;
+      left = size * (fresh ? contraction * contraction : contraction);
       // Corrections, not residuals, tell divergence: in thin bodies a good first correction of a rotation
       // stretches them and can raise the residual.
       if (result.iterations > 1 && !done && size >= before) {

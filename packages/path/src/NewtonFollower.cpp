@@ -22,7 +22,8 @@ void NewtonOptions::validate() const {
   const auto positive = [](double x) { return std::isfinite(x) && x > 0; };
   require(positive(residualBound), "residualBound", residualBound, "positive and finite");
   require(accuracy > 0, "accuracy", accuracy, "positive");
-  require(positive(desiredIterations), "desiredIterations", desiredIterations, "positive and finite");
+  if (desiredIterations)
+    require(positive(*desiredIterations), "desiredIterations", *desiredIterations, "positive and finite");
   require(minIterations >= 1, "minIterations", minIterations, ">= 1");
   require(maxIterations >= minIterations, "maxIterations", maxIterations, "at least minIterations");
   require(refactorAbove > 0 && refactorAbove < 1, "refactorAbove", refactorAbove, "in (0, 1)");

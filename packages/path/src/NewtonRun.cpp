@@ -136,7 +136,7 @@ NewtonRun::Trial NewtonRun::tryLength(double s) {
   trial.state = {copy(*outcome_.final.u), outcome_.final.lambda + s * tangent_.lambda};
   trial.state.u->update(s, *tangent_.u, 1);
   trial.r = calls_.newVector();
-  trial.newton = corrector_.correct(trial.state, *trial.r, tangent_, weight_);
+  trial.newton = corrector_.correct(trial.state, *trial.r, tangent_, weight_, s);
   if (!trial.newton.converged) {
     trial.reject = trial.newton.trouble;
     return trial;
@@ -169,7 +169,8 @@ double NewtonRun::nextLength(const Trial& trial, double cosine) const {
   const auto& n = trial.newton;
   if (n.first > 0 && n.residual > 0) {
     const double made = reductions(options_.kind, n.iterations);
-    const double wanted = reductions(options_.kind, options_.desiredIterations);
+    const double aim = options_.desiredIterations.value_or(options_.kind == NewtonKind::full ? 4 : 6);
+    const double wanted = reductions(options_.kind, aim);
     const double logTheta = std::log(n.residual / n.first) / made;
     factor = std::exp((std::log(options_.residualBound / n.first) - wanted * logTheta) / (2 * (wanted + 1)));
   }

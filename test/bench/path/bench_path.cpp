@@ -170,7 +170,7 @@ class Bench {
         row.method = name;
         row.tolerance = accuracy;
         row.residualBound = residual;
-        row.setting = options.desiredIterations;
+        row.setting = 0;
         add(row, outcome, &samples);
       }
   }
@@ -178,7 +178,7 @@ class Bench {
   /// What Newton steps cost where only points are wanted, over their one knob.
   void points() {
     for (const auto kind : {path::NewtonKind::full, path::NewtonKind::modified})
-      for (const double desired : tolerances({3, 2, 4, 6})) {
+      for (const double desired : tolerances({4, 2, 3, 6, 8})) {
         path::NewtonOptions options;
         options.kind = kind;
         options.desiredIterations = desired;

@@ -22,11 +22,13 @@ struct NewtonOptions {
 
   /// Largest distance, sqrt(w <dX, dX> + dlambda^2), of the path inside a step from the cubic that the
   /// observer gets. Estimated in the middle of every step by one residual and one solve. Infinity: the points
-  /// at the steps' ends are wanted, not what lies between them.
+  /// at the steps' ends are wanted, not what lies between them. The points themselves are iterated to a tenth
+  /// of it.
   double accuracy = std::numeric_limits<double>::infinity();
 
-  /// Step lengths aim at so many iterations: > 0, not necessarily whole.
-  double desiredIterations = 3;
+  /// Step lengths aim at so many iterations: > 0, not necessarily whole. Empty: 4 (full) or 6 (modified), beyond
+  /// which little is gained.
+  std::optional<double> desiredIterations;
   int minIterations = 1;   ///< >= 1: the first one brings the next tangent
   int maxIterations = 10;  ///< of one trial; more: the step is halved
 
