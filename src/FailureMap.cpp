@@ -17,7 +17,7 @@
 namespace atrapos {
 namespace {
 
-constexpr int kReferenceSamples = 40, kRunSamples = 8;  // of each step
+constexpr int kReferenceSamples = 20, kRunSamples = 8;  // of each step
 
 /// Part of the reference path's extent that a state may be away from it: far above the error of the runs with
 /// the loosest bound and of the chain's chords, far below the distance of branches where they end.
@@ -60,6 +60,8 @@ class Judge final : public path::Observer {
     }
     return true;
   }
+
+  bool atEnd() const { return walker_.atEnd(); }
 
   std::string outcome, where;  ///< empty: on the path all along
   int points = 0;
@@ -141,6 +143,9 @@ std::string row(PathCase& pathCase, const Reference& reference, int order, doubl
   if (!judge.outcome.empty()) {
     outcome = judge.outcome;
     reason = judge.where;
+  } else if (end.reason == path::EndReason::stopReached && !judge.atEnd()) {
+    outcome = "jumped";
+    reason = "reached the stop on another branch";
   } else if (judge.worstResidual > honest * delta) {
     outcome = "residual";
   } else if (end.reason == path::EndReason::stopReached) {

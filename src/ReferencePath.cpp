@@ -4,90 +4,94 @@
 #include <algorithm>
 #include <cmath>
 
-#include "atrapos/linear/Dot.hpp"
-
 namespace atrapos {
+namespace {
 
-using path::Vector;
+double distance(const std::vector<double>& p, const std::vector<double>& q) {
+  double square = 0;
+  for (std::size_t i = 0; i < p.size(); ++i) square += (p[i] - q[i]) * (p[i] - q[i]);
+  return std::sqrt(square);
+}
 
-double ReferencePath::dot(const Vector& u, double lambda, const Vector& v, double mu) const {
-  return weight_ * linear::dot(u, v) + lambda * mu;
+/// The place on the chord from p to q that is nearest to x, as a part of the chord, and its distance.
+std::pair<double, double> nearest(const std::vector<double>& x, const std::vector<double>& p,
+                                  const std::vector<double>& q) {
+  double dot = 0, square = 0, gap = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    dot += (x[i] - p[i]) * (q[i] - p[i]);
+    square += (q[i] - p[i]) * (q[i] - p[i]);
+  }
+  const double t = square > 0 ? std::min(1.0, std::max(0.0, dot / square)) : 0.0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const double d = x[i] - p[i] - t * (q[i] - p[i]);
+    gap += d * d;
+  }
+  return {t, std::sqrt(gap)};
+}
+
+}  // namespace
+
+ReferencePath::Point ReferencePath::point(const path::Vector& u, double lambda) const {
+  const auto data = u.getData();
+  Point p(data.begin(), data.end());
+  for (double& x : p) x *= std::sqrt(weight_);
+  p.push_back(lambda);
+  return p;
 }
 
 void ReferencePath::append(const path::StepReport& report, const path::Series& series) {
-  if (states_.empty()) {
+  if (points_.empty()) {
     weight_ = series.weight();
-    append(*series.coefficient(0).u, series.lambdaCoefficient(0));
+    append(point(*series.coefficient(0).u, series.lambdaCoefficient(0)));
   }
-  Vector u(series.coefficient(0).u->getMap());
+  path::Vector u(series.coefficient(0).u->getMap());
   for (int j = 1; j < samples_; ++j) {
     const double lambda = series.evaluate(report.length * j / samples_, u);
-    append(u, lambda);
+    append(point(u, lambda));
   }
-  append(*report.end.u, report.end.lambda);
+  append(point(*report.end.u, report.end.lambda));
 }
 
-void ReferencePath::append(const Vector& u, double lambda) {
-  double chord = 0;
-  if (!states_.empty()) {
-    Vector d(u, Teuchos::Copy);
-    d.update(-1, *states_.back().u, 1);
-    const double dLambda = lambda - states_.back().lambda;
-    chord = std::sqrt(dot(d, dLambda, d, dLambda));
-  }
-  at_.push_back(length() + chord);
-  states_.push_back({Teuchos::rcp(new Vector(u, Teuchos::Copy)), lambda});
+void ReferencePath::append(Point point) {
+  at_.push_back(points_.empty() ? 0 : at_.back() + distance(point, points_.back()));
+  points_.push_back(std::move(point));
 }
 
 double ReferencePath::extent() const {
   double largest = 0;
-  for (const path::State& s : states_) {
-    Vector d(*s.u, Teuchos::Copy);
-    d.update(-1, *states_.front().u, 1);
-    const double dLambda = s.lambda - states_.front().lambda;
-    largest = std::max(largest, std::sqrt(dot(d, dLambda, d, dLambda)));
-  }
+  for (const Point& p : points_) largest = std::max(largest, distance(p, points_.front()));
   return largest;
 }
 
-ReferencePath::Walker::Place ReferencePath::Walker::go(const Vector& u, double lambda) {
-  Vector gap(u, Teuchos::Copy), chord(u, Teuchos::Copy);
-  double gone = 0;
-  if (last_.u) {
-    gap.update(-1, *last_.u, 1);
-    gone = std::sqrt(path_.dot(gap, lambda - last_.lambda, gap, lambda - last_.lambda));
-  }
-  last_ = {Teuchos::rcp(new Vector(u, Teuchos::Copy)), lambda};
+bool ReferencePath::Walker::nearEnd() const {
+  return distance(last_, path_.points_.back()) <= 2 * tolerance_;
+}
+
+ReferencePath::Walker::Place ReferencePath::Walker::go(const path::Vector& u, double lambda) {
+  const Point x = path_.point(u, lambda);
+  const double gone = last_.empty() ? 0 : distance(x, last_);
+  last_ = x;
   // An arc between close states is not longer than three chords, sharp turns included.
   const double first = reached_ - 2 * tolerance_, last = reached_ + 3 * gone + 4 * tolerance_;
-  // The nearest place in reach; failing that, whether there is one behind.
-  double nearestAhead = tolerance_, placeAhead = -1;
-  bool behind = false;
-  for (std::size_t i = 0; i + 1 < path_.states_.size(); ++i) {
-    const path::State &p = path_.states_[i], &q = path_.states_[i + 1];
-    gap.update(1, u, -1, *p.u, 0);
-    chord.update(1, *q.u, -1, *p.u, 0);
-    const double gapLambda = lambda - p.lambda, chordLambda = q.lambda - p.lambda;
-    const double square = path_.dot(chord, chordLambda, chord, chordLambda);
-    if (!(square > 0)) continue;
-    const double t = std::min(1.0, std::max(0.0, path_.dot(gap, gapLambda, chord, chordLambda) / square));
-    gap.update(-t, chord, 1);
-    const double distance =
-        std::sqrt(path_.dot(gap, gapLambda - t * chordLambda, gap, gapLambda - t * chordLambda));
-    if (!(distance <= tolerance_)) continue;
-    const double place = path_.at_[i] + t * (path_.at_[i + 1] - path_.at_[i]);
-    if (place < first) {
-      behind = true;
-    } else if (place <= last && distance <= nearestAhead) {
-      nearestAhead = distance;
-      placeAhead = place;
-    }
+  const auto& at = path_.at_;
+  const auto index = [&](double place) {
+    return static_cast<std::size_t>(std::upper_bound(at.begin(), at.end(), place) - at.begin());
+  };
+  const std::size_t from = std::max<std::size_t>(index(first), 1);
+  double best = tolerance_, place = -1;
+  for (std::size_t i = from; i < at.size() && at[i - 1] <= last; ++i) {
+    const auto [t, d] = nearest(x, path_.points_[i - 1], path_.points_[i]);
+    if (d > best) continue;
+    best = d;
+    place = at[i - 1] + t * (at[i] - at[i - 1]);
   }
-  if (placeAhead >= 0) {
-    reached_ = std::max(reached_, placeAhead);
+  if (place >= 0) {
+    reached_ = std::max(reached_, place);
     return Place::on;
   }
-  return behind ? Place::behind : Place::off;
+  for (std::size_t i = 1; i < from; ++i)
+    if (nearest(x, path_.points_[i - 1], path_.points_[i]).second <= tolerance_) return Place::behind;
+  return Place::off;
 }
 
 }  // namespace atrapos

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "atrapos/path/Report.hpp"
@@ -19,7 +18,6 @@ class ReferencePath {
 
   /// The largest distance of a state of the path from its start.
   double extent() const;
-  double length() const { return states_.empty() ? 0 : at_.back(); }
 
   /// Goes along the path with another run.
   class Walker {
@@ -32,23 +30,27 @@ class ReferencePath {
     /// ahead as the run has gone; on it but before the last one by more than the tolerance; or not on it, a
     /// far part of the path included.
     Place go(const path::Vector& u, double lambda);
-    /// Length of the path up to the last state that was on it.
-    double reached() const { return reached_; }
+    /// Whether the last state is at the path's end.
+    bool atEnd() const { return reached_ >= path_.at_.back() - 4 * tolerance_ && nearEnd(); }
 
    private:
+    bool nearEnd() const;
+
     const ReferencePath& path_;
     double tolerance_;
-    double reached_ = 0;
-    path::State last_;
+    double reached_ = 0;        ///< length of the path up to the last state that was on it
+    std::vector<double> last_;  ///< that state
   };
 
  private:
-  void append(const path::Vector& u, double lambda);
-  double dot(const path::Vector& u, double lambda, const path::Vector& v, double mu) const;
+  using Point = std::vector<double>;  ///< sqrt(w) U and lambda
+
+  Point point(const path::Vector& u, double lambda) const;
+  void append(Point point);
 
   int samples_;
   double weight_ = 0;
-  std::vector<path::State> states_;
+  std::vector<Point> points_;
   std::vector<double> at_;  ///< length of the chain up to each
 };
 

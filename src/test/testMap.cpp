@@ -85,6 +85,31 @@ TEST_F(MapTest, ARunThatEndsBeforeItsStopSaysWhy) {
   EXPECT_NE(table[0].at("reason").find("over the bound"), std::string::npos) << table[0].at("reason");
 }
 
+/// What is hardest here: a pitchfork passed on its side branch, two branches 1e-3 apart, two bifurcation
+/// points and a frame that turns back in load and displacement, with series that are short, long and at the
+/// end of double precision. Bounds above the imperfections, 1e-2, see no difference between the branches.
+TEST_F(MapTest, WorstCasesReachTheirEnd) {
+  for (const std::string name : {"pitchfork_side_branch", "branch_trap", "two_modes", "lee_frame"})
+    writeFile(folder_ / (name + ".yaml"), "problem: {name: " + name + "}\n");
+  const auto table = map({"pitchfork_side_branch.yaml", "branch_trap.yaml", "two_modes.yaml",
+                          "lee_frame.yaml", "--orders", "5,20,40", "--deltas", "1e-4,1e-7"});
+  EXPECT_EQ(table.size(), 4u * 3 * 2 * 2);
+  for (const auto& row : table)
+    EXPECT_EQ(row.at("outcome"), "end")
+        << row.at("problem") << " K = " << row.at("order") << " delta " << row.at("delta") << " pade "
+        << row.at("pade") << ": " << row.at("reason");
+}
+
+/// An imperfection of a thousandth that the residual bound does not see: the run goes straight on where the
+/// path bends, and the map says so.
+TEST_F(MapTest, ARunOnAnotherBranchIsCalledThat) {
+  writeFile(folder_ / "bent.yaml", "problem: {name: euler_column, parameters: {side_load: 1.0e-3}}\n");
+  const auto table = map({"bent.yaml", "--orders", "20", "--deltas", "1e-2,1e-6", "--pade", "off"});
+  ASSERT_EQ(table.size(), 2u);
+  EXPECT_EQ(table[0].at("outcome"), "jumped") << table[0].at("reason");
+  EXPECT_EQ(table[1].at("outcome"), "end") << table[1].at("reason");
+}
+
 TEST_F(MapTest, BadWords) {
   writeFile(folder_ / "truss.yaml", "problem: {name: von_mises_truss}\n");
   const std::vector<std::pair<std::vector<std::string>, std::string>> cases{

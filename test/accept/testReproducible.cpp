@@ -19,9 +19,9 @@ double difference(const Table& a, const Table& b, const std::string& name, std::
   return worst / scale;
 }
 
-/// Both tables in all columns but the residual, which is rounding and truncation error itself.
+/// All columns of the first table but the residual, which is rounding and truncation error itself; the second
+/// one may have more.
 void expectSame(const Table& a, const Table& b, std::size_t rows, double tolerance) {
-  ASSERT_EQ(a.names(), b.names());
   for (const std::string& name : a.names()) {
     if (name != "residual") {
       EXPECT_LE(difference(a, b, name, rows), tolerance) << name;
