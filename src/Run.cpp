@@ -70,6 +70,7 @@ class Recorder final : public path::Observer {
 
   /// The state before the first step.
   void writeStart(const path::State& state) {
+    next_.state = state;
     const path::ResidualNorm r = scene_.problem().residual(*state.u, state.lambda, *residual_);
     table_.append(0, 0.0, state.lambda, scene_.monitors(*state.u, state.lambda), r.relative());
     writeFields(*state.u, state.lambda, 0.0,
@@ -78,6 +79,8 @@ class Recorder final : public path::Observer {
 
   bool onStep(const path::StepReport& report, const path::Series& series) override {
     const double before = seconds();
+    if (comesNear(report, series)) return false;
+    next_ = report.next;
     if (events_) events_->onStep(report.step, report.pathLengthStart, report.length, series);
     const int points = scene_.deck().output.pointsPerStep;
     worstResidual_ = std::max(worstResidual_, report.residual);
@@ -100,6 +103,15 @@ class Recorder final : public path::Observer {
     return !interrupted;
   }
 
+  /// Whether the last step was taken back because points came near a tool that carried no law; they do now.
+  bool mustRepeat() const { return mustRepeat_; }
+  /// Where the path goes on: the end of the last step that stands.
+  const path::Start& next() {
+    mustRepeat_ = false;
+    return next_;
+  }
+  int repeated() const { return repeated_; }
+
   int contactEvents() const { return events_ ? events_->count() : 0; }
   double outputSeconds() const { return outputSeconds_; }
   double worstResidual() const { return worstResidual_; }
@@ -116,6 +128,19 @@ class Recorder final : public path::Observer {
     std::istringstream deck(scene.deck().text);
     for (std::string line; std::getline(deck, line);) names.info.push_back(line);
     return names;
+  }
+
+  /// Looks along the step for points without a contact law that are near their tool, and gives it to them.
+  bool comesNear(const path::StepReport& report, const path::Series& series) {
+    constexpr int places = 8;
+    for (int j = 1; j <= places; ++j) {
+      const double lambda = series.evaluate(report.length * j / places, *work_);
+      if (!scene_.othersAreNear(*work_, lambda)) continue;
+      mustRepeat_ = true;
+      scene_.grow(*work_, lambda);
+    }
+    repeated_ += mustRepeat_ ? 1 : 0;
+    return mustRepeat_;
   }
 
   void append(int step, double pathLength, const path::Vector& u, double lambda) {
@@ -172,10 +197,41 @@ class Recorder final : public path::Observer {
   PathTable table_;
   exodus::ResultWriter results_;
   std::optional<ContactEvents> events_;
+  path::Start next_;
+  bool mustRepeat_ = false;
+  int repeated_ = 0;
   Teuchos::RCP<path::Vector> work_, residual_;
   std::chrono::steady_clock::time_point start_;
   double worstResidual_ = 0, outputSeconds_ = 0;
 };
+
+/// Follows the path; where points came near a tool that carried no law, again from the last step that stands.
+path::Outcome followPath(path::PathFollower& follower, Recorder& recorder) {
+  path::Outcome total = follower.runFrom(recorder.next(), recorder);
+  while (recorder.mustRepeat()) {
+    path::Outcome more = follower.runFrom(recorder.next(), recorder);
+    more.factorizations += total.factorizations;
+    more.solves += total.solves;
+    more.orders += total.orders;
+    more.startIterations += total.startIterations;
+    more.corrections += total.corrections;
+    more.restarts += total.restarts;
+    more.retreats += total.retreats;
+    more.criticalFactorizations += total.criticalFactorizations;
+    more.closings += total.closings;
+    more.cutBacks += total.cutBacks;
+    more.worstResidual = std::max(more.worstResidual, total.worstResidual);
+    const auto& s = total.seconds;
+    more.seconds.tangent += s.tangent;
+    more.seconds.factor += s.factor;
+    more.seconds.solve += s.solve;
+    more.seconds.orderRhs += s.orderRhs;
+    more.seconds.residual += s.residual;
+    more.seconds.total += s.total;
+    total = more;
+  }
+  return total;
+}
 
 /// The laws of the contacts with all of their numbers.
 nlohmann::ordered_json contacts(const Scene& scene) {
@@ -223,6 +279,7 @@ nlohmann::ordered_json summary(const Scene& scene, const path::Outcome& outcome,
   json["unknowns"] = scene.numUnknowns();
   json["free_unknowns"] = scene.problem().numFreeDofs();
   json["contact_points"] = scene.numContactPoints();
+  json["steps_taken_back"] = recorder.repeated();
   json["contact_events"] = recorder.contactEvents();
   json["contacts"] = contacts(scene);
   json["solver"] = solver.name();
@@ -264,7 +321,7 @@ RunResult runScene(Scene& scene, const RunOptions& options) {
   Recorder recorder(scene, options);
   const path::State start{problem.initialState(0.0), 0.0};
   recorder.writeStart(start);
-  const path::Outcome outcome = follower.run(start, recorder);
+  const path::Outcome outcome = followPath(follower, recorder);
   auto json = summary(scene, outcome, *solver, recorder);
   std::string sharpening;
   if (deck.path.sharpen && outcome.reason == path::EndReason::stopReached && !interrupted) {
