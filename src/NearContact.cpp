@@ -1,8 +1,6 @@
 #include "NearContact.hpp"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
 namespace atrapos {
 namespace {
@@ -23,12 +21,6 @@ NearContact::NearContact(const RigidTool& tool, const contact::AnyPressure& pres
       referenceGaps_(referenceGaps),
       all_(tool.term(pressure, points, referenceGaps)),
       carried_(points.numEntities, all ? 1 : 0) {
-  const int N = points_.nodesPerEntity;
-  for (int p = 0; p < points_.numPoints(); ++p) {
-    double sum = 0;
-    for (int n = 0; n < N; ++n) sum += std::abs(points_.shape[static_cast<std::size_t>(p) * N + n]);
-    largestShapeSum_ = std::max(largestShapeSum_, sum);
-  }
   make();
 }
 
@@ -43,7 +35,7 @@ void NearContact::setPositions(const std::vector<int>& positions) {
 }
 
 /// The term of the entities that are carried.
-void NearContact::make() const {
+void NearContact::make() {
   near_.reset();
   const std::size_t N = points_.nodesPerEntity, Q = points_.pointsPerEntity;
   fem::PointSet part;
@@ -68,67 +60,54 @@ void NearContact::make() const {
   if (!positions_.empty()) near_->setPositions(positions);
 }
 
-void NearContact::grow(const fem::ConstField& u, double lambda) const {
+bool NearContact::search(const fem::ConstField& u, double lambda, std::vector<char>* joining) const {
   const auto host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), u);
-  const auto& nodes = points_.nodes;
-  double moved = std::numeric_limits<double>::infinity();
-  if (!searchedAt_.empty() && !tool_.moves()) {
-    double square = 0;
-    for (std::size_t n = 0; n < nodes.size(); ++n) {
-      double sum = 0;
-      for (int i = 0; i < 3; ++i) {
-        const double d = host(3 * static_cast<std::size_t>(nodes[n]) + i) - searchedAt_[3 * n + i];
-        sum += d * d;
-      }
-      if (!(sum <= square)) square = sum;  // also where it is not a number
-    }
-    moved = largestShapeSum_ * std::sqrt(square);
-  }
-  if (moved < slack_) return;
   const int N = points_.nodesPerEntity, Q = points_.pointsPerEntity;
-  slack_ = std::numeric_limits<double>::infinity();
-  bool grown = false;
+  bool found = false;
   for (std::size_t e = 0; e < carried_.size(); ++e) {
     if (carried_[e]) continue;
-    for (int q = 0; q < Q && !carried_[e]; ++q) {
+    for (int q = 0; q < Q; ++q) {
       const std::size_t p = e * Q + q;
       double place[4] = {points_.positions[3 * p], points_.positions[3 * p + 1], points_.positions[3 * p + 2],
                          lambda};
       for (int n = 0; n < N; ++n)
         for (int i = 0; i < 3; ++i)
-          place[i] += points_.shape[p * N + n] * host(3 * static_cast<std::size_t>(nodes[e * N + n]) + i);
+          place[i] +=
+              points_.shape[p * N + n] * host(3 * static_cast<std::size_t>(points_.nodes[e * N + n]) + i);
       const ToolProjection over = tool_.project(place);
-      const double room = over.gap < 0 ? -1 : over.distance - 0.5 * referenceGaps_[p];
-      if (!(room > 0)) carried_[e] = grown = true;
-      slack_ = std::min(slack_, room);
+      // Over no part of the tool the distance tells how soon it may be; also where it is not a number.
+      const double distance = over.gap < 0 ? over.gap : over.distance;
+      if (distance > 0.5 * referenceGaps_[p]) continue;
+      found = true;
+      if (joining == nullptr) return true;
+      (*joining)[e] = 1;
+      break;
     }
   }
-  searchedAt_.resize(3 * nodes.size());
-  for (std::size_t n = 0; n < nodes.size(); ++n)
-    for (int i = 0; i < 3; ++i) searchedAt_[3 * n + i] = host(3 * static_cast<std::size_t>(nodes[n]) + i);
-  if (!grown) return;
-  slack_ = -1;  // of the entities that joined; the others' is found at the next evaluation
+  return found;
+}
+
+void NearContact::grow(const fem::ConstField& u, double lambda) {
+  std::vector<char> joining = carried_;
+  if (!search(u, lambda, &joining)) return;
+  carried_ = joining;
   make();
 }
 
 double NearContact::addResidual(const fem::ConstField& u, double lambda, const fem::Field& f) const {
-  grow(u, lambda);
   return near_ ? near_->addResidual(u, lambda, f) : 0;
 }
 
 void NearContact::addTangent(const fem::ConstField& u, double lambda, const fem::TangentSink& sink) const {
-  grow(u, lambda);
   if (near_) near_->addTangent(u, lambda, sink);
 }
 
 void NearContact::beginSeries(const fem::ConstField& u, double lambda, int maxOrder) {
-  grow(u, lambda);
-  series_ = near_;
-  if (series_) series_->beginSeries(u, lambda, maxOrder);
+  if (near_) near_->beginSeries(u, lambda, maxOrder);
 }
 
 void NearContact::addOrder(int k, const fem::ConstField& last, double lastLambda, const fem::Field& f) {
-  if (series_) series_->addOrder(k, last, lastLambda, f);
+  if (near_) near_->addOrder(k, last, lastLambda, f);
 }
 
 fem::PointValues NearContact::observe(const fem::ConstField& u, double lambda) const {

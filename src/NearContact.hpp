@@ -10,11 +10,10 @@ namespace atrapos {
 
 /// The contact of those faces or nodes that are near a tool; the others carry no law until they get there.
 ///
-/// Whenever a residual, a tangent or a series is evaluated, an entity with a point whose gap is below half of
-/// its reference gap joins, and stays: a step that brings a point to the tool is measured with that point's
-/// force, and cut back. What is left out is the law beyond Delta/2: with (15) less than eta a point.
-/// Distances change by no more than points move, so the search is made only where something can have come
-/// near.
+/// An entity is near where the gap of one of its points is below half of its reference gap. What is left out
+/// is the law beyond Delta/2: with (15) less than eta a point. Entities join by `grow`, between steps, and
+/// stay; somebody looks along every step whether others have come near, and takes the step back where they
+/// have (Run.cpp).
 class NearContact final : public fem::Term {
  public:
   /// `all`: every entity joins at once. The tool outlives the term.
@@ -23,6 +22,11 @@ class NearContact final : public fem::Term {
 
   /// Points that carry the law.
   int numCarried() const;
+
+  /// Whether an entity that carries no law is near in the state (u, lambda).
+  bool othersAreNear(const fem::ConstField& u, double lambda) const { return search(u, lambda, nullptr); }
+  /// Those that are near there join. Not while a series is under way.
+  void grow(const fem::ConstField& u, double lambda);
 
   int numEntities() const override { return all_->numEntities(); }
   int nodesPerEntity() const override { return all_->nodesPerEntity(); }
@@ -39,23 +43,17 @@ class NearContact final : public fem::Term {
   std::size_t historyBytes(int maxOrder) const override;
 
  private:
-  void grow(const fem::ConstField& u, double lambda) const;
-  void make() const;
+  bool search(const fem::ConstField& u, double lambda, std::vector<char>* joining) const;
+  void make();
 
   const RigidTool& tool_;
   contact::AnyPressure pressure_;
   fem::PointSet points_;
   std::vector<double> referenceGaps_;
-  double largestShapeSum_ = 1;  ///< sum of |N| at a point: how much farther a point moves than its nodes
   std::unique_ptr<fem::Term> all_;
   std::vector<int> positions_;
-
-  // What grows while states are evaluated.
-  mutable std::vector<char> carried_;        ///< [entity]
-  mutable std::shared_ptr<fem::Term> near_;  ///< null: none
-  std::shared_ptr<fem::Term> series_;        ///< that of the series under way
-  mutable std::vector<double> searchedAt_;   ///< u at the term's nodes when it was searched last
-  mutable double slack_ = -1;                ///< how far points may move until the next search
+  std::vector<char> carried_;        ///< [entity]
+  std::unique_ptr<fem::Term> near_;  ///< null: none
 };
 
 }  // namespace atrapos

@@ -68,6 +68,9 @@ class PathCase {
   virtual std::unique_ptr<StepWatch> makeWatch(const std::string& /*file*/) const { return nullptr; }
   /// Lines for the user before the first step: what was chosen for him.
   virtual std::vector<std::string> remarks() const { return {}; }
+  /// Whether the step leads where the problem has to be another one, as it is from now on: the step has to be
+  /// made again from its start.
+  virtual bool changedOn(double /*length*/, const path::Series& /*series*/) { return false; }
   /// What belongs into summary.json besides.
   virtual void summarize(nlohmann::ordered_json& /*summary*/) const {}
   /// What the deck asks for where the path has reached its stop; a line for the user, or none.

@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "RigidToolOf.hpp"
+#include "deck/Deck.hpp"
 
 namespace atrapos {
 namespace {

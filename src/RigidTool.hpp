@@ -9,9 +9,12 @@
 #include "atrapos/contact/OneOf.hpp"
 #include "atrapos/fem/PointSet.hpp"
 #include "atrapos/fem/Term.hpp"
-#include "deck/Deck.hpp"
 
 namespace atrapos {
+
+namespace deck {
+struct Tool;
+}
 
 /// Where a place is over a tool.
 struct ToolProjection {

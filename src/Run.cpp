@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <ostream>
@@ -22,15 +23,57 @@ namespace {
 /// A path without branches as a diagram of one.
 class Single final : public path::Observer {
  public:
-  Single(Recorder& recorder, path::BranchDiagram& diagram) : recorder_(recorder), diagram_(diagram) {}
+  Single(PathCase& pathCase, Recorder& recorder, path::BranchDiagram& diagram)
+      : case_(pathCase), recorder_(recorder), diagram_(diagram) {}
+
+  /// Follows the path; where the problem has become another one on a step, again from the step's start.
+  path::Outcome follow(path::PathFollower& follower, const path::Start& start) {
+    next_ = start;
+    path::Outcome total;
+    do {
+      changed_ = false;
+      const path::Outcome part = follower.runFrom(next_, *this);
+      total = total.final.u ? sum(total, part) : part;
+    } while (changed_);
+    return total;
+  }
+
   bool onStep(const path::StepReport& report, const path::Series& series) override {
+    changed_ = case_.changedOn(report.length, series);
+    if (changed_) return false;
+    next_ = report.next;
     for (const auto& point : report.criticalPoints) diagram_.points.push_back({point, 0, report.step});
     return recorder_.onStep(0, report, series);
   }
 
  private:
+  /// The costs of both; all else is that of the last part.
+  static path::Outcome sum(const path::Outcome& first, path::Outcome last) {
+    last.factorizations += first.factorizations;
+    last.solves += first.solves;
+    last.orders += first.orders;
+    last.startIterations += first.startIterations;
+    last.corrections += first.corrections;
+    last.restarts += first.restarts;
+    last.retreats += first.retreats;
+    last.criticalFactorizations += first.criticalFactorizations;
+    last.closings += first.closings;
+    last.cutBacks += first.cutBacks;
+    last.worstResidual = std::max(last.worstResidual, first.worstResidual);
+    last.seconds.tangent += first.seconds.tangent;
+    last.seconds.factor += first.seconds.factor;
+    last.seconds.solve += first.seconds.solve;
+    last.seconds.orderRhs += first.seconds.orderRhs;
+    last.seconds.residual += first.seconds.residual;
+    last.seconds.total += first.seconds.total;
+    return last;
+  }
+
+  PathCase& case_;
   Recorder& recorder_;
   path::BranchDiagram& diagram_;
+  path::Start next_;
+  bool changed_ = false;
 };
 
 bool isBranchFile(const std::string& name) {
@@ -109,9 +152,10 @@ RunResult runPath(PathCase& pathCase, const RunOptions& options) {
   if (deck.path.branches == path::Follow::none) {
     diagram.branches.emplace_back();
     diagram.branches[0].start = continued ? continued->from.state : start;
-    Single single(recorder, diagram);
-    diagram.branches[0].outcome =
-        continued ? follower.runFrom(continued->from, single) : follower.run(start, single);
+    path::Start from;
+    from.state = start;
+    Single single(pathCase, recorder, diagram);
+    diagram.branches[0].outcome = single.follow(follower, continued ? continued->from : from);
   } else {
     diagram = tree.run(start, recorder);
   }

@@ -37,7 +37,7 @@ struct ContactPoints {
   std::vector<std::vector<double>> references;  ///< [term][point] Delta
   std::vector<std::vector<double>> closedGaps;  ///< [term][point] a point with a smaller gap is closed
   const RigidTool* tool = nullptr;
-  std::vector<const NearContact*> near;  ///< [term]
+  std::vector<NearContact*> near;  ///< [term]
   ContactPressure pressure;
   int count = 0;
   double smallestGap = 0;  ///< at the start
@@ -68,6 +68,11 @@ class Scene {
   int numContactPoints() const;
   /// Of the problem, supported ones included: three for each node of the mesh and each director.
   int numUnknowns() const;
+
+  /// Whether points that carry no contact law so far are near their tool in a state; with `grow` they carry
+  /// it from then on.
+  bool othersAreNear(const path::Vector& u, double lambda) const;
+  void grow(const path::Vector& u, double lambda);
 
   /// The body at this load factor, which stays, with contacts whose regularisation falls: eta exp(-s), s in
   /// place of the load factor in all members from now on. Throws std::logic_error where a law is not (15).

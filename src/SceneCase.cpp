@@ -97,6 +97,21 @@ std::vector<std::string> SceneCase::remarks() const {
   return lines;
 }
 
+bool SceneCase::changedOn(double length, const path::Series& series) {
+  if (scene_.contacts().empty()) return false;
+  constexpr int places = 8;
+  path::Vector u(scene_.problem().map());
+  bool changed = false;
+  for (int j = 1; j <= places; ++j) {
+    const double lambda = series.evaluate(length * j / places, u);
+    if (!scene_.othersAreNear(u, lambda)) continue;
+    changed = true;
+    scene_.grow(u, lambda);
+  }
+  takenBack_ += changed ? 1 : 0;
+  return changed;
+}
+
 void SceneCase::summarize(nlohmann::ordered_json& summary) const {
   auto contacts = nlohmann::ordered_json::object();
   for (const ContactPoints& contact : scene_.contacts()) {
@@ -107,6 +122,7 @@ void SceneCase::summarize(nlohmann::ordered_json& summary) const {
     entry["points_carried"] = contact.numCarried();
   }
   summary["contacts"] = contacts;
+  summary["steps_taken_back"] = takenBack_;
 }
 
 std::string SceneCase::finish(const path::State& end, const path::Options& options,

@@ -22,6 +22,8 @@ class SceneCase final : public PathCase {
   std::unique_ptr<FieldFile> makeFieldFile(const std::string& file) const override;
   std::unique_ptr<StepWatch> makeWatch(const std::string& file) const override;
   std::vector<std::string> remarks() const override;
+  /// Points without a contact law that come near their tool on the step get it.
+  bool changedOn(double length, const path::Series& series) override;
   void summarize(nlohmann::ordered_json& summary) const override;
   /// Sharpens the contacts where the deck says so.
   std::string finish(const path::State& end, const path::Options& options, linear::TangentSolver& solver,
@@ -30,6 +32,7 @@ class SceneCase final : public PathCase {
 
  private:
   Scene& scene_;
+  int takenBack_ = 0;
 };
 
 }  // namespace atrapos

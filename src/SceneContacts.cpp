@@ -47,7 +47,9 @@ void Scene::addContacts(fem::FeModel& model) {
     entry.name = contact.name;
     entry.tool = tools_[position - deck_.tools.begin()].get();
     entry.points = pointsOf(contact);
-    const bool all = contact.carried == deck::Contact::Carried::All || heldByContacts;
+    // A tool that moves may be all that drives the body; the steps of branches are not made again.
+    const bool all = contact.carried == deck::Contact::Carried::All || heldByContacts ||
+                     entry.tool->moves() || deck_.path.branches != path::Follow::none;
     measureGaps(contact, entry);
     choosePressure(contact, body, entry);
     for (std::size_t t = 0; t < entry.points.size(); ++t) {
@@ -179,6 +181,18 @@ BodySize Scene::bodySize() const {
 int Scene::numContactPoints() const {
   return std::accumulate(contacts_.begin(), contacts_.end(), 0,
                          [](int n, const ContactPoints& c) { return n + c.count; });
+}
+
+bool Scene::othersAreNear(const path::Vector& u, double lambda) const {
+  for (const ContactPoints& contact : contacts_)
+    for (const NearContact* term : contact.near)
+      if (term->othersAreNear(fem::field(u), lambda)) return true;
+  return false;
+}
+
+void Scene::grow(const path::Vector& u, double lambda) {
+  for (const ContactPoints& contact : contacts_)
+    for (NearContact* term : contact.near) term->grow(fem::field(u), lambda);
 }
 
 int ContactPoints::numCarried() const {

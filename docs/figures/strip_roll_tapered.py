@@ -89,7 +89,7 @@ def profiles(folder):
     for place in LINES:
         on = np.where((abs(y - place) < 1e-6) & (abs(z - z.min()) < 1e-6))[0]
         on = on[np.argsort(x[on])]
-        result[place] = x[on], u["displ_z"][on], u["contact_gap"][on]
+        result[place] = x[on], u["displ_z"][on]
     return result
 
 
@@ -98,26 +98,23 @@ def main(cylinder, tapered):
     both = [profiles(cylinder), profiles(tapered)]
     for axis, result, title in zip(axes, both, ("cylinder", "tapered roll")):
         for place, label in LINES.items():
-            x, w, _ = result[place]
+            x, w = result[place]
             near = (x > 150) & (x < 260)
             axis.plot(x[near], w[near], label=label)
         axis.set(xlabel="x (mm)", ylabel="vertical displacement (mm)", title=title)
         axis.legend(fontsize=8)
         axis.grid(True)
-    for result, style in zip(both, ("--", "-")):
-        for color, place in zip(("C0", "C1", "C2"), LINES):
-            x, _, gap = result[place]
-            near = (x > 190) & (x < 260)
-            axes[2].plot(x[near], gap[near], style, color=color)
-    axes[2].set(xlabel="x (mm)", ylabel="gap (mm)", title="gap: cylinder dashed, tapered roll solid", ylim=(-0.05, 1.2))
+    for color, place in zip(("C0", "C1", "C2"), LINES):
+        x, w = both[1][place]
+        axes[2].plot(x, w - both[0][place][1], color=color)
+    axes[2].set(xlabel="x (mm)", ylabel="difference (mm)", title="tapered roll less cylinder")
     axes[2].grid(True)
     fig.tight_layout()
     fig.savefig(pathlib.Path(__file__).with_suffix(".png"), dpi=110)
     for name, result in zip(("cylinder", "tapered"), both):
         for place in LINES:
-            x, w, gap = result[place]
-            print(f"{name:9} y = {place:3}: lowest gap {np.min(gap[x > 150]):.6f} at x = "
-                  f"{x[x > 150][np.argmin(gap[x > 150])]:.0f}, w(400) = {w[-1]:.4f}")
+            x, w = result[place]
+            print(f"{name:9} y = {place:3}: w(200) = {w[x == 200][0]:.4f}, w(400) = {w[-1]:.4f}")
 
 
 if __name__ == "__main__":

@@ -265,7 +265,7 @@ struct Contact {
   std::optional<double> touching;        ///< R_0 > 0 of the exponential law; empty = chosen
   std::optional<double> length;          ///< l > 0 of the exponential and penalty laws; empty = chosen
   std::optional<double> referenceGap;    ///< Delta > eta/alpha; empty = each point's own initial gap
-  Carried carried = Carried::Near;
+  Carried carried = Carried::All;
   /// Whether 1/alpha = 0.
   bool isRigid() const { return rigid || law == Law::Barrier; }
 };

@@ -289,7 +289,7 @@ const Table<Contact>& contactTable() {
         gap,
         choice("carried", optional, &Contact::carried,
                Choices<Contact::Carried>{{"near", Contact::Carried::Near}, {"all", Contact::Carried::All}},
-               "by which points the law is carried: those that come nearer than half of Delta, or all")};
+               "by which points the law is carried: all, or those that come nearer than half of Delta")};
   }();
   return table;
 }

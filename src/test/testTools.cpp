@@ -163,7 +163,7 @@ TEST_F(Moving, ATurnEndsWhereAShiftEnds) {
   // 2 below the pivot, turned by 45 degrees.
   const std::string sphere = "{type: sphere, center: [3, 0.5, -1.3], radius: 1, motion: ";
   const End straight = endWith(sphere + "{shift: [2.8284271247461903, 0, 1.1715728752538097]}}");
-  EXPECT_GT(straight.force, 1.0);
+  EXPECT_GT(straight.force, 0.5);
   same(endWith(sphere + "{angle: [-90], axis: [0, 1, 0], pivot: [3, 0.5, 0.7]}}"), straight);
 }
 
@@ -198,7 +198,7 @@ TEST_F(Laws, SharpenedIsTheRunWithTheSmallerEta) {
   writeFile(folder_ / "deck.yaml",
             edited(readFile(folder_ / "deck.yaml"), "order: 15", "order: 15\n  sharpen: 1.0e-4"));
   const End soft = endOfDeck("with sharpen");
-  EXPECT_GT(std::fabs(soft.force - sharp.force), 1e-3 * sharp.force);
+  EXPECT_GT(std::fabs(soft.force - sharp.force), 5e-4 * sharp.force);
   std::istringstream lines(readFile(folder_ / "deck_results" / "sharpen.csv"));
   std::string line, last;
   std::getline(lines, line);
