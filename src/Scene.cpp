@@ -11,6 +11,7 @@
 #include "FollowerLoads.hpp"
 #include "Registry.hpp"
 #include "atrapos/fem/ReferenceCell.hpp"
+#include "atrapos/fem/RigidBody.hpp"
 #include "atrapos/fem/ShellFaces.hpp"
 #include "atrapos/solid/ShellResults.hpp"
 
@@ -25,9 +26,12 @@ Scene::Scene(const deck::Deck& deck, fem::Mesh mesh) : deck_(deck), mesh_(std::m
   }
   fem::FeModel model;
   model.numNodes = shells_.geometry.numNodes();
+  for (const deck::Coupling& coupling : deck_.couplings)
+    if (coupling.kind == deck::Coupling::Kind::Rigid) model.numNodes += fem::RigidBody::numNodes;
   addMaterials(model);
   model.supports = fem::Supports(model.numNodes);
   addSupports(model);
+  addCouplings(model);
   addLoads(model);
   addFollowers(model);
   addContacts(model);
@@ -175,7 +179,7 @@ void Scene::requireSupport(const fem::Supports& supports) const {
         held.push_back({n, {y[1], y[2], y[3]}});
       }
   }
-  for (const fem::FreeBody& body : fem::freeBodies(mesh_, supports, held, &shells_.geometry))
+  for (const fem::FreeBody& body : fem::freeBodies(mesh_, supports, held, &shells_.geometry, joinedNodes()))
     fail("supports",
          fmt::format("the body with block '{}' can still move freely in {} rigid motion{}: prescribe more "
                      "displacements",

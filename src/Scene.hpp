@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "Shells.hpp"
@@ -87,6 +88,11 @@ class Scene {
   void addMaterials(fem::FeModel& model);
   BodyBlock addShell(const deck::Material& material, int shells, fem::FeModel& model) const;
   void addSupports(fem::FeModel& model) const;
+  void addCouplings(fem::FeModel& model) const;
+  /// Pairs of nodes that couplings join, as if an element did.
+  std::vector<std::pair<int, int>> joinedNodes() const;
+  /// The solid's nodes at the top and bottom of a shell's director.
+  std::array<int, 2> solidNodesAt(const deck::Coupling& coupling, int director) const;
   void addLoads(fem::FeModel& model) const;
   void addFollowers(fem::FeModel& model) const;
   void addContacts(fem::FeModel& model);
