@@ -91,8 +91,12 @@ class Scene {
   void addCouplings(fem::FeModel& model) const;
   /// Pairs of nodes that couplings join, as if an element did.
   std::vector<std::pair<int, int>> joinedNodes() const;
-  /// The solid's nodes at the top and bottom of a shell's director.
-  std::array<int, 2> solidNodesAt(const deck::Coupling& coupling, int director) const;
+  /// The nodes of a solid along a shell's director, with their zeta.
+  struct SolidSide {
+    int top = -1, bottom = -1;
+    std::vector<std::pair<int, double>> between;
+  };
+  SolidSide solidNodesAt(const deck::Coupling& coupling, int director) const;
   void addLoads(fem::FeModel& model) const;
   void addFollowers(fem::FeModel& model) const;
   void addContacts(fem::FeModel& model);

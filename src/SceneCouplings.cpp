@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "Scene.hpp"
 #include "atrapos/fem/RigidBody.hpp"
@@ -68,40 +69,44 @@ double largestYoungsModulus(const deck::Deck& deck) {
 
 }  // namespace
 
-std::array<int, 2> Scene::solidNodesAt(const deck::Coupling& coupling, int director) const {
+Scene::SolidSide Scene::solidNodesAt(const deck::Coupling& coupling, int director) const {
   const fem::ShellGeometry& g = shells_.geometry;
   const int shellNode = g.meshNode[director - g.numMeshNodes];
   const double* D = &g.directors[3 * static_cast<std::size_t>(director - g.numMeshNodes)];
   const double* X = &mesh_.coordinates[3 * static_cast<std::size_t>(shellNode)];
   const double half = std::hypot(D[0], D[1], D[2]);
-  std::array<int, 2> found{-1, -1};  // top, bottom
+  // A thousandth of the thickness: meshes of both parts are made to fit, up to rounding in their files.
+  const double near = 1e-3;
+  std::map<int, double> onDirector;  // node of a solid -> zeta
   for (const fem::Block& block : mesh_.blocks) {
     if (fem::isShell(block.topology)) continue;
     for (int n : block.nodes) {
       const double* Y = &mesh_.coordinates[3 * static_cast<std::size_t>(n)];
-      for (int side = 0; side < 2; ++side) {
-        const double s = side == 0 ? 1 : -1;
-        // A thousandth of the thickness: meshes of both parts are made to fit, up to rounding in their files.
-        if (std::hypot(Y[0] - X[0] - s * D[0], Y[1] - X[1] - s * D[1], Y[2] - X[2] - s * D[2]) < 2e-3 * half)
-          found[side] = n;
-      }
+      const double d[3] = {Y[0] - X[0], Y[1] - X[1], Y[2] - X[2]};
+      const double zeta = (d[0] * D[0] + d[1] * D[1] + d[2] * D[2]) / (half * half);
+      const double off = std::hypot(d[0] - zeta * D[0], d[1] - zeta * D[1], d[2] - zeta * D[2]);
+      if (off < near * half && std::abs(zeta) < 1 + near) onDirector[n] = zeta;
     }
   }
-  for (int side = 0; side < 2; ++side)
-    if (found[side] < 0)
-      fail("couplings/" + coupling.name + "/set",
-           fmt::format("no node of a solid at the {} of the shell's node {}", side == 0 ? "top" : "bottom",
-                       shellNode + 1));
-  return found;
+  SolidSide side;
+  for (const auto& [node, zeta] : onDirector) {
+    if (zeta > 1 - near)
+      side.top = node;
+    else if (zeta < -1 + near)
+      side.bottom = node;
+    else if (node != shellNode)
+      side.between.push_back({node, zeta});
+  }
+  if (side.top < 0 || side.bottom < 0)
+    fail("couplings/" + coupling.name + "/set",
+         fmt::format("no node of a solid at the {} of the shell's node {}", side.top < 0 ? "top" : "bottom",
+                     shellNode + 1));
+  return side;
 }
 
 void Scene::addCouplings(fem::FeModel& model) const {
   const fem::ShellGeometry& g = shells_.geometry;
   int nextRigid = g.numNodes();
-  std::vector<char> inSolid(mesh_.numNodes(), 0);
-  for (const fem::Block& block : mesh_.blocks)
-    if (!fem::isShell(block.topology))
-      for (int n : block.nodes) inSolid[n] = 1;
   for (const deck::Coupling& coupling : deck_.couplings) try {
       const std::vector<int> nodes = nodesOf(coupling.set);
       switch (coupling.kind) {
@@ -118,8 +123,11 @@ void Scene::addCouplings(fem::FeModel& model) const {
         case Kind::ShellOnSolid:
           for (int node : nodes)
             for (int director : g.directorNodes(node)) {
-              const auto [top, bottom] = solidNodesAt(coupling, director);
-              fem::coupleShellToSolid(model.couplings, node, director, top, bottom, !inSolid[node]);
+              const SolidSide side = solidNodesAt(coupling, director);
+              fem::coupleShellToSolid(model.couplings, node, director, side.top, side.bottom);
+              for (const auto& [between, zeta] : side.between)
+                fem::coupleNode(model.couplings, between,
+                                {{side.top, 0.5 * (1 + zeta)}, {side.bottom, 0.5 * (1 - zeta)}});
             }
           break;
       }
@@ -138,7 +146,7 @@ std::vector<std::pair<int, int>> Scene::joinedNodes() const {
     if (coupling.kind == Kind::ShellOnSolid)
       for (int node : nodes)
         for (int director : shells_.geometry.directorNodes(node))
-          joined.push_back({node, solidNodesAt(coupling, director)[0]});
+          joined.push_back({node, solidNodesAt(coupling, director).top});
   }
   return joined;
 }

@@ -212,14 +212,16 @@ struct HalfAndHalf {
     model.supports = fem::Supports(model.numNodes);
     model.load.assign(3 * model.numNodes, 0.0);
     for (int n : grid.lineI(0)) {
-      int top = -1, bottom = -1;
+      int top = -1, bottom = -1, middle = -1;
       for (int m = 0; m < solid.numNodes(); ++m) {
         const double* X = &solid.coordinates[3 * m];
         if (std::abs(X[0] - 5) > 1e-9 || std::abs(X[1] - grid.x[n][1]) > 1e-9) continue;
         if (std::abs(X[2] - h / 2) < 1e-9) top = shift + m;
         if (std::abs(X[2] + h / 2) < 1e-9) bottom = shift + m;
+        if (std::abs(X[2]) < 1e-9) middle = shift + m;
       }
       fem::coupleShellToSolid(model.couplings, n, grid.director(n), top, bottom);
+      if (middle >= 0) fem::coupleNode(model.couplings, middle, {{top, 0.5}, {bottom, 0.5}});
     }
     for (int m = 0; m < solid.numNodes(); ++m)
       for (int i = 0; i < 3 && solid.coordinates[3 * m] < 1e-9; ++i)
