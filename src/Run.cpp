@@ -50,6 +50,8 @@ class Single final : public path::Observer {
   /// The costs of both; all else is that of the last part.
   static path::Outcome sum(const path::Outcome& first, path::Outcome last) {
     last.factorizations += first.factorizations;
+    last.events += first.events;
+    last.eventTrials += first.eventTrials;
     last.solves += first.solves;
     last.orders += first.orders;
     last.startIterations += first.startIterations;

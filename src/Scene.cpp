@@ -10,6 +10,7 @@
 #include "Registry.hpp"
 #include "Sets.hpp"
 #include "atrapos/fem/ReferenceCell.hpp"
+#include "atrapos/fem/RigidBody.hpp"
 #include "atrapos/fem/ShellFaces.hpp"
 #include "atrapos/solid/ShellResults.hpp"
 
@@ -24,9 +25,12 @@ Scene::Scene(const deck::Deck& deck, fem::Mesh mesh) : deck_(deck), mesh_(std::m
   }
   fem::FeModel model;
   model.numNodes = shells_.geometry.numNodes();
+  for (const deck::Coupling& coupling : deck_.couplings)
+    if (coupling.kind == deck::Coupling::Kind::Rigid) model.numNodes += fem::RigidBody::numNodes;
   addMaterials(model);
   model.supports = fem::Supports(model.numNodes);
   addSupports(model);
+  addCouplings(model);
   addLoads(model);
   addFollowers(model);
   addContacts(model);
@@ -97,7 +101,7 @@ void Scene::requireSupport(const fem::Supports& supports) const {
         const ToolProjection over = contact.tool->project(place);
         if (std::isfinite(over.gap)) held.push_back({n, {over.normal[0], over.normal[1], over.normal[2]}});
       }
-  for (const fem::FreeBody& body : fem::freeBodies(mesh_, supports, held, &shells_.geometry))
+  for (const fem::FreeBody& body : fem::freeBodies(mesh_, supports, held, &shells_.geometry, joinedNodes()))
     fail("supports",
          fmt::format("the body with block '{}' can still move freely in {} rigid motion{}: prescribe more "
                      "displacements",

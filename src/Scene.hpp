@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "ContactPressure.hpp"
@@ -107,6 +108,15 @@ class Scene {
   void addMaterials(fem::FeModel& model);
   BodyBlock addShell(const deck::Material& material, int shells, fem::FeModel& model) const;
   void addSupports(fem::FeModel& model) const;
+  void addCouplings(fem::FeModel& model) const;
+  /// Pairs of nodes that couplings join, as if an element did.
+  std::vector<std::pair<int, int>> joinedNodes() const;
+  /// The nodes of a solid along a shell's director, with their zeta.
+  struct SolidSide {
+    int top = -1, bottom = -1;
+    std::vector<std::pair<int, double>> between;
+  };
+  SolidSide solidNodesAt(const deck::Coupling& coupling, int director) const;
   void addLoads(fem::FeModel& model) const;
   void addFollowers(fem::FeModel& model) const;
   void addContacts(fem::FeModel& model);

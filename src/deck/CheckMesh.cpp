@@ -140,6 +140,14 @@ class MeshCheck {
     }
   }
 
+  void coupling(const Coupling& coupling) const {
+    const std::string path = "couplings/" + coupling.name;
+    nodes(path + "/set", coupling.set);
+    if (coupling.kind == Coupling::Kind::ShellOnSolid && !hasShells(coupling.set)) {
+      fail(path + "/set", fmt::format("no node of '{}' belongs to shells", coupling.set));
+    }
+  }
+
   void contact(const Contact& contact) const {
     const std::string path = "contact/" + contact.name;
     if (contact.points == Contact::Points::Quadrature) {
@@ -211,6 +219,9 @@ void checkAgainstMesh(const Deck& deck, const fem::Mesh& mesh) {
   check.sections();
   for (const auto& support : deck.supports) {
     check.support(support);
+  }
+  for (const auto& coupling : deck.couplings) {
+    check.coupling(coupling);
   }
   for (const auto& load : deck.loads) {
     check.load(load);

@@ -87,6 +87,20 @@ struct Support {
 /// Whether a condition holds this component (0, 1, 2) of the displacement, or of the director's displacement.
 bool holds(Support::Condition condition, std::size_t axis, bool director);
 
+/// Nodes of a set that move together.
+struct Coupling {
+  enum class Kind {
+    Equal,        ///< every component as that of the set's first node
+    Plane,        ///< a common displacement along `normal`; directors of shells stay in the plane
+    Rigid,        ///< a rigid body of finite rotations, directors of shells with it
+    ShellOnSolid  ///< nodes of shells follow the nodes of a solid at the top and bottom of their directors
+  };
+  std::string name;
+  std::string set;  ///< node set, else side set
+  Kind kind = Kind::Rigid;
+  std::optional<Vector3> normal;  ///< plane only, not zero, any length
+};
+
 // ---------------------------------------------------------------------------------------------- loads
 
 /// Forces on the nodes of a set.
@@ -376,6 +390,7 @@ struct Deck {
   std::vector<Material> materials;  ///< all entries in the deck's order
   Shells shells;
   std::vector<Support> supports;
+  std::vector<Coupling> couplings;
   std::vector<Load> loads;
   std::vector<Tool> tools;
   std::vector<Contact> contacts;

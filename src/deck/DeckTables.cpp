@@ -82,6 +82,20 @@ const Table<Deck>& deckTable() {
         }
       }
     };
+    auto couplings = entries("couplings", optional, &Deck::couplings, couplingTable(),
+                             "each with kind, set, ...", "nodes that move together");
+    couplings.read = [inner = couplings.read](const Value& v, Deck& deck) {
+      inner(v, deck);
+      for (const auto& c : deck.couplings) {
+        const bool plane = c.kind == Coupling::Kind::Plane;
+        if (plane && !c.normal) {
+          v.at(c.name).failMissing("normal", "the plane's normal, a list of 3 numbers, not all zero");
+        }
+        if (!plane && c.normal) {
+          v.at(c.name).at("normal").fail("is for kind: plane alone");
+        }
+      }
+    };
     auto shells = block("shells", optional, &Deck::shells, shellsTable(), "thickness and folds of shells");
     shells.print = [inner = shells.print](const Deck& deck) {
       const bool plain = deck.shells.sections.empty() && deck.shells.foldAngle == Shells{}.foldAngle;
@@ -94,6 +108,7 @@ const Table<Deck>& deckTable() {
                 "what the blocks are made of"),
         shells,
         supports,
+        couplings,
         entries("loads", optional, &Deck::loads, loadVariants(), "each with type, ...",
                 "dead loads, multiplied by the load factor"),
         entries("tools", optional, &Deck::tools, toolVariants(), "each with type, ...", "rigid surfaces"),

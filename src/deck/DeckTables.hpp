@@ -17,6 +17,7 @@ const Variants<Material, decltype(Material::law)>& materialVariants();
 const Table<Shells>& shellsTable();
 const Table<ShellSection>& shellSectionTable();
 const Table<Support>& supportTable();
+const Table<Coupling>& couplingTable();
 const Variants<Load, decltype(Load::load)>& loadVariants();
 const Variants<Tool, decltype(Tool::surface)>& toolVariants();
 const Table<ToolMotion>& motionTable();

@@ -318,3 +318,39 @@ TEST(ShellDeckAgainstMesh, solidsHaveNeitherDirectorsNorTopAndBottom) {
             "shell.yaml: contact/below/at: the side set 'bottom' has faces of solids; top and bottom are for "
             "shells");
 }
+
+// Couplings: what each kind needs, and that the deck is printed as it was read.
+TEST(ShellDeck, couplings) {
+  const std::string text = changed("loads:\n", R"(couplings:
+  end: {kind: plane, set: x_max, normal: [2, 0, 0]}
+  rim: {kind: rigid, set: y_max}
+  pair: {kind: equal, set: x_mid}
+loads:
+)");
+  const Deck deck = readDeckText(text, "shell.yaml");
+  ASSERT_EQ(deck.couplings.size(), 3u);
+  EXPECT_EQ(deck.couplings[0].name, "end");
+  EXPECT_EQ(deck.couplings[0].kind, Coupling::Kind::Plane);
+  EXPECT_EQ(*deck.couplings[0].normal, (Vector3{2, 0, 0}));
+  EXPECT_EQ(deck.couplings[1].kind, Coupling::Kind::Rigid);
+  EXPECT_EQ(deck.couplings[1].set, "y_max");
+  EXPECT_FALSE(deck.couplings[1].normal);
+  std::ostringstream printed;
+  describe(deck, printed);
+  const Deck again = readDeckText(printed.str(), "shell.yaml");
+  ASSERT_EQ(again.couplings.size(), 3u);
+  EXPECT_EQ(*again.couplings[0].normal, (Vector3{2, 0, 0}));
+  EXPECT_EQ(again.couplings[2].kind, Coupling::Kind::Equal);
+
+  const auto refused = [&](const std::string& from, const std::string& to, const std::string& start) {
+    const fem::Mesh mesh = plateMesh();
+    const std::string error = errorOf(changed(from, to, text), &mesh);
+    EXPECT_EQ(error.substr(0, start.size() + 12), "shell.yaml: " + start) << error;
+  };
+  refused(", normal: [2, 0, 0]", "", "couplings/end/normal");
+  refused("normal: [2, 0, 0]", "normal: [0, 0, 0]", "couplings/end/normal: must not be the zero vector");
+  refused("{kind: rigid, set: y_max}", "{kind: rigid, set: y_max, normal: [1, 0, 0]}",
+          "couplings/rim/normal: is for kind: plane alone");
+  refused("kind: equal", "kind: same", "couplings/pair/kind: 'same' is not a choice here");
+  refused("set: y_max", "set: y_mox", "couplings/rim/set: the mesh has no node set or side set 'y_mox'");
+}

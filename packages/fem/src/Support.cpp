@@ -54,7 +54,8 @@ int rank(std::array<double, 36> gram) {
 }  // namespace
 
 std::vector<FreeBody> freeBodies(const Mesh& mesh, const Supports& supports,
-                                 const std::vector<HeldDirection>& held, const ShellGeometry* shells) {
+                                 const std::vector<HeldDirection>& held, const ShellGeometry* shells,
+                                 const std::vector<std::pair<int, int>>& joined) {
   const int numNodes = mesh.numNodes();
   std::vector<int> parent(numNodes);
   std::iota(parent.begin(), parent.end(), 0);
@@ -68,6 +69,7 @@ std::vector<FreeBody> freeBodies(const Mesh& mesh, const Supports& supports,
     for (std::size_t i = 0; i < block.nodes.size(); ++i)
       parent[root(block.nodes[i])] = root(block.nodes[i - i % N]);
   }
+  for (const auto& [a, b] : joined) parent[root(a)] = root(b);
   for (const Block& block : mesh.blocks)
     for (int n : block.nodes) bodies.emplace(root(n), block.name);
 

@@ -175,3 +175,17 @@ TEST(Couplings, PlaneEnd) {
   EXPECT_NEAR(stress[0], 0.3, 1e-12);  // the force over the area
   EXPECT_NEAR(stress[4], 0, 1e-12);
 }
+
+// Two boxes apart, one of them clamped: the other is free, unless a coupling joins them.
+TEST(Couplings, JoinedBodiesAreOne) {
+  const Mesh near = box(Topology::Hex8), far = box(Topology::Hex8, {1, 1, 1}, {1, 1, 1}, {5, 0, 0}),
+             both = glued({near, far});
+  ASSERT_EQ(both.numNodes(), near.numNodes() + far.numNodes());
+  Supports supports(both.numNodes());
+  for (int n = 0; n < near.numNodes(); ++n)
+    for (int i = 0; i < 3; ++i) supports.prescribe(n, i, 0, 0);
+  const auto free = freeBodies(both, supports, {});
+  ASSERT_EQ(free.size(), 1u);
+  EXPECT_EQ(free[0].motions, 6);
+  EXPECT_TRUE(freeBodies(both, supports, {}, nullptr, {{0, near.numNodes()}}).empty());
+}

@@ -141,7 +141,7 @@ TEST(RigidEnd, CantileverIsTheElastica) {
   }
   EXPECT_GT(compared, 20);
   const Numbers u = finalState(path);
-  EXPECT_NEAR(distance(u, grid, end.front(), end.back()), 1, 1e-8);  // what Newton's correction leaves
+  EXPECT_NEAR(distance(u, grid, end.front(), end.back()), 1, 1e-6);  // the path's residual bound
 }
 
 // With nu = 0.3 the end of a strip under a transverse force wants to curl; the rigid end does not, while a
@@ -162,12 +162,12 @@ TEST(RigidEnd, KeepsTheSectionOfATwistedStrip) {
   const Numbers u = finalState(path);
   // A large turn, and still a straight edge of length 1 with directors of half the thickness.
   EXPECT_GT(u[3 * end.back() + 2] - u[3 * end.front() + 2], 0.5);
-  EXPECT_NEAR(distance(u, grid, end[0], end[1]), 0.5, 1e-8);
-  EXPECT_NEAR(distance(u, grid, end[0], end[2]), 1.0, 1e-8);
+  EXPECT_NEAR(distance(u, grid, end[0], end[1]), 0.5, 1e-6);  // the path's residual bound
+  EXPECT_NEAR(distance(u, grid, end[0], end[2]), 1.0, 1e-6);
   for (int node : end) {
     double size = 0;
     for (int i = 0; i < 3; ++i) size += std::pow(grid.D(node)[i] + u[3 * grid.director(node) + i], 2);
-    EXPECT_NEAR(std::sqrt(size), 0.1, 1e-9);
+    EXPECT_NEAR(std::sqrt(size), 0.1, 1e-7);
   }
 }
 
@@ -192,40 +192,40 @@ struct HalfAndHalf {
   fem::Mesh solid;
   ShellGrid grid;
   fem::FeModel model;
-  int shift = 0;  ///< first node of the shell
 
-  int v(int n) const { return shift + n; }
-  int w(int n) const { return shift + grid.director(n); }
-  int tip() const { return v(grid.node(2 * grid.nu, 1)); }
+  int tip() const { return grid.node(2 * grid.nu, 1); }
 
   HalfAndHalf(int nSolid, int nShell, double h, double E, double nu) {
     solid = fem::test::box(fem::Topology::Hex20, {nSolid, 1, 1}, {5, 1, h}, {0, 0, -h / 2});
     grid = shellGrid(nShell, 1, h, [](double s, double t) {
       return SurfacePoint{{5 + 5 * s, t, 0}, {0, 0, 1}};
     });
-    shift = solid.numNodes();
-    model.numNodes = shift + 2 * grid.numNodes();
+    const int shift = 2 * grid.numNodes();  // first node of the solid
+    model.numNodes = shift + solid.numNodes();
     const auto material = SaintVenantKirchhoff::fromYoung(E, nu);
-    model.terms.push_back(std::make_unique<fem::LawTerm<SaintVenantKirchhoff, fem::DisplacementGradient>>(
-        material, fem::volumePoints(solid, solid.blocks[0], fem::tabulate(fem::Topology::Hex20))));
-    ShellElements elements = grid.elements();
-    for (int& n : elements.nodes) n += shift;
+    model.terms.push_back(shellTerm(grid, material));
+    // Full cubature: a row one cell wide and thick has hourglass modes with less.
+    fem::PointSet points = fem::volumePoints(solid, solid.blocks[0], fem::tabulate(fem::Topology::Hex20, 5));
+    for (int& n : points.nodes) n += shift;
     model.terms.push_back(
-        std::make_unique<Shell>(ShellLaw<SaintVenantKirchhoff>{material}, shellPoints(elements)));
+        std::make_unique<fem::LawTerm<SaintVenantKirchhoff, fem::DisplacementGradient>>(material, points));
     model.supports = fem::Supports(model.numNodes);
     model.load.assign(3 * model.numNodes, 0.0);
     for (int n : grid.lineI(0)) {
-      int top = -1, bottom = -1;
-      for (int m = 0; m < shift; ++m) {
+      int top = -1, bottom = -1, middle = -1;
+      for (int m = 0; m < solid.numNodes(); ++m) {
         const double* X = &solid.coordinates[3 * m];
         if (std::abs(X[0] - 5) > 1e-9 || std::abs(X[1] - grid.x[n][1]) > 1e-9) continue;
-        if (std::abs(X[2] - h / 2) < 1e-9) top = m;
-        if (std::abs(X[2] + h / 2) < 1e-9) bottom = m;
+        if (std::abs(X[2] - h / 2) < 1e-9) top = shift + m;
+        if (std::abs(X[2] + h / 2) < 1e-9) bottom = shift + m;
+        if (std::abs(X[2]) < 1e-9) middle = shift + m;
       }
-      fem::coupleShellToSolid(model.couplings, v(n), w(n), top, bottom);
+      fem::coupleShellToSolid(model.couplings, n, grid.director(n), top, bottom);
+      if (middle >= 0) fem::coupleNode(model.couplings, middle, {{top, 0.5}, {bottom, 0.5}});
     }
-    for (int m = 0; m < shift; ++m)
-      for (int i = 0; i < 3 && solid.coordinates[3 * m] < 1e-9; ++i) model.supports.prescribe(m, i, 0, 0);
+    for (int m = 0; m < solid.numNodes(); ++m)
+      for (int i = 0; i < 3 && solid.coordinates[3 * m] < 1e-9; ++i)
+        model.supports.prescribe(shift + m, i, 0, 0);
   }
 
   /// A line load per length at the free end, on v or w.
@@ -234,7 +234,7 @@ struct HalfAndHalf {
     const double part[3] = {1 / 6., 4 / 6., 1 / 6.};
     for (int k = 0; k < 3; ++k)
       for (int i = 0; i < 3; ++i)
-        model.load[3 * (director ? w(end[k]) : v(end[k])) + i] += part[k] * perLength[i];
+        model.load[3 * (director ? grid.director(end[k]) : end[k]) + i] += part[k] * perLength[i];
   }
 };
 

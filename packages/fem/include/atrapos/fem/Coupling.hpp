@@ -57,8 +57,8 @@ void coupleNode(Couplings& couplings, int node, const std::vector<CoupledNode>& 
 
 /// Joins a node of a shell's edge to a solid: v = (u_top + u_bottom)/2 and w = (u_top - u_bottom)/2, so that
 /// the director follows the solid's side. `top` and `bottom` are the solid's nodes at X + D and X - D of the
-/// shell's node. Where v is itself a node of the solid, pass joinMidsurface = false: the solid's displacement
-/// stays.
+/// shell's node. Nodes of the solid between them are to be coupled to both in the same way (coupleNode), or
+/// constant stress does not pass. joinMidsurface = false leaves v free.
 void coupleShellToSolid(Couplings& couplings, int shellNode, int directorNode, int top, int bottom,
                         bool joinMidsurface = true);
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "atrapos/fem/Mesh.hpp"
@@ -44,9 +45,11 @@ struct FreeBody {
 /// Connected parts of the mesh whose rigid motions are not all held by the supports and held directions. With
 /// shells the supports go on with the director nodes; what holds a director D holds omega x D of a rotation
 /// omega. Parts that are joined by a hinge only (a fold with two directors, a shell's edge on a solid) count
-/// as one: that they can turn about it is not seen here.
+/// as one: that they can turn about it is not seen here. `joined`: pairs of nodes that couplings join, as an
+/// element would.
 std::vector<FreeBody> freeBodies(const Mesh& mesh, const Supports& supports,
                                  const std::vector<HeldDirection>& held,
-                                 const ShellGeometry* shells = nullptr);
+                                 const ShellGeometry* shells = nullptr,
+                                 const std::vector<std::pair<int, int>>& joined = {});
 
 }  // namespace atrapos::fem

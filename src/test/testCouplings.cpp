@@ -1,0 +1,101 @@
+// Runs of decks with couplings.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <map>
+#include <sstream>
+
+#include "support/Command.hpp"
+#include "support/Folder.hpp"
+
+namespace atrapos::test {
+namespace {
+
+// A strip of shells, length 10, width 1, thickness 0.1, E = 1.2e6: EI = 100. Its end carries 0.4 upwards.
+const char* const kStrip = R"(mesh:
+  file: strip.exo
+  generate: {shape: shell_plate, length: 10, width: 1, divisions: [8, 1], block: strip}
+materials:
+  rubber: {law: saint_venant_kirchhoff, youngs_modulus: 1200000, poissons_ratio: 0, blocks: [strip]}
+shells:
+  sections:
+    skin: {blocks: [strip], thickness: 0.1}
+supports:
+  clamp: {set: x_min, condition: clamped}
+couplings:
+  end: {kind: rigid, set: x_max}
+loads:
+  tip: {type: nodal, set: x_max, total: [0, 0, 0.4]}
+path:
+  stop: {load_factor: 1}
+output:
+  points_per_step: 1
+  monitors:
+    uz: {type: displacement, set: x_max, component: z}
+    ux: {type: displacement, set: x_max, component: x}
+    clamp_z: {type: reaction, support: clamp, component: z}
+)";
+
+class CouplingsTest : public testing::Test {
+ protected:
+  CommandResult run(const std::string& text) {
+    writeFile(folder_ / "deck.yaml", text);
+    const CommandResult made = runAtrapos({"mesh", "-q", "deck.yaml"}, folder_.path());
+    EXPECT_EQ(made.exitCode, 0) << made.err;
+    return runAtrapos({"run", "-q", "-o", "out", "deck.yaml"}, folder_.path());
+  }
+  TemporaryFolder folder_;
+};
+
+std::string changed(std::string text, const std::string& from, const std::string& to) {
+  const auto at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return at == std::string::npos ? text : text.replace(at, from.size(), to);
+}
+
+/// Columns of the last line of a CSV file, by the names of its first.
+std::map<std::string, double> lastRow(const std::string& csv) {
+  std::istringstream in(csv);
+  std::string header, line, last;
+  std::getline(in, header);
+  while (std::getline(in, line))
+    if (!line.empty()) last = line;
+  std::istringstream names(header), values(last);
+  std::map<std::string, double> row;
+  for (std::string name, value; std::getline(names, name, ',') && std::getline(values, value, ',');)
+    row[name] = std::strtod(value.c_str(), nullptr);
+  return row;
+}
+
+}  // namespace
+
+// The end is rigid, the load is its load, and the clamp bears it. The elastica at P L^2/EI = 0.4 (elliptic
+// integrals): w/L = 0.130975242, u/L = 0.010353922.
+TEST_F(CouplingsTest, RigidEndOfAStrip) {
+  const CommandResult r = run(kStrip);
+  ASSERT_EQ(r.exitCode, 0) << r.err;
+  const auto end = lastRow(readFile(folder_ / "out" / "path.csv"));
+  EXPECT_NEAR(end.at("load_factor"), 1, 1e-9);
+  EXPECT_NEAR(end.at("uz"), 1.30975242, 1e-3 * 1.31);
+  EXPECT_NEAR(end.at("ux"), -0.10353922, 5e-3 * 0.104);
+  EXPECT_NEAR(end.at("clamp_z"), -0.4, 1e-5);  // the path's residual bound is 1e-6
+}
+
+// Supports on what a coupling moves are refused with the coupling's name.
+TEST_F(CouplingsTest, SupportedSlavesAreRefused) {
+  const CommandResult r = run(changed(kStrip, "supports:\n", "supports:\n  tip: {set: x_max, y: 0}\n"));
+  EXPECT_EQ(r.exitCode, 2);
+  EXPECT_NE(r.err.find("couplings/end: displacement y of node"), std::string::npos) << r.err;
+  EXPECT_NE(r.err.find("is both supported and coupled"), std::string::npos) << r.err;
+}
+
+TEST_F(CouplingsTest, AShellWithoutASolidIsNamed) {
+  const CommandResult r = run(changed(kStrip, "kind: rigid", "kind: shell_on_solid"));
+  EXPECT_EQ(r.exitCode, 2);
+  EXPECT_NE(r.err.find("couplings/end/set: no node of a solid at the top of the shell's node"),
+            std::string::npos)
+      << r.err;
+}
+
+}  // namespace atrapos::test
