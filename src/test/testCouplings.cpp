@@ -6,6 +6,9 @@
 #include <map>
 #include <sstream>
 
+#include "atrapos/exodus/MeshFile.hpp"
+#include "atrapos/fem/StructuredMesh.hpp"
+#include "atrapos/fem/StructuredShell.hpp"
 #include "support/Command.hpp"
 #include "support/Folder.hpp"
 
@@ -80,6 +83,67 @@ TEST_F(CouplingsTest, RigidEndOfAStrip) {
   EXPECT_NEAR(end.at("uz"), 1.30975242, 1e-3 * 1.31);
   EXPECT_NEAR(end.at("ux"), -0.10353922, 5e-3 * 0.104);
   EXPECT_NEAR(end.at("clamp_z"), -0.4, 1e-5);  // the path's residual bound is 1e-6
+}
+
+// A strip of which the first half is a solid: the same elastica; a hinge at the joint would be a mechanism.
+TEST_F(CouplingsTest, ShellOnSolid) {
+  fem::BoxOptions solid;
+  solid.lengths = {5, 1, 0.1};
+  solid.origin = {0, 0, -0.05};
+  solid.divisions = {20, 1, 1};
+  solid.topology = fem::Topology::Hex27;
+  fem::ShellPlateOptions shell;
+  shell.length = 5;
+  shell.origin = {5, 0, 0};
+  shell.divisions = {4, 1};
+  shell.blockName = "strip";
+  fem::Mesh mesh = fem::boxMesh(solid);
+  const fem::Mesh plate = fem::shellPlateMesh(shell);
+  const int shift = mesh.numNodes();
+  const auto nodesOf = [&](const fem::Mesh& m, const char* name, int offset) {
+    std::vector<int> nodes = m.nodeSets.at(fem::findNodeSet(m, name)).nodes;
+    for (int& n : nodes) n += offset;
+    return nodes;
+  };
+  const std::vector<fem::NodeSet> sets{{"root", 1, nodesOf(mesh, "x_min", 0)},
+                                       {"joint", 2, nodesOf(plate, "x_min", shift)},
+                                       {"end", 3, nodesOf(plate, "x_max", shift)}};
+  mesh.sideSets.clear();
+  mesh.nodeSets = sets;
+  mesh.coordinates.insert(mesh.coordinates.end(), plate.coordinates.begin(), plate.coordinates.end());
+  mesh.blocks.push_back(plate.blocks[0]);
+  mesh.blocks[1].id = 2;
+  for (int& n : mesh.blocks[1].nodes) n += shift;
+  exodus::writeMesh(mesh, (folder_ / "mixed.exo").string());
+  writeFile(folder_ / "deck.yaml", R"(mesh:
+  file: mixed.exo
+materials:
+  rubber: {law: saint_venant_kirchhoff, youngs_modulus: 1200000, poissons_ratio: 0, blocks: [body, strip]}
+shells:
+  sections:
+    skin: {blocks: [strip], thickness: 0.1}
+supports:
+  clamp: {set: root, x: 0, y: 0, z: 0}
+couplings:
+  joint: {kind: shell_on_solid, set: joint}
+  end: {kind: rigid, set: end}
+loads:
+  tip: {type: nodal, set: end, total: [0, 0, 0.4]}
+path:
+  stop: {load_factor: 1}
+output:
+  points_per_step: 1
+  monitors:
+    uz: {type: displacement, set: end, component: z}
+    ux: {type: displacement, set: end, component: x}
+    clamp_z: {type: reaction, support: clamp, component: z}
+)");
+  const CommandResult r = runAtrapos({"run", "-q", "-o", "out", "deck.yaml"}, folder_.path());
+  ASSERT_EQ(r.exitCode, 0) << r.err;
+  const auto end = lastRow(readFile(folder_ / "out" / "path.csv"));
+  EXPECT_NEAR(end.at("uz"), 1.30975242, 2e-3 * 1.31);  // twenty solids over half the length
+  EXPECT_NEAR(end.at("ux"), -0.10353922, 5e-3 * 0.104);
+  EXPECT_NEAR(end.at("clamp_z"), -0.4, 1e-5);
 }
 
 // Supports on what a coupling moves are refused with the coupling's name.
