@@ -44,8 +44,9 @@ Corrector::Result Corrector::correct(State& state, Vector& r, const Augmented& d
                                      double s) {
   Result result;
   result.first = result.residual = calls_.residual(state, r).relative();
-  double before = s;  // the correction before; the step stands for it at first, the predictor being of order s^2
-  double left = 0;    // estimate of the next one
+  // The correction before; the step stands for it at first, since the predictor is off by order s^2.
+  double before = s;
+  double left = 0;  // estimate of the next one
   bool stale = true;
   const auto fail = [&](const std::string& why) {
     result.trouble = why;
@@ -71,13 +72,10 @@ Corrector::Result Corrector::correct(State& state, Vector& r, const Augmented& d
       const double contraction = size / before;
       left = size * (fresh ? contraction * contraction : contraction);
       // Corrections, not residuals, tell divergence: in thin bodies a good first correction of a rotation
-      // stretches them and can raise the residual.
-      if (result.iterations > 1 && !done && size >= before) {
-        if (fresh) return fail("the corrections grow");
-        stale = true;
-      } else {
-        stale = result.iterations > 1 && size > options_.refactorAbove * before;
-      }
+      // stretches them and can raise the residual. They may grow once in a while, as where contact changes, but not
+      // beyond the step.
+      if (!done && size > s) return fail("a correction is longer than the step");
+      stale = result.iterations > 1 && size > options_.refactorAbove * before;
       before = size;
     } catch (const PathError& error) {
       if (error.reason() == EndReason::solverFailed) throw;  // a shorter step does not help

@@ -90,12 +90,20 @@ static bool independent() {
       inside = b.follow();
       ++calls;
     };
-    good = !first.empty() && !second.empty() && first == a.follow() && calls > 1 && inside == second;
+    const auto again = a.follow();
+    const auto check = [&](bool holds, const char* what) {
+      if (!holds) std::printf("rank %d: %s\n", rank, what);
+      good = good && holds;
+    };
+    check(!first.empty() && !second.empty(), "a path does not reach its end");
+    check(calls > 0, "no path was followed inside another");
+    check(first == again, "a path depends on what is followed inside it");
+    check(inside == second, "a path depends on where it is followed");
     if (size > 1) {  // one problem on all ranks is refused, in one line
       a.comm = Teuchos::null;
       try {
         a.follow();
-        good = false;
+        check(false, "one problem on two ranks was not refused");
       } catch (const std::invalid_argument&) {
       }
     }
@@ -112,8 +120,10 @@ int main(int argc, char** argv) {
     good = independent();
     int finalized = 0;
     MPI_Finalized(&finalized);
-    if (finalized || !Kokkos::is_initialized()) good = false;
+    if (finalized || !Kokkos::is_initialized()) {
+      std::printf("the library ended MPI or Kokkos\n");
+      good = false;
+    }
   }
-  if (!good) std::printf("the paths depend on one another, or on what the library did to MPI or Kokkos\n");
   return good ? 0 : 1;
 }
