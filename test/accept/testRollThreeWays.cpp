@@ -16,7 +16,7 @@ const std::string kRoll = "{type: cylinder, center: [200, 0, -54], axis: [0, 1, 
 StripRun runWith(const std::string& roll) {
   return StripRun(
       "shell.yaml",
-      Edits{{"stop: {load_factor: 2}", "residual: 1.0e-8\n  stop: {load_factor: 0.05}"}, {kRoll, roll}});
+      Edits{{"stop: {load_factor: 2}", "residual: 1.0e-8\n  stop: {load_factor: 0.25}"}, {kRoll, roll}});
 }
 
 class Points {
@@ -82,17 +82,17 @@ std::string bezierRoll(int p) {
 
 TEST(RollThreeWays, OnePath) {
   const StripRun cylinder = runWith(kRoll), nurbs = runWith(nurbsRoll()), bezier = runWith(bezierRoll(7));
-  EXPECT_GT(cylinder.path->column("force_right").back(), 2.0);
-  EXPECT_GT(cylinder.summary.at("contact_events"), 4);
-  for (const StripRun* run : {&nurbs, &bezier}) {
-    // The Bezier roll is off by 7e-7 mm; the residual's bound of 1e-8 is worth some 1e-5 mm at the tip.
+  EXPECT_GT(cylinder.path->column("force_right").back(), 20.0);
+  EXPECT_EQ(cylinder.summary.at("contact_events"), 10);  // five stations in turn, both of their nodes
+  const auto same = [&](const StripRun& run, double tolerance) {
     for (const char* name : {"tip_ux", "tip_uz", "force_right"})
-      EXPECT_NEAR(run->path->column(name).back(), cylinder.path->column(name).back(), 1e-4) << name;
-    EXPECT_EQ(run->summary.at("contact_events"), cylinder.summary.at("contact_events"));
+      EXPECT_NEAR(run.path->column(name).back(), cylinder.path->column(name).back(), tolerance) << name;
+    EXPECT_EQ(run.summary.at("contact_events"), cylinder.summary.at("contact_events"));
     // Step lengths are rounded to 7 bits: now and then rounding makes another one.
-    EXPECT_NEAR(run->summary.at("steps"), cylinder.summary.at("steps"),
-                0.05 * cylinder.summary.at("steps").get<double>());
-  }
+    EXPECT_NEAR(run.summary.at("steps"), cylinder.summary.at("steps"), 2);
+  };
+  same(nurbs, 1e-7);   // 1e-9 mm measured: rounding of a path whose residuals are below 1e-8
+  same(bezier, 1e-5);  // 4e-7 mm measured: the Bezier roll is off by 7e-7 mm
 }
 
 // Nodes that never come near the roll carry no law, and what they would add is below eta.
@@ -100,7 +100,7 @@ TEST(ContactPointsCarried, AreThoseThatComeNear) {
   const auto run = [&](const std::string& carried) {
     return StripRun(
         "shell.yaml",
-        Edits{{"{load_factor: 2}", "{load_factor: 0.05}"},
+        Edits{{"{load_factor: 2}", "{load_factor: 0.25}"},
               {"set: y_min, points: nodes,", "set: y_min, points: nodes, carried: " + carried + ","},
               {"set: y_max, points: nodes,", "set: y_max, points: nodes, carried: " + carried + ","}});
   };
@@ -113,10 +113,10 @@ TEST(ContactPointsCarried, AreThoseThatComeNear) {
   EXPECT_EQ(carried(all), present);
   EXPECT_GT(carried(near), 5);
   EXPECT_LT(carried(near), present);
-  // 82 nodes of eta = 0.005 N at most against 5 N at the tip, all of it there: 8 %. Of the far nodes half
-  // have an arm of less than half the strip's length.
+  // 82 nodes of at most eta = 0.005 N against 25 N at the tip: 1.6 % of the deflection if all of it acted
+  // there.
   const double uz = all.path->column("tip_uz").back();
-  EXPECT_NEAR(near.path->column("tip_uz").back(), uz, 0.04 * std::fabs(uz));
+  EXPECT_NEAR(near.path->column("tip_uz").back(), uz, 0.016 * std::fabs(uz));
   EXPECT_NE(near.path->column("tip_uz").back(), uz);
 }
 
