@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <optional>
 #include <stdexcept>
 
 #include <Tpetra_Vector.hpp>
@@ -66,7 +67,11 @@ class Tracer final : public Observer {
         end = BranchEnd::joined;
         return false;
       }
-    if (report.step > 1 && returns(report, series)) {
+    if (!passKnown(report, series)) {
+      end = BranchEnd::joined;
+      return false;
+    }
+    if (report.step > 1 && passes(*start, report, series)) {
       end = BranchEnd::closed;
       return false;
     }
@@ -105,6 +110,26 @@ class Tracer final : public Observer {
     return true;
   }
 
+  /// Known points on the step that the search did not find there: from a side branch of a multiple point no
+  /// eigenvalue tells. False where what lies ahead is taken.
+  bool passKnown(const StepReport& report, const Series& series) {
+    for (std::size_t i = 0; i < diagram_.points.size(); ++i) {
+      const auto& known = diagram_.points[i].point;
+      if (known.tangents.empty()) continue;
+      const auto a = passes(known.state, report, series);
+      if (!a) continue;
+      constexpr double same = 1e-2;
+      const auto& found = report.criticalPoints;
+      if (std::any_of(found.begin(), found.end(),
+                      [&](const CriticalPoint& p) { return std::abs(p.a - *a) < same * report.length; }))
+        continue;
+      const auto t = series.tangent(*a);
+      take(static_cast<int>(i), augmented(t, -1), series.weight());
+      if (!take(static_cast<int>(i), augmented(t), series.weight())) return false;
+    }
+    return true;
+  }
+
   /// Marks the half-branch in that direction; false where it was marked already.
   bool take(int point, const Augmented& direction, double w) {
     Half* best = nullptr;
@@ -124,29 +149,28 @@ class Tracer final : public Observer {
     return free;
   }
 
-  /// The step passes through the start of its branch.
-  bool returns(const StepReport& report, const Series& series) const {
+  /// Where the step passes through a state; empty where it does not.
+  std::optional<double> passes(const State& state, const StepReport& report, const Series& series) const {
     const double w = series.weight();
-    auto u = Teuchos::rcp(new Vector(start->u->getMap()));
+    auto u = Teuchos::rcp(new Vector(state.u->getMap()));
     const auto t = series.tangent(0.5 * report.length);
-    // Plane through the start, normal to the step.
+    // Plane through the state, normal to the step.
     auto weights = Teuchos::rcp(new Vector(*t.x.u, Teuchos::Copy));
     weights->scale(w);
-    const double value = w * dot({start->u, 0}, {t.x.u, 0}, 1) + start->lambda * t.lambda;
+    const double value = w * dot({state.u, 0}, {t.x.u, 0}, 1) + state.lambda * t.lambda;
     const Rational plane = series.functional(*weights);
     const Rational lambda = series.lambdaFunction();
     const Polynomial p =
         plane.numerator().plus(t.lambda, lambda.numerator()).plus(-value, plane.denominator());
     for (const double a : p.roots(report.length)) {
       const double lambdaAt = series.evaluate(a, *u);
-      u->update(-1, *start->u, 1);
-      // Accuracy of a path at the residual bound; a path next to its start but not through it is further.
+      u->update(-1, *state.u, 1);
+      // Accuracy of a path at the residual bound; a path next to the state but not through it is further.
       constexpr double same = 1e-3;
-      if (std::sqrt(dot({u, lambdaAt - start->lambda}, {u, lambdaAt - start->lambda}, w)) <=
-          same * report.length)
-        return true;
+      const Augmented gap{u, lambdaAt - state.lambda};
+      if (std::sqrt(dot(gap, gap, w)) <= same * report.length) return a;
     }
-    return false;
+    return std::nullopt;
   }
 
   BranchDiagram& diagram_;
@@ -168,10 +192,16 @@ BranchFollower::BranchFollower(Problem& problem, linear::TangentSolver& solver, 
   if (branches_.maxBranches < 0) throw std::invalid_argument("branch options: maxBranches must be >= 0");
 }
 
+void BranchFollower::watch(std::vector<Monitor> monitors) {
+  validate(monitors);
+  monitors_ = std::move(monitors);
+}
+
 BranchDiagram BranchFollower::run(const State& start, BranchObserver& observer) {
   BranchDiagram diagram;
   Tracer tracer(diagram, observer);
   PathFollower follower(problem_, solver_, options_, stops_);
+  follower.watch(monitors_);
   diagram.branches.emplace_back();
   diagram.branches[0].start = start;
   observer.onBranch(diagram, 0);

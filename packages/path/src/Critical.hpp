@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "Augmented.hpp"
+#include "Modes.hpp"
 #include "atrapos/path/Report.hpp"
 #include "atrapos/path/SeriesStep.hpp"
 
@@ -18,17 +19,26 @@ struct CriticalSearch {
   /// Eigenvalues that changed sign and are not those of limit points (at least). 0: none is known, points
   /// whose changes cancel are looked for.
   int signChanges = 1;
+  int certain = 0;  ///< of these, how many the count of negative eigenvalues proves
   double residualBound = 1e-6;
+  std::vector<ModeSample> samples;  ///< eigenvalues followed, at both ends of the step; may be empty
+  std::vector<LimitPoint> limits;   ///< of the load, in the step: an eigenvalue vanishes there too
+  int watchedModes = 0;
 };
+
+/// Where the eigenvalues followed vanish other than at limit points of lambda.
+ModeEvidence bifurcationZeros(const Series& series, double length, const std::vector<ModeSample>& samples,
+                              const std::vector<LimitPoint>& limits);
 
 struct CriticalFound {
   std::vector<CriticalPoint> points;  ///< ascending in a
   int factorizations = 0;
 };
 
-/// Locates them: poles of the response to a small force seen from the step's end, then Newton on the extended
-/// system (docs/theory/path.md). What cannot be confirmed is left out. The solver's factorization is another
-/// one afterwards.
+/// Locates them: eigenvalues followed or, where these do not explain all, poles of the response to a small
+/// force seen from the step's end; then Newton on the extended system (docs/theory/path.md). At most two
+/// factorizations a point, and two where none is found. What cannot be confirmed is left out. The solver's
+/// factorization is another one afterwards.
 CriticalFound findCriticalPoints(Calls& calls, const CriticalSearch& search);
 
 /// The response of the path to a small force a f, as a series seen from a state whose tangent the solver
@@ -45,10 +55,17 @@ struct ResponsePoles {
 ResponsePoles responsePoles(Calls& calls, const CriticalSearch& search, const State& from,
                             const PathTangent& along, double behind, double ahead);
 
+/// What factorization a refinement starts with.
+enum class Held {
+  nothing,     ///< the tangent at the guess is factored
+  near,        ///< first with the solver's factorization, of a state not far; no other where none is left
+  eigenvector  ///< the same, and `nullGuess` is one of several eigenvectors of it
+};
+
 /// A simple bifurcation point near a = guess of the step's series, with its branches; `nullGuess` is a rough
 /// null vector. False where none is confirmed.
 bool refineSimple(Calls& calls, const CriticalSearch& search, double guess, const RCP<Vector>& nullGuess,
-                  int maxFactorizations, CriticalPoint& point, int& factorizations);
+                  Held held, int maxFactorizations, CriticalPoint& point, int& factorizations);
 
 /// Where eigenvalues of the tangent that are near zero at a = guess vanish along the step's series, nearest
 /// first: mu_i + (a - guess) d mu_i/da = 0, each with its null vector. One factorization; symmetric tangents
@@ -60,8 +77,13 @@ struct NearNull {
 NearNull nearNull(Calls& calls, const CriticalSearch& search, double guess, const RCP<Vector>& nullGuess,
                   int count);
 
-/// A point where two or more eigenvalues vanish together, on a path that crosses it; `zeros` are those of
-/// nearNull close to it. One factorization. False where they do not vanish together.
+/// A point where two or more eigenvalues vanish together, on a path that crosses it: `near` is what nearNull
+/// gave at `at`, whose tangent the solver holds. With the tangents of all branches where they are two. False
+/// where they do not vanish together.
+bool confirmMultiple(Calls& calls, const CriticalSearch& search, const NearNull& near, double at,
+                     CriticalPoint& point);
+
+/// The same after a factorization nearer to them.
 bool refineMultiple(Calls& calls, const CriticalSearch& search, const NearNull& zeros, CriticalPoint& point,
                     int& factorizations);
 

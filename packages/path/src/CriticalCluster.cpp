@@ -7,6 +7,7 @@
 #include <Tpetra_Vector.hpp>
 
 #include "Critical.hpp"
+#include "TwoFold.hpp"
 #include "atrapos/linear/Dot.hpp"
 
 namespace atrapos::path {
@@ -91,8 +92,13 @@ bool refineMultiple(Calls& calls, const CriticalSearch& search, const NearNull& 
   const double aside = 3e-5 * search.length, a0 = std::min(zeros.a.front(), search.length);
   const double at = a0 - aside;
   ++factorizations;
-  const NearNull near =
-      nearNull(calls, search, at, zeros.vectors.front(), static_cast<int>(zeros.vectors.size()));
+  return confirmMultiple(
+      calls, search,
+      nearNull(calls, search, at, zeros.vectors.front(), static_cast<int>(zeros.vectors.size())), at, point);
+}
+
+bool confirmMultiple(Calls& calls, const CriticalSearch& search, const NearNull& near, double at,
+                     CriticalPoint& point) {
   if (near.a.size() < 2) return false;
   const double a = near.a.front();
   if (!(a >= 0 && a <= search.length)) return false;
@@ -114,6 +120,22 @@ bool refineMultiple(Calls& calls, const CriticalSearch& search, const NearNull& 
   point.kind = CriticalKind::multiple;
   point.state = state;
   point.uncertainty = (a - at) * (a - at) / (search.length * search.length);
+  if (point.nullity != 2) return true;
+  const auto along = search.series.tangent(a);
+  const double w = search.series.weight();
+  Augmented path{along.x.u, along.lambda};
+  const auto others = twoFoldTangents(calls, state, w, path, {point.nullVectors[0], point.nullVectors[1]});
+  if (others.empty()) return true;
+  path = copy(path);
+  scale(path, 1 / std::sqrt(dot(path, path, w)));
+  const auto keep = [&](const Augmented& x) {
+    PathTangent tangent;
+    tangent.x = {x.u, std::vector<double>(calls.problem().internalCount(), 0.0)};
+    tangent.lambda = x.lambda;
+    point.tangents.push_back(tangent);
+  };
+  keep(path);
+  for (const auto& x : others) keep(x);
   return true;
 }
 

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include <Tpetra_Vector.hpp>
 
@@ -49,9 +50,10 @@ std::pair<double, double> nearest(Calls& calls, const Series& series, const Stat
 }  // namespace
 
 bool refineSimple(Calls& calls, const CriticalSearch& search, double guess, const RCP<Vector>& nullGuess,
-                  int maxFactorizations, CriticalPoint& point, int& factorizations) {
+                  Held held, int maxFactorizations, CriticalPoint& point, int& factorizations) {
   const double w = search.series.weight();
-  ExtendedSystem refinement(calls, search, nullGuess);
+  std::optional<ExtendedSystem> system;
+  system.emplace(calls, search, nullGuess);
   State state{calls.newVector(), 0};
   state.lambda = search.series.evaluate(guess, *state.u);
   double a = guess, moved = search.length;
@@ -59,11 +61,16 @@ bool refineSimple(Calls& calls, const CriticalSearch& search, double guess, cons
   constexpr double accepted = 1e-8, far = 1e-2;
   constexpr int maxIterations = 8;
   bool done = false;
-  for (int f = 0; f < maxFactorizations && !done; ++f) {
+  const int attempts = maxFactorizations + (held == Held::nothing ? 0 : 1);
+  for (int f = 0; f < attempts && !done; ++f) {
+    const bool frozen = f == 0 && held != Held::nothing;
     const auto t = search.series.tangent(std::clamp(a, 0.0, search.length));
     try {
-      ++factorizations;
-      if (!refinement.enter(state, {t.x.u, t.lambda})) return false;
+      if (!frozen) ++factorizations;
+      if (!system->enter(state, {t.x.u, t.lambda}, frozen, frozen && held == Held::eigenvector)) {
+        if (!frozen) return false;
+        continue;
+      }
     } catch (const PathError& error) {
       if (error.reason() != EndReason::singularTangent) throw;
       // Hit exactly: a little aside the tangent can be factored, and Newton comes back.
@@ -74,12 +81,20 @@ bool refineSimple(Calls& calls, const CriticalSearch& search, double guess, cons
     double last = search.length;
     for (int i = 0; i < maxIterations; ++i) {
       double next = 0;
-      if (!refinement.iterate(state, next)) break;
+      if (!system->iterate(state, next)) break;
       moved = next;
-      if (moved == 0 || moved > 0.1 * last) break;
+      // Quadratic after the first few.
+      if (moved == 0 || moved > (i < 3 ? 1 : 0.1) * last) break;
       last = moved;
     }
     done = moved <= accepted * search.length;
+    if (!done && frozen) {  // too far off: as if it had not been tried
+      a = guess;
+      state.u = calls.newVector();
+      state.lambda = search.series.evaluate(guess, *state.u);
+      system.emplace(calls, search, nullGuess);
+      continue;
+    }
     a = nearest(calls, search.series, state, a).first;
     if (!done && !(std::abs(a - guess) < search.length)) return false;
   }
@@ -93,7 +108,7 @@ bool refineSimple(Calls& calls, const CriticalSearch& search, double guess, cons
   constexpr double outside = 0.01;
   if (position < -outside * search.length || position > (1 + outside) * search.length) return false;
   std::vector<Augmented> tangents;
-  if (!branches(refinement, w, tangents)) return false;
+  if (!branches(*system, w, tangents)) return false;
   const auto t = search.series.tangent(std::clamp(position, 0.0, search.length));
   const Augmented path{t.x.u, t.lambda};
   double along[2];
@@ -119,16 +134,14 @@ bool refineSimple(Calls& calls, const CriticalSearch& search, double guess, cons
   constexpr double turns = 1e-4;
   const bool pitchfork = std::min(std::abs(tangents[0].lambda), std::abs(tangents[1].lambda)) < turns;
   point.kind = pitchfork ? CriticalKind::pitchfork : CriticalKind::transcritical;
-  point.nullVectors = {refinement.phi()};
+  point.nullVectors = {system->phi()};
   // The eigenvalue that vanishes moves at the rate psi . D^2R(X', phi) along the path; it does not cross zero
   // on a branch that leaves a pitchfork.
-  SecondOrder second(calls, state, refinement.psi());
-  const double size =
-      std::abs(refinement.H(0, 0)) + std::abs(refinement.H(0, 1)) + std::abs(refinement.H(1, 1));
-  const double rate =
-      second(tangents[0], {refinement.phi(), 0}) * linear::dot(*refinement.psi(), *refinement.phi());
+  SecondOrder second(calls, state, system->psi());
+  const double size = std::abs(system->H(0, 0)) + std::abs(system->H(0, 1)) + std::abs(system->H(1, 1));
+  const double rate = second(tangents[0], {system->phi(), 0}) * linear::dot(*system->psi(), *system->phi());
   constexpr double crosses = 1e-6;
-  const double phiSize = std::sqrt(dot({refinement.phi(), 0}, {refinement.phi(), 0}, w));
+  const double phiSize = std::sqrt(dot({system->phi(), 0}, {system->phi(), 0}, w));
   point.negativeChange = std::abs(rate) < crosses * size * phiSize ? 0 : rate < 0 ? 1 : -1;
   return true;
 }

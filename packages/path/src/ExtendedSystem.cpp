@@ -25,10 +25,17 @@ void inverseIteration(Calls& calls, Vector& x, bool transposed) {
 
 }  // namespace
 
-bool ExtendedSystem::enter(const State& state, const Augmented& path) {
-  calls_.factor(state, *F_);
+bool ExtendedSystem::enter(const State& state, const Augmented& path, bool held, bool exact) {
+  if (held)
+    calls_.tangent(state, *F_);
+  else
+    calls_.factor(state, *F_);
   phi_ = Teuchos::rcp(new Vector(*phi_, Teuchos::Copy));
-  inverseIteration(calls_, *phi_, false);
+  // Of two eigenvalues next to each other an inverse iteration finds the one nearer to zero here.
+  if (exact)
+    phi_->scale(1 / phi_->norm2());
+  else
+    inverseIteration(calls_, *phi_, false);
   p_ = Teuchos::rcp(new Vector(*phi_, Teuchos::Copy));
   if (!calls_.problem().symmetric()) inverseIteration(calls_, *p_, true);
 

@@ -12,8 +12,10 @@ class ExtendedSystem {
   ExtendedSystem(Calls& calls, const CriticalSearch& search, const RCP<Vector>& nullGuess)
       : calls_(calls), search_(search), w_(search.series.weight()), phi_(nullGuess), F_(calls.newVector()) {}
 
-  /// The tangent at `state` is factored and borders it.
-  bool enter(const State& state, const Augmented& path);
+  /// Borders from the tangent at `state`, which is factored here or, where `held`, stands in the solver
+  /// already, maybe for a state near; `exact`: the null vector's guess is better than inverse iteration makes
+  /// it. False where the path does not lie in the plane of the two directions found.
+  bool enter(const State& state, const Augmented& path, bool held, bool exact);
   /// One Newton step from `state` (moved); `moved` is its size in w <U, U> + lambda^2.
   bool iterate(State& state, double& moved);
 

@@ -11,6 +11,11 @@ PathFollower::PathFollower(Problem& problem, linear::TangentSolver& solver, Opti
   stops_.validate();
 }
 
+void PathFollower::watch(std::vector<Monitor> monitors) {
+  validate(monitors);
+  monitors_ = std::move(monitors);
+}
+
 Outcome PathFollower::run(const State& start, Observer& observer) {
   Start point;
   point.state = start;
@@ -22,7 +27,7 @@ Outcome PathFollower::runFrom(const Start& start, Observer& observer) {
   double total = 0;
   {
     Stopwatch watch(total);
-    Run run(problem_, solver_, options_, stops_, observer, outcome);
+    Run run(problem_, solver_, options_, stops_, monitors_, observer, outcome);
     run.follow(start);
     static_cast<Work&>(outcome) = run.work();
   }

@@ -50,10 +50,12 @@ bool Run::step() {
     return end(EndReason::stepLimit, line("the limit of ", options_.maxSteps, " steps is reached"));
   StepReport report;
   Series series = nextSeries(report);
-  const EndTangent tangent{calls_.inertia(), series.lambdaCoefficient(1)};
+  EndTangent tangent{calls_.inertia(), series.lambdaCoefficient(1), {}};
+  tangent.modes = modesHere({series.coefficient(1), series.lambdaCoefficient(1)}, series.weight());
   // After an event the tangent is that of the changed problem and says nothing about the step before.
   if (pending_ && !settle(pending_->events.empty() ? &tangent : nullptr))
     return end(EndReason::observerStopped, "ended by the observer");
+  modes_ = std::move(tangent.modes);
   clean(series);
   report.order = series.order();
   report.step = outcome_.steps + 1;
@@ -112,9 +114,18 @@ bool Run::settle(const EndTangent* end) {
     report.limitPoints.push_back({a, last_->lambda(a), curvature(a) < 0, true});
   if (turned_) report.limitPoints.push_back({report.length, report.lambdaEnd, tangent_->lambda > 0, false});
   turned_ = false;
+  for (int i = 0; i < static_cast<int>(monitors_.size()); ++i) {
+    const Rational value = last_->functional(*monitors_[i].weights);
+    const Rational rate = value.derivative();
+    const Polynomial bend = rate.numerator().derivative();
+    for (const double a : rate.roots(report.length))
+      report.extrema.push_back({i, a, last_->lambda(a), value(a), bend(a) < 0});
+  }
+  std::sort(report.extrema.begin(), report.extrema.end(),
+            [](const Extremum& x, const Extremum& y) { return x.a < y.a; });
   if (end) {
     report.inertiaEnd = end->inertia;
-    explainStability(report, end->lambda1);
+    explainStability(report, *end);
   }
   outcome_.worstResidual = std::max(outcome_.worstResidual, report.residual);
   report.next = {outcome_.final, tangent_, outcome_.steps, outcome_.pathLength, last_->weight(),

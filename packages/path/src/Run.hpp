@@ -1,10 +1,13 @@
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <sstream>
 #include <string>
 
+#include "Modes.hpp"
 #include "atrapos/path/Calls.hpp"
+#include "atrapos/path/Monitor.hpp"
 #include "atrapos/path/Options.hpp"
 #include "atrapos/path/SeriesStep.hpp"
 #include "atrapos/path/Stops.hpp"
@@ -27,8 +30,13 @@ std::string line(const Parts&... parts) {
 class Run {
  public:
   Run(Problem& problem, linear::TangentSolver& solver, const Options& options, const Stops& stops,
-      Observer& observer, Outcome& outcome)
-      : options_(options), stops_(stops), observer_(observer), outcome_(outcome), calls_(problem, solver) {}
+      const std::vector<Monitor>& monitors, Observer& observer, Outcome& outcome)
+      : options_(options),
+        stops_(stops),
+        monitors_(monitors),
+        observer_(observer),
+        outcome_(outcome),
+        calls_(problem, solver) {}
 
   void follow(const Start& start);
 
@@ -48,7 +56,8 @@ class Run {
   /// What the tangent at a step's end tells.
   struct EndTangent {
     std::optional<linear::Inertia> inertia;
-    double lambda1 = 0;  ///< its load part, of which the sign counts
+    double lambda1 = 0;       ///< its load part, of which the sign counts
+    std::vector<Mode> modes;  ///< eigenvalues next to zero that are followed
   };
 
   // Run.cpp: the loop.
@@ -70,7 +79,8 @@ class Run {
 
   // RunCritical.cpp: what the step passed.
   void clean(Series& series);
-  void explainStability(StepReport& report, double lambda1);
+  void explainStability(StepReport& report, const EndTangent& end);
+  std::vector<Mode> modesHere(const PathTangent& along, double weight);
 
   // RunEvents.cpp: where the Problem changes.
   void limit(const Series& series, Trial& trial) const;
@@ -88,10 +98,15 @@ class Run {
   void correct(const Series& series, Trial& trial, StepReport& report);
 
   double bound() const { return options_.residualBound; }
-  double correctAbove() const { return options_.correctAbove * options_.residualBound; }
+  /// A residual acts like an imperfection, and one above this makes one branch of two that cross.
+  double correctAbove() const {
+    constexpr double loosest = 1e-4;
+    return std::min(options_.correctAbove * options_.residualBound, loosest);
+  }
 
   const Options& options_;
   const Stops& stops_;
+  const std::vector<Monitor>& monitors_;
   Observer& observer_;
   Outcome& outcome_;
   Calls calls_;
@@ -105,6 +120,7 @@ class Run {
   std::optional<double> weight_;
   std::optional<Series> last_;          ///< the last accepted series
   std::optional<StepReport> pending_;   ///< its step, not yet seen by the observer
+  std::vector<Mode> modes_;             ///< at the start of the pending step
   std::optional<PathTangent> tangent_;  ///< at the current state, of what led there
   std::vector<int> due_;      ///< event functions that fell to zero at the state and are not applied yet
   std::vector<int> applied_;  ///< applied at the state: their functions start at zero

@@ -54,29 +54,45 @@ void Run::clean(Series& series) {
   if (trial.residual <= bound()) series = std::move(cleaned);
 }
 
+/// The eigenvalues next to zero at the state, which the solver's factorization belongs to.
+std::vector<Mode> Run::modesHere(const PathTangent& along, double weight) {
+  if (!options_.criticalPoints || options_.watchedModes == 0) return {};
+  if (!calls_.problem().symmetric() || !calls_.inertia()) return {};
+  try {
+    return nearestModes(calls_, outcome_.final, along, weight, modes_, options_.watchedModes);
+  } catch (const PathError&) {
+    return {};  // next to a singular tangent: the numbers are beyond use
+  }
+}
+
 /// Eigenvalues that changed sign inside the step are those of its limit points, or there are bifurcation
 /// points.
 ///
 /// Along the path det [K, -F; w X_1^T, lambda_1] = det K / lambda_1 changes sign where an odd number of
 /// eigenvalues is lost other than at a limit point of lambda; this holds on a branch that leaves a pitchfork
 /// too, where no eigenvalue of K changes sign but lambda_1 does.
-void Run::explainStability(StepReport& report, double lambda1) {
+void Run::explainStability(StepReport& report, const EndTangent& end) {
   if (!options_.criticalPoints || !report.inertia || !report.inertiaEnd) return;
   const auto before = *report.inertia, after = *report.inertiaEnd;
   if (before.null > 0 || after.null > 0) return;
   const long long change = std::llabs(after.negative - before.negative);
-  const bool lambdaTurned = (last_->lambdaCoefficient(1) > 0) != (lambda1 > 0);
+  const bool lambdaTurned = (last_->lambdaCoefficient(1) > 0) != (end.lambda1 > 0);
   const bool odd = (change % 2 != 0) != lambdaTurned;
   const long long limits = static_cast<long long>(report.limitPoints.size());
   const int needed = static_cast<int>(std::max(change - limits, odd ? 1LL : 0LL));
-  if (needed == 0 && !options_.searchEveryStep) return;
-  CriticalFound found;
-  try {
-    found = findCriticalPoints(
-        calls_, {*last_, report.length, outcome_.final, *tangent_, order_, needed, options_.residualBound});
-  } catch (const PathError&) {
-    // A state off the path that the problem or the solver refuses: nothing is confirmed.
-  }
+  // What the eigenvalues followed say beyond the count, in which two may cancel.
+  const auto length = [&](const PathTangent& t) {
+    return std::sqrt(last_->weight() * calls_.problem().inner(t.x, t.x) + t.lambda * t.lambda);
+  };
+  const std::vector<ModeSample> samples{{0, length(last_->tangent(0)), modes_},
+                                        {report.length, length(*tangent_), end.modes}};
+  const auto evidence = bifurcationZeros(*last_, report.length, samples, report.limitPoints);
+  const int suspected = static_cast<int>(evidence.zeros.size());
+  const int signChanges = std::max(needed, suspected);
+  if (signChanges == 0 && !evidence.suspect && !options_.searchEveryStep) return;
+  CriticalFound found = findCriticalPoints(
+      calls_, {*last_, report.length, outcome_.final, *tangent_, order_, signChanges, needed,
+               options_.residualBound, samples, report.limitPoints, options_.watchedModes});
   outcome_.criticalFactorizations += found.factorizations;
   report.unexplained = needed;
   for (const auto& point : found.points) report.unexplained -= point.nullity;

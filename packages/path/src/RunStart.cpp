@@ -158,6 +158,7 @@ Run::EndTangent Run::closeEnd() {
   try {
     calls_.factor(outcome_.final, *F);
     tangent.inertia = calls_.inertia();
+    tangent.modes = modesHere(*tangent_, last_->weight());
     calls_.solve(*F, *Uhat);
     const Increment hat{Uhat, std::vector<double>(tangent_->x.internal.size(), 0.0)};
     tangent.lambda1 = *weight_ * calls_.problem().inner(hat, tangent_->x) + tangent_->lambda;

@@ -80,7 +80,7 @@ TEST(Models, LeesFrameFollowsTheReference) {
       if (c == ',') c = ' ';
     std::istringstream in(text);
     std::array<double, 3> row;
-    if (in >> row[0] >> row[1] >> row[2] && row[0] > 0) rows.push_back(row);
+    if (in >> row[0] >> row[1] >> row[2] && row[0] != 0) rows.push_back(row);
   }
   ASSERT_GE(rows.size(), 20u);
   for (const auto& [P, u, v] : rows) {

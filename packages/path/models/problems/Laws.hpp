@@ -125,3 +125,27 @@ struct Linear {
     return {};
   }
 };
+
+/// n Saint Venant-Kirchhoff bars one after the other (EA = 1, total length 1), pulled by lambda at the end:
+/// all stretches solve s_i (s_i^2 - 1)/2 = lambda. On the homogeneous path the limit point s = 1/sqrt(3) is
+/// where all n eigenvalues vanish: from there on bars may unload one by one.
+struct BarsInSeries {
+  int n = 2;
+  int size() const { return n; }
+  double scale() const { return 0.1; }
+  template <class S>
+  std::vector<S> residual(const std::vector<S>& u, const S& lambda) const {
+    std::vector<S> force;
+    for (int i = 0; i < n; ++i) {
+      const S s = 1 + n * (i > 0 ? u[i] - u[i - 1] : u[i]);
+      force.push_back(0.5 * s * (s * s - 1));
+    }
+    std::vector<S> r;
+    for (int i = 0; i < n; ++i) r.push_back(force[i] - (i + 1 < n ? force[i + 1] : lambda));
+    return r;
+  }
+  template <class S>
+  std::vector<S> internal(const std::vector<S>&, const S&) const {
+    return {};
+  }
+};

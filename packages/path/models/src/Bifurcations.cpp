@@ -1,6 +1,7 @@
 #include "Bifurcations.hpp"
 
 #include <cmath>
+#include <numeric>
 
 #include "Galerkin.hpp"
 #include "Laws.hpp"
@@ -27,6 +28,14 @@ void watchModes(Setup& s, const Problem& p) {
   s.stops.loadFactors = {2, -1};
 }
 
+/// The trivial path is the one without modes.
+void trivial(Setup& s, const Values& v, const Problem& p) {
+  if (v.at("imperfection") != 0) return;
+  std::vector<int> all(p.map()->getGlobalNumElements() - 1);
+  std::iota(all.begin(), all.end(), 1);
+  s.offBranch = zeroUnknowns(all);
+}
+
 SquareModes square(const Values& v) {
   SquareModes law;
   law.a = v.at("own");
@@ -44,7 +53,10 @@ std::vector<Entry> bifurcations() {
        "a mode appears symmetrically at lambda = 0.5 + bend/4 on a curved trivial path",
        {{"bend", 0.3}, {"imperfection", 0}},
        [](const Values& v) { return problem(modes(v, {0.5})); },
-       [](const Values&, const Problem& p, Setup& s) { watchModes(s, p); }},
+       [](const Values& v, const Problem& p, Setup& s) {
+         watchModes(s, p);
+         trivial(s, v, p);
+       }},
       {"pitchfork_side_branch",
        "the same, started on the branch that leaves it and followed through the pitchfork",
        {{"bend", 0.3}},
@@ -59,19 +71,29 @@ std::vector<Entry> bifurcations() {
          s.direction = -1;
          s.monitors = {unknown(p, "mode_1", 1)};
          stopAt(s, s.monitors[0], -0.6);
+         s.offBranch = [](const path::State& state) {
+           const auto u = state.u->getData();
+           return std::abs(u[0] - 0.5 - u[1] * u[1]);
+         };
        }},
       {"transcritical",
        "two branches cross at lambda = 0.5 + bend/4",
        {{"bend", 0.3}, {"cubic", 1}, {"imperfection", 0}},
        [](const Values& v) { return problem(modes(v, {0.5})); },
-       [](const Values&, const Problem& p, Setup& s) { watchModes(s, p); }},
+       [](const Values& v, const Problem& p, Setup& s) {
+         watchModes(s, p);
+         trivial(s, v, p);
+       }},
       {"two_modes",
        "two pitchforks on one path, a distance apart",
        {{"bend", 0.3}, {"distance", 0.4}, {"imperfection", 0}},
        [](const Values& v) {
          return problem(modes(v, {0.5, 0.5 + v.at("distance")}));
        },
-       [](const Values&, const Problem& p, Setup& s) { watchModes(s, p); }},
+       [](const Values& v, const Problem& p, Setup& s) {
+         watchModes(s, p);
+         trivial(s, v, p);
+       }},
       {"branch_trap",
        "an imperfect pitchfork whose branches pass each other at about the size of the imperfection",
        {{"bend", 0.3}, {"imperfection", 1e-3}},
@@ -80,14 +102,16 @@ std::vector<Entry> bifurcations() {
          // Next to the trivial path, mode eps / crossing; a Newton start takes the rest.
          s.start.lambda = -2 * v.at("imperfection") * v.at("imperfection");
          watchModes(s, p);
+         s.offBranch = [](const path::State& state) { return std::max(0.0, -state.u->getData()[1]); };
        }},
       {"square_plate",
        "two modes of a square appear together at lambda = 0.575: four branches, D4 symmetry",
        {{"own", 1}, {"other", 0.5}, {"imperfection", 0}},
        [](const Values& v) { return problem(square(v)); },
-       [](const Values&, const Problem& p, Setup& s) {
+       [](const Values& v, const Problem& p, Setup& s) {
          s.monitors = {unknown(p, "mode_x", 1), unknown(p, "mode_y", 2)};
          s.stops.loadFactors = {2, -1};
+         trivial(s, v, p);
        }},
       {"perturbed_pitchfork",
        "u^3 - lambda u = eps: the branch with a fold at 3 (eps/2)^(2/3), u < 0",

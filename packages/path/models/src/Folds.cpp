@@ -1,3 +1,6 @@
+#include <algorithm>
+#include <cmath>
+
 #include "ChebyshevBratu.hpp"
 #include "Laws.hpp"
 #include "Registry.hpp"
@@ -59,6 +62,23 @@ std::vector<Entry> folds() {
        [](const Values& v, const Problem& p, Setup& s) {
          const int n = count(v, "points", 2, 12);
          middle(s, p, n * n - 1, 4);
+       }},
+      {"bars_in_series",
+       "bars of Saint Venant-Kirchhoff material in a row, pressed: other branches leave where the load is "
+       "largest",
+       {{"bars", 2}},
+       [](const Values& v) { return problem(BarsInSeries{count(v, "bars", 1, 100)}); },
+       [](const Values& v, const Problem& p, Setup& s) {
+         const int n = count(v, "bars", 1, 100);
+         s.direction = -1;
+         s.monitors = {unknown(p, "shortening", n - 1)};
+         stopAt(s, s.monitors[0], -0.9);
+         s.offBranch = [n](const path::State& x) {
+           const auto u = x.u->getData();
+           double worst = 0;
+           for (int i = 0; i < n; ++i) worst = std::max(worst, std::abs(u[i] - u[n - 1] * (i + 1) / n));
+           return worst;
+         };
        }},
       {"contact",
        "one mass pressed on a regularised rigid stop",

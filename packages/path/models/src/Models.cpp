@@ -81,6 +81,15 @@ Monitor unknown(const path::Problem& problem, const std::string& name, int i) {
   return {name, weights};
 }
 
+std::function<double(const path::State&)> zeroUnknowns(std::vector<int> which) {
+  return [which = std::move(which)](const path::State& state) {
+    const auto u = state.u->getData();
+    double worst = 0;
+    for (const int i : which) worst = std::max(worst, std::abs(u[i]));
+    return worst;
+  };
+}
+
 void stopAt(Setup& setup, const Monitor& monitor, double value) {
   setup.stops.functionals.push_back({monitor.name, monitor.weights, value});
 }

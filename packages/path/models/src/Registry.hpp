@@ -29,6 +29,8 @@ double positive(const Parameters& values, const std::string& name);
 path::RCP<path::Vector> vector(const path::Problem& problem, const std::vector<double>& x = {});
 /// The unknown number i as a monitor.
 Monitor unknown(const path::Problem& problem, const std::string& name, int i);
+/// Distance from a branch on which these unknowns are zero.
+std::function<double(const path::State&)> zeroUnknowns(std::vector<int> which);
 /// The path ends where this monitor has the value.
 void stopAt(Setup& setup, const Monitor& monitor, double value);
 

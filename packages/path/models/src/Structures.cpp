@@ -1,4 +1,5 @@
 #include <cmath>
+#include <numeric>
 
 #include "Bifurcations.hpp"
 #include "Galerkin.hpp"
@@ -50,6 +51,12 @@ HingedFrame frame(const Values& v) {
   law.elements = count(v, "elements", 4, 60);
   return law;
 }
+/// 1 .. n.
+std::vector<int> others(int n) {
+  std::vector<int> list(n);
+  std::iota(list.begin(), list.end(), 1);
+  return list;
+}
 }  // namespace
 
 std::vector<Entry> structures() {
@@ -58,8 +65,9 @@ std::vector<Entry> structures() {
        "von Mises truss whose top may sway: two limit points and, for half_width < 0.707, two bifurcations",
        {{"half_width", 0.5}, {"imperfection", 0}},
        [](const Values& v) { return problem(sway(v)); },
-       [](const Values&, const Problem& p, Setup& s) {
+       [](const Values& v, const Problem& p, Setup& s) {
          s.monitors = {unknown(p, "sinking", 0), unknown(p, "sway", 1)};
+         if (v.at("imperfection") == 0) s.offBranch = zeroUnknowns({1});
          stopAt(s, s.monitors[0], 2.2);
          stopAt(s, s.monitors[0], -1);
        }},
@@ -76,6 +84,7 @@ std::vector<Entry> structures() {
          s.monitors = {{"tip_rotation", tip}, unknown(p, "shortening", 0)};
          // A side load puts the column out of balance at lambda = 0: the path starts with a Newton solution.
          s.stops.loadFactors = {5};
+         if (v.at("side_load") == 0) s.offBranch = zeroUnknowns(others(n));
        }},
       {"shallow_arch",
        "shallow pinned arch by Galerkin's method: symmetric limit points and an antisymmetric bifurcation",
@@ -85,6 +94,7 @@ std::vector<Entry> structures() {
          s.start.u = vector(p, arch(v).start());
          s.monitors = {unknown(p, "mode_1", 0), unknown(p, "mode_2", 1)};
          stopAt(s, s.monitors[0], -1.1 * v.at("rise"));
+         if (v.at("imperfection") == 0) s.offBranch = zeroUnknowns(others(count(v, "modes", 2, 32) - 1));
        }},
       {"strut_on_foundation",
        "pinned strut on a foundation with equal buckling loads of its first two modes (foundation = 4)",
@@ -99,6 +109,7 @@ std::vector<Entry> structures() {
          const int n = count(v, "modes", 2, 32);
          for (int i = 1; i <= n; ++i) s.monitors.push_back(unknown(p, "mode_" + std::to_string(i), i));
          s.stops.loadFactors = {8, -1};
+         if (v.at("imperfection") == 0) s.offBranch = zeroUnknowns(others(n));
        }},
       {"lee_frame",
        "Lee's frame: geometrically exact beams, load and both displacements of its point fold",

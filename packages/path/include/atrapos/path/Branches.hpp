@@ -76,6 +76,9 @@ class BranchFollower {
   BranchFollower(Problem& problem, linear::TangentSolver& solver, Options options, Stops stops,
                  BranchOptions branches);
 
+  /// As PathFollower::watch, on every branch.
+  void watch(std::vector<Monitor> monitors);
+
   BranchDiagram run(const State& start, BranchObserver& observer);
 
  private:
@@ -84,6 +87,7 @@ class BranchFollower {
   Options options_;
   Stops stops_;
   BranchOptions branches_;
+  std::vector<Monitor> monitors_;
 };
 
 }  // namespace atrapos::path

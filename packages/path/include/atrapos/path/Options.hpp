@@ -50,8 +50,13 @@ struct Options {
   /// tangent solver that tells it). One or two factorizations each, more where several lie close together.
   bool criticalPoints = true;
 
-  /// Looks for bifurcation points at every step: K more right-hand sides and solves each, no factorization.
-  /// Without it two points in one step whose eigenvalues cancel in the count are not seen.
+  /// Eigenvalues of the tangent next to zero that are followed from step to step, >= 0: 2 solves each a step
+  /// and their rates by order 2 of the residual. They show two points in one step whose changes cancel in
+  /// the count of negative eigenvalues, and make the search start there. Symmetric tangents only.
+  int watchedModes = 3;
+
+  /// Looks for bifurcation points at every step, whatever the eigenvalues say: 2 K more right-hand sides and
+  /// solves each, no factorization unless something is found.
   bool searchEveryStep = false;
 
   /// One factorization at the path's end, where the solver tells the inertia: without it the stability there,

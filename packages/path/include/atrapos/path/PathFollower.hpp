@@ -1,5 +1,6 @@
 #pragma once
 
+#include "atrapos/path/Monitor.hpp"
 #include "atrapos/path/Options.hpp"
 #include "atrapos/path/Report.hpp"
 #include "atrapos/path/Stops.hpp"
@@ -26,6 +27,10 @@ class PathFollower {
   /// The same from a point with a direction: a branch, or StepReport::next of an interrupted path.
   Outcome runFrom(const Start& start, Observer& observer);
 
+  /// From here on the limit points of these functionals are reported too (StepReport::extrema). Throws
+  /// std::invalid_argument, one line, on one without weights.
+  void watch(std::vector<Monitor> monitors);
+
   const Options& options() const { return options_; }
 
  private:
@@ -33,6 +38,7 @@ class PathFollower {
   linear::TangentSolver& solver_;
   Options options_;
   Stops stops_;
+  std::vector<Monitor> monitors_;
 };
 
 }  // namespace atrapos::path

@@ -18,6 +18,15 @@ struct LimitPoint {
   bool smooth = true;  ///< false: lambda turns because an event changed the Problem
 };
 
+/// A limit point of a monitor: d(weights . U)/da = 0 inside a step.
+struct Extremum {
+  int monitor = 0;    ///< index into the monitors given to PathFollower::watch
+  double a = 0;       ///< on the step's series
+  double lambda = 0;  ///< load factor there
+  double value = 0;   ///< of the monitor
+  bool maximum = false;
+};
+
 enum class CriticalKind {
   transcritical,  ///< two branches cross, lambda goes on along both
   pitchfork,      ///< lambda turns along one of the two branches
@@ -40,7 +49,8 @@ struct CriticalPoint {
   /// Number of null vectors found: 1, or more where `kind` is multiple.
   int nullity = 1;
   /// Unit directions (w <X, X> + lambda^2 = 1) of the branches through it, that of the path first and with
-  /// its sense; empty at a multiple point.
+  /// its sense. At a multiple point those of all branches found, two null vectors and a symmetric tangent
+  /// given; empty otherwise.
   std::vector<PathTangent> tangents;
   std::vector<RCP<Vector>> nullVectors;  ///< of K_T there, Euclidean norm 1
 };
@@ -77,7 +87,8 @@ struct StepReport {
   std::optional<linear::Inertia> inertia;     ///< of the tangent at the step's start
   std::optional<linear::Inertia> inertiaEnd;  ///< and at its end, i.e. the next step's start
   std::vector<LimitPoint> limitPoints;
-  std::vector<int> events;  ///< event functions that fell to zero at the step's end and were applied
+  std::vector<Extremum> extrema;  ///< of the monitors, ascending in a
+  std::vector<int> events;        ///< event functions that fell to zero at the step's end and were applied
   std::vector<CriticalPoint> criticalPoints;  ///< bifurcation points inside the step, ascending
   /// Eigenvalues that changed sign inside the step and are explained by no point found: the tangent says that
   /// there is a bifurcation, its place is not known.

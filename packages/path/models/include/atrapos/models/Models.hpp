@@ -1,10 +1,12 @@
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "atrapos/path/Monitor.hpp"
 #include "atrapos/path/Problem.hpp"
 #include "atrapos/path/Stops.hpp"
 
@@ -15,11 +17,7 @@ namespace atrapos::models {
 /// Values by name; what is not given takes its default.
 using Parameters = std::map<std::string, double>;
 
-/// A linear functional of the unknowns, weights . U.
-struct Monitor {
-  std::string name;
-  path::RCP<const path::Vector> weights;  ///< on the problem's map
-};
+using path::Monitor;
 
 /// Where the path of a model starts and ends, and what is worth watching.
 struct Setup {
@@ -28,6 +26,9 @@ struct Setup {
   double direction = 1;           ///< for path::Options::direction
   path::Stops stops;              ///< the end of the path worth seeing, whichever comes first
   std::vector<Monitor> monitors;  ///< at least one
+  /// How far a state is from the branch that the path belongs to, in unknowns; 0 on it. Empty where the model
+  /// has no other branch near, or none that is known.
+  std::function<double(const path::State&)> offBranch;
 };
 
 /// All names, in alphabetical order.

@@ -1,0 +1,50 @@
+#pragma once
+
+#include "atrapos/path/State.hpp"
+
+namespace atrapos::path {
+
+/// A Problem with an imperfection: a small constant force, R(U, lambda) - f = 0. Everything else is the
+/// perfect Problem's, which must outlive it; only one of the two is followed at a time.
+///
+/// The path has no solution at the perfect one's start: path following corrects it there at fixed lambda.
+class ImperfectProblem : public Problem {
+ public:
+  /// `force` lives on the Problem's map; it is not copied. Throws std::invalid_argument where it does not.
+  ImperfectProblem(Problem& perfect, RCP<const Vector> force);
+
+  RCP<const Map> map() const override { return perfect_.map(); }
+  bool symmetric() const override { return perfect_.symmetric(); }
+  ResidualNorm residual(const Vector& u, double lambda, Vector& r) override;
+  RCP<const CrsMatrix> tangent(const Vector& u, double lambda, Vector& F) override {
+    return perfect_.tangent(u, lambda, F);
+  }
+  void beginSeries(const Vector& u, double lambda, int maxOrder) override {
+    perfect_.beginSeries(u, lambda, maxOrder);
+  }
+  void orderRhs(int k, Vector& Fk) override { perfect_.orderRhs(k, Fk); }
+  void completeOrder(int k, const Vector& Uk, double lambdaK) override {
+    perfect_.completeOrder(k, Uk, lambdaK);
+  }
+  int internalCount() const override { return perfect_.internalCount(); }
+  void internalOrder(int k, const Vector& v, double mu, std::vector<double>& y) const override {
+    perfect_.internalOrder(k, v, mu, y);
+  }
+  int eventCount() const override { return perfect_.eventCount(); }
+  void eventOrder(int k, std::vector<double>& g) const override { perfect_.eventOrder(k, g); }
+  void applyEvent(const std::vector<int>& indices, const Vector& u, double lambda) override {
+    perfect_.applyEvent(indices, u, lambda);
+  }
+  int constraintPivots() const override { return perfect_.constraintPivots(); }
+  double inner(const Increment& x, const Increment& y) const override { return perfect_.inner(x, y); }
+
+ private:
+  Problem& perfect_;
+  RCP<const Vector> force_;
+};
+
+/// The force K_T(state) d that moves the perfect structure by d, to first order: an imperfection with the
+/// shape and the size of d, a buckling mode times a part of the thickness, say.
+RCP<Vector> forceOfShape(Problem& problem, const State& state, const Vector& d);
+
+}  // namespace atrapos::path
