@@ -75,7 +75,7 @@ bool Run::step() {
     throw;
   }
   report.residualOfSeries = trial.residual;
-  correct(series, trial, report);
+  correct(series, trial, report, correctAbove());
   const auto stop = trial.stop;
   due_ = trial.events;
   accept(std::move(trial), std::move(report), std::move(series));

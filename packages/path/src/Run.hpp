@@ -100,7 +100,7 @@ class Run {
   void evaluate(const Series& series, Trial& trial);
   double startPart(double a) const;
   double shorterBy(const Trial& trial) const;
-  void correct(const Series& series, Trial& trial, StepReport& report);
+  void correct(const Series& series, Trial& trial, StepReport& report, double above);
 
   double bound() const { return options_.residualBound; }
   /// A residual acts like an imperfection, and one above this makes one branch of two that cross.

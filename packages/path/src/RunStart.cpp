@@ -115,6 +115,9 @@ bool Run::retreat() {
   --outcome_.steps;
   outcome_.corrections -= report.corrections;  // counted again by accept
   outcome_.cutBacks -= report.cutBacks;
+  // Two branches are near, and the residual is what turns the path from one to the other.
+  constexpr double sharper = 1e-4;
+  correct(*last_, trial, report, sharper * correctAbove());
   accept(std::move(trial), std::move(report), Series(std::move(*last_)));
   return true;
 }

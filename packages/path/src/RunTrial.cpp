@@ -66,7 +66,14 @@ std::optional<Run::Trial> Run::padeTrial(Series& series, StepReport& report) {
   near.a = polynomial;
   limit(series, near);
   if (near.stop || !near.events.empty()) return std::nullopt;
-  const PadeFit fit = fitPade(calls_.problem(), series, options_.delta, longestLength());
+  PadeFit fit = fitPade(calls_.problem(), series, options_.delta, longestLength());
+  // Where an eigenvalue of the tangent is about to vanish, or just has, other branches may be near, and a
+  // long step would see nothing of them: there the polynomial, which its radius bounds, goes.
+  constexpr double shortOf = 0.9, behind = -0.2;
+  for (const Mode& mode : modes_) {
+    const double zero = -mode.mu / mode.rate;
+    if (zero > behind * polynomial && shortOf * zero < fit.range) fit.range = std::max(0.0, shortOf * zero);
+  }
   report.padeRange = fit.range;
   if (fit.usable() && fit.range > least) {
     series.setForm(fit.form);
@@ -134,8 +141,8 @@ Run::Trial Run::polynomialTrial(const Series& series, StepReport& report) {
   }
 }
 
-void Run::correct(const Series& series, Trial& trial, StepReport& report) {
-  if (trial.residual <= correctAbove() || options_.maxCorrections == 0) return;
+void Run::correct(const Series& series, Trial& trial, StepReport& report, double above) {
+  if (trial.residual <= above || options_.maxCorrections == 0) return;
   Border border;
   if (!trial.stop || trial.stop->kind == StopHit::Kind::pathLength)
     border = holdPathParameter(calls_.problem(), series.weight(), series.tangent(trial.a));
@@ -144,9 +151,9 @@ void Run::correct(const Series& series, Trial& trial, StepReport& report) {
   else
     border = holdFunctional(stops_.functionals[trial.stop->index].weights);
   // The state is under the bound already: where an iteration does not help, it stays as it is.
-  const auto result = newton(calls_, trial.state, *trial.r, border, correctAbove(), options_.maxCorrections,
+  const auto result = newton(calls_, trial.state, *trial.r, border, above, options_.maxCorrections,
                              /*maxHalvings*/ 0);
-  report.corrections = result.iterations;
+  report.corrections += result.iterations;
   trial.residual = result.residual;
 }
 
