@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <Tpetra_Vector.hpp>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <stdexcept>
