@@ -25,7 +25,8 @@ struct FeModel {
   linear::RCP<const Teuchos::Comm<int>> comm;
 };
 
-/// R(u, lambda) = sum of the terms F(u, lambda) - F_0 - lambda F_1 with Dirichlet conditions, as a path::Problem.
+/// R(u, lambda) = sum of the terms F(u, lambda) - F_0 - lambda F_1 with Dirichlet conditions, as a
+/// path::Problem.
 ///
 /// The unknowns are all nodal displacements, 3 a node. The row of a prescribed dof reads s (u - value -
 /// lambda rate) = 0 with s the size of the tangent's diagonal, and its column is carried to the load
@@ -39,8 +40,8 @@ struct FeModel {
 /// vanish at a stressed state, and in a thin body the rounding of the displacements alone then exceeds any
 /// fraction of them.)
 ///
-/// One rank only: a communicator of more throws std::invalid_argument. A program of several ranks may have one
-/// problem on each, with Teuchos::MpiComm<int>(MPI_COMM_SELF) as FeModel::comm.
+/// One rank only: a communicator of more throws std::invalid_argument. A program of several ranks may have
+/// one problem on each, with Teuchos::MpiComm<int>(MPI_COMM_SELF) as FeModel::comm.
 class FeProblem final : public path::Problem {
  public:
   explicit FeProblem(FeModel model);
