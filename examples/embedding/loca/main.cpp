@@ -88,7 +88,7 @@ static int compare() {
   // The highest point lies below the fold by its curvature times half a step squared: points are half a unit
   // apart at most.
   return folds.lambda.size() == 1 && highest < folds.lambda[0] + 1e-6 && highest > folds.lambda[0] - 0.05 ? 0
-                                                                                                         : 1;
+                                                                                                          : 1;
 }
 
 int main(int argc, char** argv) {

@@ -47,6 +47,7 @@ Corrector::Result Corrector::correct(State& state, Vector& r, const Augmented& d
   // The correction before; the step stands for it at first, since the predictor is off by order s^2.
   double before = s;
   double left = 0;  // estimate of the next one
+  int grown = 0;    // corrections in a row that were larger than the one before
   bool stale = true;
   const auto fail = [&](const std::string& why) {
     result.trouble = why;
@@ -72,9 +73,10 @@ Corrector::Result Corrector::correct(State& state, Vector& r, const Augmented& d
       const double contraction = size / before;
       left = size * (fresh ? contraction * contraction : contraction);
       // Corrections, not residuals, tell divergence: in thin bodies a good first correction of a rotation
-      // stretches them and can raise the residual. They may grow once in a while, as where contact changes, but not
-      // beyond the step.
-      if (!done && size > s) return fail("a correction is longer than the step");
+      // stretches them and can raise the residual. One may be larger than the one before, as where contact
+      // changes, but not two in a row, and none larger than the step.
+      grown = result.iterations > 1 && size >= before ? grown + 1 : 0;
+      if (!done && (grown == 2 || size > s)) return fail("the corrections grow");
       stale = result.iterations > 1 && size > options_.refactorAbove * before;
       before = size;
     } catch (const PathError& error) {

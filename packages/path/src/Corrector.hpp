@@ -26,8 +26,8 @@ class Corrector {
   /// Factors the tangent at a state, Uhat included. Throws PathError.
   void factor(const State& state);
 
-  /// Iterates from `state`, the predictor of a step of length s, normal to `direction`, until the residual bound
-  /// is kept and the distance left is small against the accuracy; `r` is R at the end.
+  /// Iterates from `state`, the predictor of a step of length s, normal to `direction`, until the residual
+  /// bound is kept and the distance left is small against the accuracy; `r` is R at the end.
   Result correct(State& state, Vector& r, const Augmented& direction, double weight, double s);
 
   /// (dU, dlambda) with K dU - F dlambda = rhs, direction . (dU, dlambda) = 0, by the last factorization.

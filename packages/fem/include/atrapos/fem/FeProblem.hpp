@@ -46,8 +46,8 @@ struct FeModel {
 /// vanish at a stressed state, and in a thin body the rounding of the displacements alone then exceeds any
 /// fraction of them.)
 ///
-/// One rank only: a communicator of more throws std::invalid_argument. A program of several ranks may have one
-/// problem on each, with Teuchos::MpiComm<int>(MPI_COMM_SELF) as FeModel::comm.
+/// One rank only: a communicator of more throws std::invalid_argument. A program of several ranks may have
+/// one problem on each, with Teuchos::MpiComm<int>(MPI_COMM_SELF) as FeModel::comm.
 class FeProblem final : public path::Problem {
  public:
   explicit FeProblem(FeModel model);

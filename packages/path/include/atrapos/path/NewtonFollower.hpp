@@ -26,8 +26,8 @@ struct NewtonOptions {
   /// of it.
   double accuracy = std::numeric_limits<double>::infinity();
 
-  /// Step lengths aim at so many iterations: > 0, not necessarily whole. Empty: 4 (full) or 6 (modified), beyond
-  /// which little is gained.
+  /// Step lengths aim at so many iterations: > 0, not necessarily whole. Empty: 4 (full) or 6 (modified),
+  /// beyond which little is gained.
   std::optional<double> desiredIterations;
   int minIterations = 1;   ///< >= 1: the first one brings the next tangent
   int maxIterations = 10;  ///< of one trial; more: the step is halved
