@@ -30,7 +30,7 @@ ContactPressure contactPressure(const deck::Contact& contact, const BodySize& bo
   const double slender = body.thickness / body.length;
   // The pressure that bends a plate of this length and thickness by the gap, without its factor of about 1.
   const double bending = body.youngsModulus * slender * slender * slender * body.smallestGap / body.length;
-  const double alpha0 = body.youngsModulus / body.thickness * body.areaPerPoint;
+  const double alpha0 = 10 * body.youngsModulus / body.thickness * body.areaPerPoint;
   const double eta0 = 0.01 * bending * body.areaPerPoint;
   const double gap = contact.referenceGap.value_or(body.smallestGap);
 

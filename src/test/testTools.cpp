@@ -176,7 +176,7 @@ class Laws : public Tools {
 };
 
 // All laws stop the body at the surface, 0.25 below it, up to what they yield: with the chosen stiffness,
-// that of a layer as thick as the body, about 2 %.
+// ten times that of a layer as thick as the body, less than 1 %.
 TEST_F(Laws, AllStopTheBody) {
   const End hard = endWith("law: barrier, regularisation: 1.0e-5");
   for (const char* law : {"law: hyperbola, stiffness: 1.0e6, regularisation: 1.0e-6", "law: hyperbola",

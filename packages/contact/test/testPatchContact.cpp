@@ -180,7 +180,7 @@ TEST_F(Slide, GoesOnBitByBitFromTheMiddle) {
   const auto run = [&](fem::FeProblem& on, const path::Start& start, Ends& ends) {
     const auto solver = linear::makeTangentSolver();
     path::PathFollower follower(on, *solver, tightOptions(), stops);
-    return follower.run(start, ends);
+    return follower.runFrom(start, ends);
   };
   fem::FeProblem whole = problem();
   Ends ends, rest;
