@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "atrapos/path/Monitor.hpp"
 #include "atrapos/path/Stops.hpp"
 #include "deck/Deck.hpp"
 
@@ -43,6 +44,9 @@ class PathCase {
   virtual std::vector<std::string> monitorNames() const = 0;
   /// Values of the monitors, in the order of their names.
   virtual std::vector<double> monitors(const path::Vector& u, double lambda) const = 0;
+
+  /// The monitors that are linear functionals of the unknowns: their limit points are reported.
+  virtual std::vector<path::Monitor> functionals() const = 0;
 
   /// Closed contact points.
   virtual int activeContacts(const path::Vector& /*u*/, double /*lambda*/) const { return 0; }

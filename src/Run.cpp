@@ -7,6 +7,7 @@
 #include <ostream>
 
 #include "Files.hpp"
+#include "Imperfections.hpp"
 #include "Interrupt.hpp"
 #include "PathPlot.hpp"
 #include "Recorder.hpp"
@@ -51,6 +52,8 @@ std::optional<Continued> continuedRun(PathCase& pathCase, const RunOptions& opti
   if (options.restart.empty()) return {};
   if (pathCase.deck().path.branches != path::Follow::none)
     throw std::invalid_argument("path/branches: a run with branches cannot be restarted; expected none");
+  if (!pathCase.deck().path.imperfections.empty())
+    throw std::invalid_argument("path/imperfections: a run with imperfect paths cannot be restarted");
   if (pathCase.problem().eventCount() > 0)
     throw std::invalid_argument("a problem that changes by events cannot be restarted");
   Continued continued{options.restart, readRestart(options.restart + "/restart.bin", options.fromStep,
@@ -97,6 +100,8 @@ RunResult runPath(PathCase& pathCase, const RunOptions& options) {
   const path::Stops stops = pathCase.stops();
   path::PathFollower follower(problem, *solver, settings, stops);
   path::BranchFollower tree(problem, *solver, settings, stops, branchOptions(deck.path));
+  follower.watch(pathCase.functionals());
+  tree.watch(pathCase.functionals());
   const auto continued = continuedRun(pathCase, options);
 
   prepareFolder(options.directory, {"path.csv", "points.csv", "branches.csv", "results.exo", "restart.bin",
@@ -116,11 +121,18 @@ RunResult runPath(PathCase& pathCase, const RunOptions& options) {
     diagram = tree.run(start, recorder);
   }
   recorder.finish(start);
+  std::string trouble;
+  std::vector<double> imperfections;
+  try {
+    followImperfect(pathCase, *solver, settings, recorder, diagram, imperfections);
+  } catch (const std::runtime_error& e) {
+    trouble = e.what();  // what has been found stays
+  }
 
-  auto summary = runSummary(pathCase, diagram, *solver, recorder);
+  auto summary = runSummary(pathCase, diagram, imperfections, *solver, recorder);
   if (continued) summary["restarted_behind_step"] = continued->from.steps;
   replaceFile(options.directory + "/summary.json", summary.dump(2) + "\n");
-  replaceFile(options.directory + "/branches.csv", branchTable(diagram));
+  replaceFile(options.directory + "/branches.csv", branchTable(diagram, imperfections));
   const std::string plot = plotPath(options.directory, deck.title, pathCase.monitorNames(),
                                     static_cast<int>(diagram.branches.size()));
   if (options.progress) {
@@ -130,7 +142,9 @@ RunResult runPath(PathCase& pathCase, const RunOptions& options) {
         recorder.seconds(), recorder.worstResidual());
     if (!plot.empty()) *options.progress << plot << '\n';
   }
-  return resultOf(diagram);
+  RunResult result = resultOf(diagram);
+  if (result.reachedStop && !trouble.empty()) result = {false, trouble};
+  return result;
 }
 
 }  // namespace atrapos

@@ -8,6 +8,7 @@
 #include "atrapos/fem/FeProblem.hpp"
 #include "atrapos/fem/Mesh.hpp"
 #include "atrapos/fem/PointSet.hpp"
+#include "atrapos/path/Monitor.hpp"
 #include "atrapos/path/Stops.hpp"
 #include "deck/Deck.hpp"
 
@@ -54,6 +55,9 @@ class Scene {
   std::vector<std::string> monitorNames() const;
   /// Values of the monitors, in the deck's order.
   std::vector<double> monitors(const path::Vector& u, double lambda) const;
+
+  /// The displacement monitors, linear functionals of the unknowns.
+  std::vector<path::Monitor> functionals() const;
 
   ContactState contactState(const ContactPoints& contact, const path::Vector& u, double lambda) const;
   /// Total force of a contact on the body.

@@ -50,8 +50,7 @@ path::Stops Scene::stops() const {
   for (const auto& [name, values] : stop.monitors)
     for (std::size_t i = 0; i < displacementWeights_.size(); ++i)
       if (deck_.output.monitors[i].name == name)
-        for (const double value : values)
-          stops.functionals.push_back({name, displacementWeights_[i], value});
+        for (const double value : values) stops.functionals.push_back({name, displacementWeights_[i], value});
   return stops;
 }
 
@@ -59,6 +58,14 @@ std::vector<std::string> Scene::monitorNames() const {
   std::vector<std::string> names;
   for (const deck::Monitor& monitor : deck_.output.monitors) names.push_back(monitor.name);
   return names;
+}
+
+std::vector<path::Monitor> Scene::functionals() const {
+  std::vector<path::Monitor> list;
+  for (std::size_t i = 0; i < displacementWeights_.size(); ++i)
+    if (!displacementWeights_[i].is_null())
+      list.push_back({deck_.output.monitors[i].name, displacementWeights_[i]});
+  return list;
 }
 
 ContactState Scene::contactState(const ContactPoints& contact, const path::Vector& u, double lambda) const {
