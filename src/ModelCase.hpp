@@ -19,6 +19,7 @@ class ModelCase final : public PathCase {
   double direction() const override { return setup_.direction; }
   std::vector<std::string> monitorNames() const override;
   std::vector<double> monitors(const path::Vector& u, double lambda) const override;
+  std::vector<path::Monitor> functionals() const override { return setup_.monitors; }
   std::vector<std::pair<std::string, long long>> sizes() const override;
 
   const std::string& about() const { return setup_.about; }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "atrapos/linear/TangentSolver.hpp"
+#include "atrapos/path/Monitor.hpp"
 #include "atrapos/path/Options.hpp"
 #include "atrapos/path/Series.hpp"
 #include "atrapos/path/Stops.hpp"
@@ -59,6 +60,9 @@ class PathCase {
   virtual std::vector<std::string> monitorNames() const = 0;
   /// Values of the monitors, in the order of their names.
   virtual std::vector<double> monitors(const path::Vector& u, double lambda) const = 0;
+
+  /// The monitors that are linear functionals of the unknowns: their limit points are reported.
+  virtual std::vector<path::Monitor> functionals() const = 0;
 
   /// Closed contact points.
   virtual int activeContacts(const path::Vector& /*u*/, double /*lambda*/) const { return 0; }

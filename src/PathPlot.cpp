@@ -40,7 +40,8 @@ std::string panel(const std::string& name, int column, int pointColumn, int stab
   // Bifurcation points have null vectors, limit points have none.
   script += fmt::format(
       "'points.csv' skip 1 using {0}:($7 > 0 ? $4 : NaN) with points pt 5 ps 1 lc rgb 'black', \\\n"
-      "  '' skip 1 using {0}:($7 == 0 ? $4 : NaN) with points pt 6 ps 1.2 lc rgb 'black'\n",
+      "  '' skip 1 using {0}:(strcol(5) eq 'maximum' || strcol(5) eq 'minimum' ? $4 : NaN) with points pt 6 "
+      "ps 1.2 lc rgb 'black'\n",
       pointColumn);
   return script;
 }

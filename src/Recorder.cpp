@@ -4,6 +4,7 @@
 
 #include <Tpetra_Vector.hpp>
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <ostream>
 
@@ -24,6 +25,8 @@ std::string fieldsName(int branch) {
 Recorder::Recorder(PathCase& pathCase, std::string directory, std::ostream* progress,
                    const std::optional<Continued>& continued)
     : case_(pathCase),
+      problem_(&pathCase.problem()),
+      functionals_(pathCase.functionals()),
       directory_(std::move(directory)),
       progress_(progress),
       path_(file("path.csv") + (continued ? kBeside : ""), pathHeader(case_.monitorNames())),
@@ -83,7 +86,16 @@ void Recorder::onBranch(const path::BranchDiagram& diagram, int branch) {
     *progress_ << fmt::format("branch {}: from the {} on branch {} at load factor {:.10g}{}\n", branch,
                               path::toString(point.kind), b.parent, point.state.lambda,
                               b.end == path::BranchEnd::path ? "" : ": " + b.outcome.text);
-  if (b.end != path::BranchEnd::path) return;
+  if (b.end == path::BranchEnd::path) begin(branch);
+}
+
+void Recorder::beginImperfect(path::Problem& problem, int branch, double size) {
+  problem_ = &problem;
+  if (progress_) *progress_ << fmt::format("branch {}: the path with imperfection {:g}\n", branch, size);
+  begin(branch);
+}
+
+void Recorder::begin(int branch) {
   branch_ = branch;
   started_ = false;
   fields_.reset();  // the file of the branch before is complete
@@ -110,7 +122,7 @@ bool Recorder::onStep(int branch, const path::StepReport& report, const path::Se
   if (fields_)
     fields_->write(*report.end.u, report.end.lambda,
                    {report.pathLengthEnd, report.radius, report.residual, report.order, negative, branch_});
-  if (restart_) restart_->append(report.next);
+  if (restart_ && branch == 0) restart_->append(report.next);
   printStep(report);
   outputSeconds_ += seconds() - before;
   return !Interrupt::came();
@@ -125,12 +137,12 @@ void Recorder::writeStart(const path::Vector& u, double lambda, long long negati
   writeRow(0, 0.0, u, lambda, negative);
   if (fields_)
     fields_->write(u, lambda,
-                   {0, 0, case_.problem().residual(u, lambda, *residual_).relative(), 0, negative, branch_});
+                   {0, 0, problem_->residual(u, lambda, *residual_).relative(), 0, negative, branch_});
 }
 
 void Recorder::writeRow(int step, double pathLength, const path::Vector& u, double lambda,
                         long long negative) {
-  const double r = case_.problem().residual(u, lambda, *residual_).relative();
+  const double r = problem_->residual(u, lambda, *residual_).relative();
   if (step > 0) worstResidual_ = std::max(worstResidual_, r);
   path_.append(text(PathRow{step, pathLength, lambda, case_.monitors(u, lambda), negative, branch_, r}));
 }
@@ -142,6 +154,19 @@ void Recorder::writePoints(const path::StepReport& report, const path::Series& s
     PointRow row{report.step, branch_, report.pathLengthStart + p.a, p.lambda,
                  p.maximum ? "maximum" : "minimum"};
     row.monitors = case_.monitors(*work_, p.lambda);
+    rows.push_back(row);
+  }
+  for (const path::Extremum& e : report.extrema) {
+    series.evaluate(e.a, *work_);
+    // A monitor that is zero by symmetry turns at random: what it changes by must be more than the residual
+    // bound leaves open.
+    const path::Vector& weights = *functionals_[e.monitor].weights;
+    const auto value = series.functional(weights);
+    const double change = std::max(std::abs(e.value - value(0)), std::abs(e.value - value(report.length)));
+    if (!(change > case_.deck().path.residual * weights.norm2() * work_->norm2())) continue;
+    PointRow row{report.step, branch_, report.pathLengthStart + e.a, e.lambda,
+                 (e.maximum ? "maximum:" : "minimum:") + functionals_[e.monitor].name};
+    row.monitors = case_.monitors(*work_, e.lambda);
     rows.push_back(row);
   }
   limitPoints_ += static_cast<int>(report.limitPoints.size());

@@ -30,10 +30,12 @@ class Recorder final : public path::BranchObserver {
   ~Recorder() override;
 
   void onBranch(const path::BranchDiagram& diagram, int branch) override;
+  /// An imperfect path as another branch; `problem`, whose residual counts, must outlive its steps.
+  void beginImperfect(path::Problem& problem, int branch, double size);
   /// False after SIGINT or SIGTERM.
   bool onStep(int branch, const path::StepReport& report, const path::Series& series) override;
 
-  /// The start of the path where no step was made.
+  /// The start of the path under way where no step was made.
   void finish(const path::State& start);
 
   int limitPoints() const { return limitPoints_; }
@@ -45,6 +47,7 @@ class Recorder final : public path::BranchObserver {
 
  private:
   std::string file(const std::string& name) const { return directory_ + "/" + name; }
+  void begin(int branch);
   void goOn(const Continued& continued);
   void writeStart(const path::Vector& u, double lambda, long long negative);
   void writeRow(int step, double pathLength, const path::Vector& u, double lambda, long long negative);
@@ -53,6 +56,8 @@ class Recorder final : public path::BranchObserver {
   void printStep(const path::StepReport& report) const;
 
   PathCase& case_;
+  path::Problem* problem_;  ///< under way: the case's, or an imperfect one
+  std::vector<path::Monitor> functionals_;
   std::string directory_;
   std::ostream* progress_;
   Table path_, points_;

@@ -8,6 +8,7 @@
 #include <ostream>
 
 #include "Files.hpp"
+#include "Imperfections.hpp"
 #include "Interrupt.hpp"
 #include "PathPlot.hpp"
 #include "Recorder.hpp"
@@ -96,6 +97,8 @@ std::optional<Continued> continuedRun(PathCase& pathCase, const RunOptions& opti
   if (options.restart.empty()) return {};
   if (pathCase.deck().path.branches != path::Follow::none)
     throw std::invalid_argument("path/branches: a run with branches cannot be restarted; expected none");
+  if (!pathCase.deck().path.imperfections.empty())
+    throw std::invalid_argument("path/imperfections: a run with imperfect paths cannot be restarted");
   if (pathCase.problem().eventCount() > 0)
     throw std::invalid_argument("a problem that changes by events cannot be restarted");
   Continued continued{options.restart, readRestart(options.restart + "/restart.bin", options.fromStep,
@@ -142,6 +145,8 @@ RunResult runPath(PathCase& pathCase, const RunOptions& options) {
   const path::Stops stops = pathCase.stops();
   path::PathFollower follower(problem, *solver, settings, stops);
   path::BranchFollower tree(problem, *solver, settings, stops, branchOptions(deck.path));
+  follower.watch(pathCase.functionals());
+  tree.watch(pathCase.functionals());
   const auto continued = continuedRun(pathCase, options);
 
   prepareFolder(options.directory, {"path.csv", "points.csv", "events.csv", "branches.csv", "results.exo",
@@ -162,15 +167,22 @@ RunResult runPath(PathCase& pathCase, const RunOptions& options) {
     diagram = tree.run(start, recorder);
   }
   recorder.finish(start);
+  std::string trouble;
+  std::vector<double> imperfections;
+  try {
+    followImperfect(pathCase, *solver, settings, recorder, diagram, imperfections);
+  } catch (const std::runtime_error& e) {
+    trouble = e.what();  // what has been found stays
+  }
 
-  auto summary = runSummary(pathCase, diagram, *solver, recorder);
+  auto summary = runSummary(pathCase, diagram, imperfections, *solver, recorder);
   if (continued) summary["restarted_behind_step"] = continued->from.steps;
   std::string finished;
   const path::Outcome& first = diagram.branches[0].outcome;
   if (first.reason == path::EndReason::stopReached && !Interrupt::came())
     finished = pathCase.finish(first.final, settings, *solver, options.directory, summary);
   replaceFile(options.directory + "/summary.json", summary.dump(2) + "\n");
-  replaceFile(options.directory + "/branches.csv", branchTable(diagram));
+  replaceFile(options.directory + "/branches.csv", branchTable(diagram, imperfections));
   const std::string plot = plotPath(options.directory, deck.title, pathCase.monitorNames(),
                                     static_cast<int>(diagram.branches.size()));
   if (options.progress) {
@@ -181,7 +193,9 @@ RunResult runPath(PathCase& pathCase, const RunOptions& options) {
     if (!finished.empty()) *options.progress << finished << '\n';
     if (!plot.empty()) *options.progress << plot << '\n';
   }
-  return resultOf(diagram);
+  RunResult result = resultOf(diagram);
+  if (result.reachedStop && !trouble.empty()) result = {false, trouble};
+  return result;
 }
 
 }  // namespace atrapos

@@ -46,7 +46,8 @@ nlohmann::ordered_json pointsOf(const PathCase& pathCase, const path::BranchDiag
   return list;
 }
 
-nlohmann::ordered_json branchesOf(const path::BranchDiagram& diagram) {
+nlohmann::ordered_json branchesOf(const path::BranchDiagram& diagram,
+                                  const std::vector<double>& imperfections) {
   auto list = nlohmann::ordered_json::array();
   for (std::size_t i = 0; i < diagram.branches.size(); ++i) {
     const path::Branch& b = diagram.branches[i];
@@ -57,6 +58,7 @@ nlohmann::ordered_json branchesOf(const path::BranchDiagram& diagram) {
       json["load_direction"] = b.direction.lambda;
     }
     json["depth"] = b.depth;
+    if (imperfections[i] != 0) json["imperfection"] = imperfections[i];
     json["end"] = path::toString(b.end);
     json["ended"] = path::toString(b.outcome.reason);
     json["why"] = b.outcome.text;
@@ -72,6 +74,7 @@ nlohmann::ordered_json branchesOf(const path::BranchDiagram& diagram) {
 }  // namespace
 
 nlohmann::ordered_json runSummary(const PathCase& pathCase, const path::BranchDiagram& diagram,
+                                  const std::vector<double>& imperfections,
                                   const linear::TangentSolver& solver, const Recorder& recorder) {
   using path::Outcome;
   const Outcome& first = diagram.branches[0].outcome;
@@ -111,7 +114,7 @@ nlohmann::ordered_json runSummary(const PathCase& pathCase, const path::BranchDi
   json["bifurcation_points"] = diagram.points.size();
   json["unexplained_sign_changes"] = recorder.unexplained();
   json["points"] = pointsOf(pathCase, diagram);
-  json["branches"] = branchesOf(diagram);
+  json["branches"] = branchesOf(diagram, imperfections);
   json["branches_complete"] = diagram.complete;
   for (const auto& [name, size] : pathCase.sizes()) json[name] = size;
   json["contact_events"] = recorder.contactEvents();
@@ -129,17 +132,21 @@ nlohmann::ordered_json runSummary(const PathCase& pathCase, const path::BranchDi
   return json;
 }
 
-std::string branchTable(const path::BranchDiagram& diagram) {
+std::string branchTable(const path::BranchDiagram& diagram, const std::vector<double>& imperfections) {
   std::string table =
-      "branch,parent,depth,point,kind,load_factor,load_direction,steps,factorizations,end,ended\n";
+      "branch,parent,depth,point,kind,load_factor,load_direction,steps,factorizations,end,ended,"
+      "imperfection\n";
   for (std::size_t i = 0; i < diagram.branches.size(); ++i) {
     const path::Branch& b = diagram.branches[i];
     const bool first = b.parent < 0;
     const path::CriticalPoint* p = first ? nullptr : &diagram.points[b.point].point;
-    table += fmt::format("{},{},{},{},{},{:.17g},{:.17g},{},{},{},{}\n", i, b.parent, b.depth, b.point,
-                         first ? "start" : path::toString(p->kind), first ? b.start.lambda : p->state.lambda,
-                         first ? 0.0 : b.direction.lambda, b.outcome.steps, b.outcome.factorizations,
-                         path::toString(b.end), path::toString(b.outcome.reason));
+    table += fmt::format("{},{},{},{},{},{:.17g},{:.17g},{},{},{},{},{:g}\n", i, b.parent, b.depth, b.point,
+                         imperfections[i] != 0 ? "imperfect"
+                         : first               ? "start"
+                                               : path::toString(p->kind),
+                         first ? b.start.lambda : p->state.lambda, first ? 0.0 : b.direction.lambda,
+                         b.outcome.steps, b.outcome.factorizations, path::toString(b.end),
+                         path::toString(b.outcome.reason), imperfections[i]);
   }
   return table;
 }

@@ -16,6 +16,7 @@
 #include "atrapos/fem/Mesh.hpp"
 #include "atrapos/fem/PointSet.hpp"
 #include "atrapos/fem/ShellBody.hpp"
+#include "atrapos/path/Monitor.hpp"
 #include "atrapos/path/Stops.hpp"
 #include "deck/Deck.hpp"
 
@@ -84,6 +85,9 @@ class Scene {
   std::vector<std::string> monitorNames() const;
   /// Values of the monitors, in the deck's order.
   std::vector<double> monitors(const path::Vector& u, double lambda) const;
+
+  /// The displacement monitors, linear functionals of the unknowns.
+  std::vector<path::Monitor> functionals() const;
 
   ContactState contactState(const ContactPoints& contact, const path::Vector& u, double lambda) const;
   /// Normal force of a contact's point that is nearest to a place of the reference configuration.

@@ -18,6 +18,7 @@ class SceneCase final : public PathCase {
   std::vector<double> monitors(const path::Vector& u, double lambda) const override {
     return scene_.monitors(u, lambda);
   }
+  std::vector<path::Monitor> functionals() const override { return scene_.functionals(); }
   int activeContacts(const path::Vector& u, double lambda) const override;
   std::unique_ptr<FieldFile> makeFieldFile(const std::string& file) const override;
   std::unique_ptr<StepWatch> makeWatch(const std::string& file) const override;

@@ -47,9 +47,11 @@ void Scene::addContacts(fem::FeModel& model) {
     entry.name = contact.name;
     entry.tool = tools_[position - deck_.tools.begin()].get();
     entry.points = pointsOf(contact);
-    // A tool that moves may be all that drives the body; the steps of branches are not made again.
+    // A tool that moves may be all that drives the body; the steps of branches and imperfect paths are not
+    // made again.
     const bool all = contact.carried == deck::Contact::Carried::All || heldByContacts ||
-                     entry.tool->moves() || deck_.path.branches != path::Follow::none;
+                     entry.tool->moves() || deck_.path.branches != path::Follow::none ||
+                     !deck_.path.imperfections.empty();
     measureGaps(contact, entry);
     choosePressure(contact, body, entry);
     for (std::size_t t = 0; t < entry.points.size(); ++t) {

@@ -36,8 +36,7 @@ path::Stops Scene::stops() const {
   for (const auto& [name, values] : stop.monitors)
     for (std::size_t i = 0; i < displacementWeights_.size(); ++i)
       if (deck_.output.monitors[i].name == name)
-        for (const double value : values)
-          stops.functionals.push_back({name, displacementWeights_[i], value});
+        for (const double value : values) stops.functionals.push_back({name, displacementWeights_[i], value});
   return stops;
 }
 
@@ -55,6 +54,14 @@ void Scene::forEachContactPoint(const ContactPoints& contact, const path::Vector
     for (int p = 0; p < contact.points[t].numPoints(); ++p)
       f(t, p, &observed.values[static_cast<std::size_t>(p) * M]);
   }
+}
+
+std::vector<path::Monitor> Scene::functionals() const {
+  std::vector<path::Monitor> list;
+  for (std::size_t i = 0; i < displacementWeights_.size(); ++i)
+    if (!displacementWeights_[i].is_null())
+      list.push_back({deck_.output.monitors[i].name, displacementWeights_[i]});
+  return list;
 }
 
 ContactState Scene::contactState(const ContactPoints& contact, const path::Vector& u, double lambda) const {

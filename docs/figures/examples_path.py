@@ -24,7 +24,8 @@ PANELS = [("stvk_bar", "shortening"), ("von_mises_truss", "sinking"), ("truss_on
           ("shallow_arch_imperfect", "mode_1"), ("pitchfork", "mode_1"), ("pitchfork_side_branch", "mode_1"),
           ("transcritical", "mode_1"), ("two_modes", "mode_1"), ("square_plate", "mode_x"),
           ("strut_on_foundation", "mode_1"), ("branch_trap", "mode_1"), ("euler_column_solid", "top_uz"),
-          ("arch_solid", "sinking")]
+          ("arch_solid", "sinking"),
+          ("euler_column_both", "tip_rotation")]
 COLOURS = ["#1f5fa8", "#c0392b", "#2e8b57", "#8e44ad", "#d68910", "#117a8b", "#7f8c8d", "#b03a6f", "#5d6d1e"]
 
 
@@ -48,6 +49,8 @@ def draw(axes, folder, monitor):
                     axes.plot(x[begin:i], y[begin:i], "-", lw=1.6, color=colour)
                 begin = i
     for p in points:
+        if ":" in p["kind"]:
+            continue  # of a monitor
         fold = p["kind"] in ("minimum", "maximum")
         axes.plot(float(p[monitor]), float(p["load_factor"]), "ko" if fold else "ks", ms=4,
                   fillstyle="none" if fold else "full")
@@ -60,7 +63,9 @@ def main():
     missing = [d for d, _ in PANELS if d not in dict(panels)]
     if missing:
         sys.exit("no results of " + ", ".join(missing))
-    figure, grid = plt.subplots(5, 4, figsize=(12, 14), constrained_layout=True)
+    figure, grid = plt.subplots(6, 4, figsize=(12, 16.5), constrained_layout=True)
+    for axes in grid.flat[len(panels):]:
+        axes.axis("off")
     for axes, (deck, monitor) in zip(grid.flat, panels):
         folder = results / f"{deck}_results"
         draw(axes, folder, monitor)

@@ -312,6 +312,9 @@ struct Path {
   path::Follow branches = path::Follow::none;
   int branchDepth = 4;   ///< bifurcations between the first path and a branch
   int branchCount = 20;  ///< half-branches followed besides the first path
+  /// Sizes of imperfections, each of which adds a path: the largest displacement of a constant force's linear
+  /// response at the start, in the shape of the first bifurcation point's null vector.
+  std::vector<double> imperfections;
   bool restart = true;   ///< keeps what a restart needs at every step
   /// In (0, 1): at the path's end eta of all contacts falls by this factor; empty: does not.
   std::optional<double> sharpen;

@@ -101,6 +101,16 @@ Field<Path> orderOrAuto() {
       }};
 }
 
+Field<Path> imperfections() {
+  return {"imperfections",
+          false,
+          "a number or a list of numbers, different from zero",
+          "each adds a path with a small constant force in the shape of the first bifurcation point's null "
+          "vector",
+          [](const Value& v, Path& s) { s.imperfections = oneOrMore(v, check::nonzero); },
+          [](const Path& s) { return s.imperfections.empty() ? Node{} : oneOrMore(s.imperfections); }};
+}
+
 Field<Path> keepsRestart() {
   return {"restart",
           false,
@@ -152,6 +162,7 @@ Table<Path> pathKeys(const Table<Stop>& stops, Need needStop) {
               "most bifurcations between the first path and a branch"),
       integer("branch_count", optional, &Path::branchCount, check::natural,
               "most branches followed besides the first path"),
+      imperfections(),
       keepsRestart(),
       real("sharpen", &Path::sharpen, check::fraction,
            "at the path's end eta of all contacts falls by this factor, towards hard contact"),

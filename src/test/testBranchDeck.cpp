@@ -153,6 +153,43 @@ TEST_F(BranchDeck, ColumnOfSolids) {
   EXPECT_FALSE(std::filesystem::exists(folder_ / "deck_results" / "results_branch1.exo"));
 }
 
+/// Perfect path, both halves of its branch and both imperfect paths in one deck: v + 0.3 v^2 - x^2/2 =
+/// lambda, (1/2 - v) x + x^3 = eps with x the mode. At the start K_T = 1/2 in x, so that a deflection d needs
+/// eps = d/2.
+TEST_F(BranchDeck, PerfectAndImperfect) {
+  const auto summary =
+      run("problem: {name: pitchfork}\npath: {branches: all, imperfections: [0.01, -0.01]}\n");
+  ASSERT_EQ(summary.at("branches").size(), 5u);
+  const auto branches = table("branches.csv");
+  for (const int b : {0, 1, 2}) EXPECT_EQ(branches[b].at("imperfection"), "0");
+  for (const int b : {3, 4}) {
+    const double size = b == 3 ? 0.01 : -0.01;
+    EXPECT_EQ(summary.at("branches")[b].at("imperfection"), size);
+    EXPECT_EQ(branches[b].at("kind"), "imperfect");
+    EXPECT_EQ(branches[b].at("parent"), "-1");
+    int rows = 0;
+    for (const auto& row : table("path.csv")) {
+      if (row.at("branch") != std::to_string(b)) continue;
+      ++rows;
+      const double x = number(row, "mode_1"), lambda = number(row, "load_factor");
+      const double v = 0.5 + x * x - 0.5 * size / x;
+      // The residual bound 1e-6 over forces of size 0.1, over the slope d(lambda)/dx of the curve.
+      EXPECT_NEAR(lambda, v + 0.3 * v * v - 0.5 * x * x, 1e-5 * (1 + std::abs(0.5 * size / (x * x)))) << x;
+      EXPECT_GT(x * size, 0) << "it bends to the side of the imperfection";
+      EXPECT_EQ(row.at("negative_eigenvalues"), "0");
+    }
+    EXPECT_GT(rows, 10);
+    EXPECT_EQ(summary.at("branches")[b].at("ended"), "stopReached");
+  }
+  EXPECT_NE(out_.find("branch 3: the path with imperfection 0.01"), std::string::npos) << out_;
+
+  writeFile(folder_ / "deck.yaml", "problem: {name: von_mises_truss}\npath: {imperfections: 0.01}\n");
+  const CommandResult none = runAtrapos({"run", "-q", "deck.yaml"}, folder_.path());
+  EXPECT_EQ(none.exitCode, 3);
+  EXPECT_NE(none.err.find("no bifurcation point was found"), std::string::npos) << none.err;
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "deck_results" / "path.csv"));
+}
+
 TEST_F(BranchDeck, ProblemsAndTheirParameters) {
   const auto summary =
       run("problem: {name: bratu_1d, parameters: {points: 20}}\n"
@@ -165,6 +202,24 @@ TEST_F(BranchDeck, ProblemsAndTheirParameters) {
   // rounding, the path to its residual bound.
   EXPECT_NEAR(number(points[0], "load_factor"), 3.513830719125161, 1e-8);
   EXPECT_NEAR(number(table("path.csv").back(), "middle"), 2, 1e-12);
+}
+
+TEST_F(BranchDeck, LimitPointsOfMonitors) {
+  run("problem: {name: truss_on_spring, parameters: {stiffness: 0.3}}\npath: {residual: 1.0e-9, accuracy: "
+      "1.0e-8}\n");
+  // The load's point z = x + x (1 - x) (2 - x) / k turns where 3 x^2 - 6 x + 2 + k = 0.
+  const double k = 0.3, r = std::sqrt((1 - k) / 3);
+  int maxima = 0, minima = 0;
+  for (const auto& row : table("points.csv")) {
+    const bool maximum = row.at("kind") == "maximum:load_point",
+               minimum = row.at("kind") == "minimum:load_point";
+    maxima += maximum;
+    minima += minimum;
+    // Flat in x: the root of the residual bound.
+    if (maximum || minimum) EXPECT_NEAR(number(row, "sinking"), maximum ? 1 - r : 1 + r, 1e-4);
+  }
+  EXPECT_EQ(maxima, 1);
+  EXPECT_EQ(minima, 1);
 }
 
 TEST_F(BranchDeck, ProblemDecksThatAreWrong) {

@@ -100,16 +100,6 @@ TEST_F(MapTest, WorstCasesReachTheirEnd) {
         << row.at("pade") << ": " << row.at("reason");
 }
 
-/// An imperfection of a thousandth that the residual bound does not see: the run goes straight on where the
-/// path bends, and the map says so.
-TEST_F(MapTest, ARunOnAnotherBranchIsCalledThat) {
-  writeFile(folder_ / "bent.yaml", "problem: {name: euler_column, parameters: {side_load: 1.0e-3}}\n");
-  const auto table = map({"bent.yaml", "--orders", "20", "--deltas", "1e-2,1e-6", "--pade", "off"});
-  ASSERT_EQ(table.size(), 2u);
-  EXPECT_EQ(table[0].at("outcome"), "jumped") << table[0].at("reason");
-  EXPECT_EQ(table[1].at("outcome"), "end") << table[1].at("reason");
-}
-
 TEST_F(MapTest, BadWords) {
   writeFile(folder_ / "truss.yaml", "problem: {name: von_mises_truss}\n");
   const std::vector<std::pair<std::vector<std::string>, std::string>> cases{
