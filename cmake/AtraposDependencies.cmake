@@ -1,24 +1,29 @@
-# Finds what the packages stand on. Trilinos 13.2's exported targets carry no include
-# directories, so each Trilinos package becomes one interface target Trilinos::<Name> that does.
-# The same file serves the installed package: a user's find_package(Atrapos) includes it.
+# Finds what the packages stand on, target by target: atrapos_find(Trilinos::Tpetra), atrapos_find(MUMPS::dmumps), ...
+# Trilinos 13.2's exported targets carry no include directories, so each Trilinos package becomes one interface
+# target Trilinos::<Name> that does. The same file serves the installed package, which asks only for what the
+# components named in find_package(Atrapos COMPONENTS ...) need.
+include_guard(DIRECTORY)
 
-find_package(MPI REQUIRED COMPONENTS CXX)
+# The part of Trilinos that needs no MPI.
+set(atrapos_trilinos_without_mpi Kokkos Sacado)
 
-# Kokkos first: it says which devices the Trilinos at hand was built for, and where that Trilinos is.
-# An installed Atrapos names the one it was built with (ATRAPOS_TRILINOS_CMAKE_DIR): no other fits.
-if(ATRAPOS_TRILINOS_CMAKE_DIR)
-  find_package(Kokkos CONFIG REQUIRED PATHS ${ATRAPOS_TRILINOS_CMAKE_DIR}/Kokkos NO_DEFAULT_PATH)
-  if(NOT Kokkos_DIR STREQUAL "${ATRAPOS_TRILINOS_CMAKE_DIR}/Kokkos")
-    message(FATAL_ERROR "Atrapos was built with the Trilinos in ${ATRAPOS_TRILINOS_CMAKE_DIR}, "
-      "Kokkos was found in ${Kokkos_DIR} before: use that Trilinos, or install Atrapos again with the other")
+# Kokkos says which devices the Trilinos at hand was built for, and where that Trilinos is. An installed Atrapos
+# names the one it was built with (ATRAPOS_TRILINOS_CMAKE_DIR): no other fits.
+macro(atrapos_find_kokkos)
+  if(ATRAPOS_TRILINOS_CMAKE_DIR)
+    find_package(Kokkos CONFIG REQUIRED PATHS ${ATRAPOS_TRILINOS_CMAKE_DIR}/Kokkos NO_DEFAULT_PATH)
+    if(NOT Kokkos_DIR STREQUAL "${ATRAPOS_TRILINOS_CMAKE_DIR}/Kokkos")
+      message(FATAL_ERROR "Atrapos was built with the Trilinos in ${ATRAPOS_TRILINOS_CMAKE_DIR}, "
+        "Kokkos was found in ${Kokkos_DIR} before: use that Trilinos, or install Atrapos again with the other")
+    endif()
+  else()
+    find_package(Kokkos CONFIG REQUIRED)
   endif()
-else()
-  find_package(Kokkos CONFIG REQUIRED)
-endif()
-if(ATRAPOS_KOKKOS_DEVICE AND NOT ATRAPOS_KOKKOS_DEVICE IN_LIST Kokkos_DEVICES)
-  message(FATAL_ERROR "Wanted a Trilinos with the Kokkos device ${ATRAPOS_KOKKOS_DEVICE}; "
-    "the one in ${Kokkos_DIR} has ${Kokkos_DEVICES} (see docs/install.md)")
-endif()
+  if(ATRAPOS_KOKKOS_DEVICE AND NOT ATRAPOS_KOKKOS_DEVICE IN_LIST Kokkos_DEVICES)
+    message(FATAL_ERROR "Wanted a Trilinos with the Kokkos device ${ATRAPOS_KOKKOS_DEVICE}; "
+      "the one in ${Kokkos_DIR} has ${Kokkos_DEVICES} (see docs/install.md)")
+  endif()
+endmacro()
 
 # All packages come from one Trilinos: two in one program would not fit together.
 function(atrapos_find_trilinos name)
@@ -41,39 +46,49 @@ function(atrapos_find_trilinos name)
   endif()
   add_library(Trilinos::${name} INTERFACE IMPORTED GLOBAL)
   target_include_directories(Trilinos::${name} SYSTEM INTERFACE ${include_dir})
-  target_link_libraries(Trilinos::${name} INTERFACE ${libraries} MPI::MPI_CXX)
+  target_link_libraries(Trilinos::${name} INTERFACE ${libraries})
+  if(NOT name IN_LIST atrapos_trilinos_without_mpi)
+    target_link_libraries(Trilinos::${name} INTERFACE MPI::MPI_CXX)
+  endif()
   if(Kokkos_DEVICES MATCHES "OPENMP")
     find_package(OpenMP REQUIRED COMPONENTS CXX)
     target_link_libraries(Trilinos::${name} INTERFACE OpenMP::OpenMP_CXX)
   endif()
 endfunction()
 
-foreach(name IN ITEMS Kokkos Sacado)
-  atrapos_find_trilinos(${name})
-endforeach()
-
-if(NOT ATRAPOS_PACKAGES STREQUAL "taylor")
-  foreach(name IN ITEMS Teuchos Tpetra Amesos2 Shards Intrepid2)
-    atrapos_find_trilinos(${name})
+# atrapos_find_library(<target> HEADER <file> LIBRARIES <names...>): a library without a package file.
+function(atrapos_find_library target)
+  cmake_parse_arguments(arg "" "HEADER" "LIBRARIES" ${ARGN})
+  string(MAKE_C_IDENTIFIER "${target}" id)
+  if(TARGET ${target})
+    return()
+  endif()
+  find_path(${id}_INCLUDE_DIR ${arg_HEADER} REQUIRED)
+  add_library(${target} INTERFACE IMPORTED GLOBAL)
+  target_include_directories(${target} SYSTEM INTERFACE ${${id}_INCLUDE_DIR})
+  foreach(name IN LISTS arg_LIBRARIES)
+    find_library(${id}_${name}_LIBRARY ${name} REQUIRED)
+    target_link_libraries(${target} INTERFACE ${${id}_${name}_LIBRARY})
   endforeach()
-  find_package(fmt CONFIG REQUIRED)
+endfunction()
 
-  # atrapos_find_library(<target> HEADER <file> LIBRARIES <names...>): a library without a package file.
-  function(atrapos_find_library target)
-    cmake_parse_arguments(arg "" "HEADER" "LIBRARIES" ${ARGN})
-    string(MAKE_C_IDENTIFIER "${target}" id)
-    if(TARGET ${target})
-      return()
+# One external target that a package links. Others (Atrapos' own, system libraries) are left alone. A macro: what it
+# finds belongs to the calling folder.
+macro(atrapos_find target)
+  if("${target}" MATCHES "^Trilinos::(.+)$")
+    set(atrapos_trilinos_package ${CMAKE_MATCH_1})
+    if(NOT atrapos_trilinos_package IN_LIST atrapos_trilinos_without_mpi)
+      find_package(MPI REQUIRED COMPONENTS CXX)
     endif()
-    find_path(${id}_INCLUDE_DIR ${arg_HEADER} REQUIRED)
-    add_library(${target} INTERFACE IMPORTED GLOBAL)
-    target_include_directories(${target} SYSTEM INTERFACE ${${id}_INCLUDE_DIR})
-    foreach(name IN LISTS arg_LIBRARIES)
-      find_library(${id}_${name}_LIBRARY ${name} REQUIRED)
-      target_link_libraries(${target} INTERFACE ${${id}_${name}_LIBRARY})
-    endforeach()
-  endfunction()
-  atrapos_find_library(MUMPS::dmumps HEADER dmumps_c.h LIBRARIES dmumps mumps_common)
-  atrapos_find_library(METIS::metis HEADER metis.h LIBRARIES metis)
-  atrapos_find_library(Exodus::exodus HEADER exodusII.h LIBRARIES exoIIv2c)
-endif()
+    atrapos_find_kokkos()
+    atrapos_find_trilinos(${atrapos_trilinos_package})
+  elseif("${target}" STREQUAL "fmt::fmt")
+    find_package(fmt CONFIG REQUIRED)
+  elseif("${target}" STREQUAL "MUMPS::dmumps")
+    atrapos_find_library(MUMPS::dmumps HEADER dmumps_c.h LIBRARIES dmumps mumps_common)
+  elseif("${target}" STREQUAL "METIS::metis")
+    atrapos_find_library(METIS::metis HEADER metis.h LIBRARIES metis)
+  elseif("${target}" STREQUAL "Exodus::exodus")
+    atrapos_find_library(Exodus::exodus HEADER exodusII.h LIBRARIES exoIIv2c)
+  endif()
+endmacro()

@@ -28,7 +28,8 @@ function(atrapos_package name)
     $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include>
     $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   target_link_libraries(${target} ${scope} ${arg_DEPENDS})
-  set_property(GLOBAL APPEND PROPERTY ATRAPOS_INSTALLED_PACKAGES ${target})
+  set_property(GLOBAL APPEND PROPERTY ATRAPOS_INSTALLED_PACKAGES ${name})
+  set_property(GLOBAL PROPERTY ATRAPOS_DEPENDS_${name} ${arg_DEPENDS} ${arg_PRIVATE_DEPENDS})
   set_property(GLOBAL APPEND PROPERTY ATRAPOS_INSTALLED_HEADERS ${CMAKE_CURRENT_SOURCE_DIR}/include/)
 endfunction()
 
@@ -41,7 +42,7 @@ function(atrapos_test name)
   cmake_parse_arguments(arg "" "RANKS;TIMEOUT" "SOURCES;DEPENDS;LABELS;ENVIRONMENT" ${ARGN})
   atrapos_find_gtest()
   add_executable(${name} ${arg_SOURCES} ${PROJECT_SOURCE_DIR}/test/support/main.cpp)
-  target_link_libraries(${name} PRIVATE atrapos_gtest ${arg_DEPENDS} Trilinos::Kokkos
+  target_link_libraries(${name} PRIVATE atrapos_gtest ${arg_DEPENDS} Trilinos::Kokkos MPI::MPI_CXX
     atrapos_compile_options)
   if(NOT arg_LABELS)
     set(arg_LABELS unit)

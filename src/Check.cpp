@@ -12,8 +12,8 @@ void printCheck(Scene& scene, std::ostream& out) {
   deck::describe(scene.deck(), out);
   fem::FeProblem& problem = scene.problem();
   out << fmt::format("\n# mesh      {}\n", describeMesh(scene.mesh()));
-  out << fmt::format("# unknowns  {} ({} free), {} tangent\n", 3 * scene.mesh().numNodes(),
-                     problem.numFreeDofs(), problem.symmetric() ? "symmetric" : "unsymmetric");
+  out << fmt::format("# unknowns  {} ({} free), {} tangent\n", scene.numUnknowns(), problem.numFreeDofs(),
+                     problem.symmetric() ? "symmetric" : "unsymmetric");
   for (const ContactPoints& contact : scene.contacts())
     out << fmt::format("# contact   {}: {} points, smallest gap {:.6g}\n", contact.name, contact.count,
                        contact.smallestGap);

@@ -7,6 +7,7 @@
 #include "atrapos/contact/ContactLaw.hpp"
 #include "atrapos/fem/LawTerm.hpp"
 #include "atrapos/solid/SaintVenantKirchhoff.hpp"
+#include "atrapos/solid/ShellPoints.hpp"
 
 namespace atrapos::registry {
 namespace {
@@ -116,6 +117,15 @@ std::unique_ptr<fem::Term> materialTerm(const deck::Material& material, const fe
       [&](const auto& entry) -> std::unique_ptr<fem::Term> {
         using Law = decltype(law(entry));
         return std::make_unique<fem::LawTerm<Law, fem::DisplacementGradient>>(law(entry), points);
+      },
+      material.law);
+}
+
+std::unique_ptr<fem::Term> shellTerm(const deck::Material& material, const fem::EnhancedPoints& points) {
+  return std::visit(
+      [&](const auto& entry) -> std::unique_ptr<fem::Term> {
+        using Law = decltype(law(entry));
+        return std::make_unique<solid::ShellTerm<Law>>(solid::ShellLaw<Law>{law(entry)}, points);
       },
       material.law);
 }

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "atrapos/contact/RegularisedPressure.hpp"
+#include "atrapos/fem/EnhancedTerm.hpp"
 #include "atrapos/fem/PointSet.hpp"
 #include "atrapos/fem/Term.hpp"
 #include "deck/Deck.hpp"
@@ -15,6 +16,9 @@ namespace atrapos::registry {
 
 /// The term of a material at volume points.
 std::unique_ptr<fem::Term> materialTerm(const deck::Material& material, const fem::PointSet& points);
+
+/// The term of a material in shells, at their points.
+std::unique_ptr<fem::Term> shellTerm(const deck::Material& material, const fem::EnhancedPoints& points);
 
 /// Throws std::invalid_argument, one line, where a tool's numbers make no surface.
 void validate(const deck::Tool& tool);

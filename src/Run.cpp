@@ -51,7 +51,7 @@ class Recorder final : public path::Observer {
       : scene_(scene),
         options_(options),
         table_(options.directory + "/path.csv", scene.monitorNames()),
-        results_(options.directory + "/results.exo", scene.mesh(), names(scene)),
+        results_(options.directory + "/results.exo", scene.resultMesh(), names(scene)),
         work_(Teuchos::rcp(new path::Vector(scene.problem().map()))),
         residual_(Teuchos::rcp(new path::Vector(scene.problem().map()))),
         start_(std::chrono::steady_clock::now()) {
@@ -67,7 +67,7 @@ class Recorder final : public path::Observer {
     const path::ResidualNorm r = scene_.problem().residual(*state.u, state.lambda, *residual_);
     table_.append(0, 0.0, state.lambda, scene_.monitors(*state.u, state.lambda), r.relative());
     writeFields(*state.u, state.lambda, 0.0,
-                {state.lambda, 0, 0, 0, 0, double(activeContacts(*state.u)), r.relative()});
+                {state.lambda, 0, 0, 0, 0, double(activeContacts(*state.u, state.lambda)), r.relative()});
   }
 
   bool onStep(const path::StepReport& report, const path::Series& series) override {
@@ -84,7 +84,7 @@ class Recorder final : public path::Observer {
         append(report.step, length, *work_, lambda);
       }
     }
-    const int active = activeContacts(*report.end.u);
+    const int active = activeContacts(*report.end.u, report.end.lambda);
     writeFields(*report.end.u, report.end.lambda, report.pathLengthEnd,
                 {report.lambdaEnd, report.pathLengthEnd, report.radius, double(report.order),
                  negativePivots(report), double(active), report.residual});
@@ -122,7 +122,8 @@ class Recorder final : public path::Observer {
       for (const auto& v : variables) all.insert(all.end(), v.begin(), v.end());
       return all;
     };
-    results_.writeStep(time, flat(scene_.nodalValues(u, lambda)), flat(scene_.elementValues(u)), globals);
+    results_.writeStep(time, flat(scene_.nodalValues(u, lambda)), flat(scene_.elementValues(u, lambda)),
+                       globals);
   }
 
   /// Negative eigenvalues of the tangent at the step's end; at its start where the end is not known; -1:
@@ -132,9 +133,10 @@ class Recorder final : public path::Observer {
     return inertia ? double(inertia->negative) : -1.0;
   }
 
-  int activeContacts(const path::Vector& u) const {
+  int activeContacts(const path::Vector& u, double lambda) const {
     int active = 0;
-    for (const ContactPoints& contact : scene_.contacts()) active += scene_.contactState(contact, u).active;
+    for (const ContactPoints& contact : scene_.contacts())
+      active += scene_.contactState(contact, u, lambda).active;
     return active;
   }
 
@@ -196,7 +198,7 @@ nlohmann::ordered_json summary(const Scene& scene, const path::Outcome& outcome,
   json["worst_residual_at_step_ends"] = outcome.worstResidual;
   json["nodes"] = scene.mesh().numNodes();
   json["elements"] = scene.mesh().numElements();
-  json["unknowns"] = 3 * scene.mesh().numNodes();
+  json["unknowns"] = scene.numUnknowns();
   json["free_unknowns"] = scene.problem().numFreeDofs();
   json["contact_points"] = scene.numContactPoints();
   json["solver"] = solver.name();

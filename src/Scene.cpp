@@ -2,29 +2,34 @@
 
 #include <fmt/format.h>
 
+#include <Tpetra_Map.hpp>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
 
+#include "FollowerLoads.hpp"
 #include "Registry.hpp"
-#include "Shells.hpp"
-#include "atrapos/fem/Loads.hpp"
 #include "atrapos/fem/ReferenceCell.hpp"
 #include "atrapos/fem/ShellFaces.hpp"
+#include "atrapos/solid/ShellResults.hpp"
 
 namespace atrapos {
 
 Scene::Scene(const deck::Deck& deck, fem::Mesh mesh) : deck_(deck), mesh_(std::move(mesh)) {
   deck::checkAgainstMesh(deck_, mesh_);
-  shellsOf(deck_, mesh_);
-  refuseUnsupported(deck_, mesh_);
+  shells_ = sceneShells(deck_, mesh_);
+  if (deck_.output.shells == deck::Output::Shells::Body) {
+    if (shells_.empty()) fail("output/shells", "the mesh has no shells, which alone have a body to write");
+    body_ = fem::shellBody(mesh_, shells_.geometry);
+  }
   fem::FeModel model;
-  model.numNodes = mesh_.numNodes();
+  model.numNodes = shells_.geometry.numNodes();
   addMaterials(model);
   model.supports = fem::Supports(model.numNodes);
   addSupports(model);
   addLoads(model);
+  addFollowers(model);
   addContacts(model);
   requireSupport(model.supports);
   requireEffect(model);
@@ -43,15 +48,19 @@ std::vector<int> Scene::nodesOf(const std::string& set) const {
 }
 
 void Scene::addMaterials(fem::FeModel& model) {
-  solids_.resize(mesh_.blocks.size());
+  bodies_.resize(mesh_.blocks.size());
   for (const deck::Material& material : deck_.materials)
     for (const std::string& name : material.blocks) {
       const int b = fem::findBlock(mesh_, name);
       const fem::Block& block = mesh_.blocks[b];
       try {
+        if (fem::isShell(block.topology)) {
+          bodies_[b] = addShell(material, shells_.find(b), model);
+          continue;
+        }
         const auto cell = fem::tabulate(block.topology);
         const auto points = fem::volumePoints(mesh_, block, cell);
-        solids_[b] = {static_cast<int>(model.terms.size()), fem::extrapolation(block.topology, cell)};
+        bodies_[b] = {static_cast<int>(model.terms.size()), -1, fem::extrapolation(block.topology, cell)};
         model.terms.push_back(registry::materialTerm(material, points));
       } catch (const std::runtime_error& e) {
         fail("mesh/file", e.what());
@@ -59,62 +68,46 @@ void Scene::addMaterials(fem::FeModel& model) {
     }
 }
 
+BodyBlock Scene::addShell(const deck::Material& material, int shells, fem::FeModel& model) const {
+  BodyBlock body{static_cast<int>(model.terms.size()), shells, solid::shellPointsToNodes({})};
+  model.terms.push_back(registry::shellTerm(material, solid::shellPoints(shells_.elements[shells])));
+  return body;
+}
+
 void Scene::addSupports(fem::FeModel& model) const {
   for (const deck::Support& support : deck_.supports)
     for (int node : nodesOf(support.set))
-      for (int i = 0; i < 3; ++i)
-        if (const auto& p = support.components[i]) try {
+      for (int i = 0; i < 3; ++i) try {
+          if (const auto& p = support.components[i])
             model.supports.prescribe(node, i, p->value, p->perLoadFactor);
-          } catch (const std::invalid_argument& e) {
-            fail("supports/" + support.name, e.what());
-          }
-}
-
-void Scene::addLoads(fem::FeModel& model) const {
-  const std::size_t dofs = 3 * static_cast<std::size_t>(mesh_.numNodes());
-  model.load.assign(dofs, 0.0);
-  model.constantLoad.assign(dofs, 0.0);
-  struct Adder {
-    const Scene& scene;
-    std::vector<double>& force;
-    void operator()(const deck::NodalLoad& load) const {
-      const auto nodes = scene.nodesOf(load.set);
-      deck::Vector3 each = load.force;
-      if (!load.perNode)
-        for (double& f : each) f /= static_cast<double>(nodes.size());
-      fem::addNodalLoad(nodes, each, force);
-    }
-    void operator()(const deck::SurfaceLoad& load) const {
-      const auto& set = scene.mesh_.sideSets.at(fem::findSideSet(scene.mesh_, load.set));
-      switch (load.kind) {
-        case deck::SurfaceLoad::Kind::Total:
-          return fem::addSurfaceForce(scene.mesh_, set, load.vector, force);
-        case deck::SurfaceLoad::Kind::Traction:
-          return fem::addTraction(scene.mesh_, set, load.vector, force);
-        case deck::SurfaceLoad::Kind::Pressure:
-          return fem::addPressure(scene.mesh_, set, load.pressure, force);
-      }
-    }
-    void operator()(const deck::EdgeLoad& load) const {
-      const auto& set = scene.mesh_.sideSets.at(fem::findSideSet(scene.mesh_, load.set));
-      deck::Vector3 perLength = load.vector;
-      if (load.kind == deck::EdgeLoad::Kind::Total)
-        for (double& f : perLength) f /= fem::edgeLength(scene.mesh_, set);
-      fem::addEdgeForce(scene.mesh_, set, perLength, force);
-    }
-    void operator()(const deck::VolumeLoad& load) const {
-      for (const std::string& name : load.blocks)
-        fem::addBodyForce(scene.mesh_, scene.mesh_.blocks.at(fem::findBlock(scene.mesh_, name)), load.force,
-                          force);
-    }
-  };
-  for (const deck::Load& load : deck_.loads)
-    std::visit(Adder{*this, load.constant ? model.constantLoad : model.load}, load.load);
+          if (const auto& p = support.director[i])
+            for (int director : shells_.geometry.directorNodes(node))
+              model.supports.prescribe(director, i, p->value, p->perLoadFactor);
+        } catch (const std::invalid_argument&) {
+          fail("supports/" + support.name,
+               fmt::format("displacement {0} of node {1}, or of its director, is prescribed twice with "
+                           "different values",
+                           "xyz"[i], node + 1));
+        }
 }
 
 const deck::Tool& Scene::toolOf(const deck::Contact& contact) const {
   return *std::find_if(deck_.tools.begin(), deck_.tools.end(),
                        [&](const deck::Tool& tool) { return tool.name == contact.tool; });
+}
+
+std::vector<fem::PointSet> Scene::pointsOf(const deck::Contact& contact) const {
+  const double zeta = zetaOf(contact.at);
+  try {
+    if (contact.points == deck::Contact::Points::Nodes)
+      return {zeta == 0 ? fem::nodePoints(mesh_, nodesOf(contact.set))
+                        : fem::shellNodePoints(mesh_, shells_.geometry, nodesOf(contact.set), zeta)};
+    const auto& set = mesh_.sideSets.at(fem::findSideSet(mesh_, contact.set));
+    return zeta == 0 ? fem::facePoints(mesh_, set, contact.quadratureDegree)
+                     : fem::shellFacePoints(mesh_, shells_.geometry, set, zeta, contact.quadratureDegree);
+  } catch (const std::runtime_error& e) {
+    fail("contact/" + contact.name + "/set", e.what());
+  }
 }
 
 void Scene::addContacts(fem::FeModel& model) {
@@ -131,12 +124,7 @@ void Scene::addContacts(fem::FeModel& model) {
 
     ContactPoints entry;
     entry.name = contact.name;
-    if (contact.points == deck::Contact::Points::Nodes)
-      entry.points.push_back(fem::nodePoints(mesh_, nodesOf(contact.set)));
-    else
-      entry.points = fem::facePoints(mesh_, mesh_.sideSets.at(fem::findSideSet(mesh_, contact.set)),
-                                     contact.quadratureDegree);
-
+    entry.points = pointsOf(contact);
     entry.smallestGap = std::numeric_limits<double>::infinity();
     for (const fem::PointSet& points : entry.points) {
       std::vector<double> gaps, references;
@@ -182,11 +170,12 @@ void Scene::requireSupport(const fem::Supports& supports) const {
     const deck::Tool& tool = toolOf(deck_.contacts[c]);
     for (const fem::PointSet& points : contacts_[c].points)
       for (int n : points.nodes) {
+        if (n >= mesh_.numNodes()) continue;  // a director
         const auto y = registry::project(tool, &mesh_.coordinates[3 * static_cast<std::size_t>(n)]);
         held.push_back({n, {y[1], y[2], y[3]}});
       }
   }
-  for (const fem::FreeBody& body : fem::freeBodies(mesh_, supports, held))
+  for (const fem::FreeBody& body : fem::freeBodies(mesh_, supports, held, &shells_.geometry))
     fail("supports",
          fmt::format("the body with block '{}' can still move freely in {} rigid motion{}: prescribe more "
                      "displacements",
@@ -195,6 +184,8 @@ void Scene::requireSupport(const fem::Supports& supports) const {
 
 void Scene::requireEffect(const fem::FeModel& model) const {
   if (model.supports.driven()) return;
+  for (const deck::Load& load : deck_.loads)
+    if (followers::isFollower(load) && !load.constant) return;
   for (std::size_t dof = 0; dof < model.load.size(); ++dof)
     if (model.load[dof] != 0 && !model.supports.fixed(static_cast<int>(dof))) return;
   fail("loads", "without effect: all that depends on the load factor acts on supported displacements");
@@ -204,5 +195,7 @@ int Scene::numContactPoints() const {
   return std::accumulate(contacts_.begin(), contacts_.end(), 0,
                          [](int n, const ContactPoints& c) { return n + c.count; });
 }
+
+int Scene::numUnknowns() const { return static_cast<int>(problem_->map()->getGlobalNumElements()); }
 
 }  // namespace atrapos

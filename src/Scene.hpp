@@ -1,22 +1,28 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "Shells.hpp"
 #include "atrapos/fem/FeProblem.hpp"
 #include "atrapos/fem/Mesh.hpp"
 #include "atrapos/fem/PointSet.hpp"
+#include "atrapos/fem/ShellBody.hpp"
 #include "atrapos/path/Stops.hpp"
 #include "deck/Deck.hpp"
 
 namespace atrapos {
 
-/// The solid term of one block of the mesh.
-struct SolidBlock {
-  int term = -1;                ///< its position in the problem
-  std::vector<double> toNodes;  ///< [node][cubature point] of a cell: values at points -> values at nodes
+/// The material's term of one block of the mesh.
+struct BodyBlock {
+  int term = -1;    ///< its position in the problem
+  int shells = -1;  ///< position in SceneShells; -1: solids
+  std::vector<double>
+      toNodes;  ///< [node][point] of a cell: values at points (of shells: in the plane) -> nodes
 };
 
 /// The points of one contact of the deck.
@@ -44,10 +50,13 @@ class Scene {
 
   const deck::Deck& deck() const { return deck_; }
   const fem::Mesh& mesh() const { return mesh_; }
+  const SceneShells& shells() const { return shells_; }
   fem::FeProblem& problem() { return *problem_; }
   const fem::FeProblem& problem() const { return *problem_; }
   const std::vector<ContactPoints>& contacts() const { return contacts_; }
   int numContactPoints() const;
+  /// Of the problem, supported ones included: three for each node of the mesh and each director.
+  int numUnknowns() const;
 
   path::Stops stops() const;
 
@@ -55,22 +64,31 @@ class Scene {
   /// Values of the monitors, in the deck's order.
   std::vector<double> monitors(const path::Vector& u, double lambda) const;
 
-  ContactState contactState(const ContactPoints& contact, const path::Vector& u) const;
+  ContactState contactState(const ContactPoints& contact, const path::Vector& u, double lambda) const;
+  /// Normal force of a contact's point that is nearest to a place of the reference configuration.
+  double contactForceNear(const ContactPoints& contact, const deck::Vector3& place, const path::Vector& u,
+                          double lambda) const;
   /// Total force of a contact on the body.
-  std::array<double, 3> contactResultant(const ContactPoints& contact, const path::Vector& u) const;
+  std::array<double, 3> contactResultant(const ContactPoints& contact, const path::Vector& u,
+                                         double lambda) const;
 
+  /// The mesh on which results are: the deck's own, or with the bodies of shells as solids.
+  const fem::Mesh& resultMesh() const { return body_ ? body_->mesh : mesh_; }
   std::vector<std::string> nodalNames() const;
   std::vector<std::string> elementNames() const;
-  /// [variable][node]
+  /// [variable][node of the result mesh]
   std::vector<std::vector<double>> nodalValues(const path::Vector& u, double lambda) const;
   /// [variable][element over all blocks]
-  std::vector<std::vector<double>> elementValues(const path::Vector& u) const;
+  std::vector<std::vector<double>> elementValues(const path::Vector& u, double lambda) const;
 
  private:
   std::vector<int> nodesOf(const std::string& set) const;
+  std::vector<fem::PointSet> pointsOf(const deck::Contact& contact) const;
   void addMaterials(fem::FeModel& model);
+  BodyBlock addShell(const deck::Material& material, int shells, fem::FeModel& model) const;
   void addSupports(fem::FeModel& model) const;
   void addLoads(fem::FeModel& model) const;
+  void addFollowers(fem::FeModel& model) const;
   void addContacts(fem::FeModel& model);
   void addMonitors();
   const deck::Tool& toolOf(const deck::Contact& contact) const;
@@ -78,13 +96,19 @@ class Scene {
   void requireEffect(const fem::FeModel& model) const;
   [[noreturn]] void fail(const std::string& key, const std::string& problem) const;
   bool writes(deck::OutputField field) const;
-  std::vector<std::vector<double>> nodalContact(const path::Vector& u) const;
-  std::vector<std::vector<double>> nodalStress(const path::Vector& u) const;
+  /// Calls f(term of the contact, point, gap and pressure) at all points.
+  void forEachContactPoint(const ContactPoints& contact, const path::Vector& u, double lambda,
+                           const std::function<void(std::size_t, int, const double*)>& f) const;
+  std::vector<std::vector<double>> nodalContact(const path::Vector& u, double lambda) const;
+  std::vector<std::vector<double>> nodalStress(const path::Vector& u, double lambda) const;
+  std::vector<double> onResultNodes(std::vector<double> ofMesh) const;
 
   deck::Deck deck_;
   fem::Mesh mesh_;
+  SceneShells shells_;
+  std::optional<fem::ShellBody> body_;  ///< where the results are on the bodies of shells
   std::unique_ptr<fem::FeProblem> problem_;
-  std::vector<SolidBlock> solids_;  ///< [block]
+  std::vector<BodyBlock> bodies_;  ///< [block]
   std::vector<ContactPoints> contacts_;
   /// [monitor] weights of a displacement monitor over the unknowns; null for the others
   std::vector<linear::RCP<path::Vector>> displacementWeights_;

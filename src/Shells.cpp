@@ -4,9 +4,12 @@
 
 #include <stdexcept>
 
-namespace atrapos {
+#include "atrapos/fem/PointSet.hpp"
 
-fem::ShellGeometry shellsOf(const deck::Deck& deck, const fem::Mesh& mesh) {
+namespace atrapos {
+namespace {
+
+fem::ShellGeometry geometryOf(const deck::Deck& deck, const fem::Mesh& mesh) {
   std::vector<fem::ShellSection> sections;
   for (int b = 0; b < static_cast<int>(mesh.blocks.size()); ++b)
     if (fem::isShell(mesh.blocks[b].topology)) sections.push_back({b, std::nullopt});
@@ -23,32 +26,46 @@ fem::ShellGeometry shellsOf(const deck::Deck& deck, const fem::Mesh& mesh) {
   }
 }
 
-void refuseUnsupported(const deck::Deck& deck, const fem::Mesh& mesh) {
-  const auto fail = [&](const std::string& key, const std::string& what) {
-    throw deck::DeckError(fmt::format("{}: {}: {}", deck.file, key, what));
-  };
+}  // namespace
+
+int SceneShells::find(int block) const {
+  for (std::size_t i = 0; i < geometry.blocks.size(); ++i)
+    if (geometry.blocks[i].block == block) return static_cast<int>(i);
+  return -1;
+}
+
+SceneShells sceneShells(const deck::Deck& deck, const fem::Mesh& mesh) {
   for (const fem::Block& block : mesh.blocks)
-    if (fem::isShell(block.topology))
-      fail("mesh/file",
-           fmt::format("block '{}' has {}: shells are read and checked, but cannot be run yet; accepted "
-                       "are the HEX, TET and WEDGE cells",
-                       block.name, fem::topologyName(block.topology)));
-  for (const deck::Load& load : deck.loads) {
-    const std::string key = "loads/" + load.name;
-    const auto* surface = std::get_if<deck::SurfaceLoad>(&load.load);
-    const auto* edge = std::get_if<deck::EdgeLoad>(&load.load);
-    if (surface != nullptr && surface->follower)
-      fail(key + "/follower", "pressures that follow cannot be run yet; accepted is false");
-    if (surface != nullptr && surface->at != deck::ShellPlace::Middle)
-      fail(key + "/at", "loads on the top or bottom of shells cannot be run yet; accepted is middle");
-    if (edge != nullptr && edge->kind != deck::EdgeLoad::Kind::Total &&
-        edge->kind != deck::EdgeLoad::Kind::Force)
-      fail(key, "moments on edges and forces that follow cannot be run yet; accepted are total and force");
+    if (fem::isShell(block.topology) && block.topology != fem::Topology::Shell8)
+      throw deck::DeckError(fmt::format(
+          "{}: mesh/file: block '{}' has {}: the shell element has eight nodes; accepted is SHELL8",
+          deck.file, block.name, fem::topologyName(block.topology)));
+  SceneShells shells;
+  shells.geometry = geometryOf(deck, mesh);
+  for (const fem::ShellBlock& b : shells.geometry.blocks)
+    shells.elements.push_back({b.nodes, b.midsurface, b.directors, b.directorScale});
+  return shells;
+}
+
+double zetaOf(deck::ShellPlace place) {
+  switch (place) {
+    case deck::ShellPlace::Top:
+      return solid::topSurface;
+    case deck::ShellPlace::Middle:
+      return solid::midSurface;
+    case deck::ShellPlace::Bottom:
+      return solid::bottomSurface;
   }
-  for (const deck::Contact& contact : deck.contacts)
-    if (contact.at != deck::ShellPlace::Middle)
-      fail("contact/" + contact.name + "/at",
-           "contact on the top or bottom of shells cannot be run yet; accepted is middle");
+  return solid::midSurface;
+}
+
+std::vector<solid::ShellEdge> shellEdges(const fem::Mesh& mesh, const fem::SideSet& set, int block) {
+  std::vector<solid::ShellEdge> edges;
+  for (const fem::Side& side : set.sides) {
+    const fem::ElementAddress at = fem::addressOf(mesh, side.element);
+    if (at.block == block) edges.push_back({at.element, side.side - 2});
+  }
+  return edges;
 }
 
 }  // namespace atrapos

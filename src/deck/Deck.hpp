@@ -266,10 +266,12 @@ struct DisplacementMonitor {
 };
 
 /// Total contact force on the tool's side of a contact: the sum of the normal forces, or a component of the
-/// resultant that acts on the body.
+/// resultant that acts on the body. With `near` the normal force (of faces: the pressure times the cubature
+/// weight) of the one point that is nearest to a place in the reference configuration.
 struct ContactForceMonitor {
   std::string contact;
   Component component = Component::Normal;
+  std::optional<Vector3> near;
 };
 
 /// Total force with which a support holds the body.
@@ -284,8 +286,11 @@ struct Monitor {
 };
 
 struct Output {
+  /// What the result file has of shells: their middle surfaces, or solids with their thickness.
+  enum class Shells { Surface, Body };
   int pointsPerStep = 5;            ///< states written per step, its end included
   std::vector<OutputField> fields;  ///< never empty after readDeck
+  Shells shells = Shells::Surface;
   std::vector<Monitor> monitors;
 };
 

@@ -30,12 +30,24 @@ Field<Output> outputFieldList() {
           }};
 }
 
+/// Printed only where it is not the default: most meshes have no shells.
+Field<Output> outputShells() {
+  using Shells = Output::Shells;
+  static const Choices<Shells> choices{{"surface", Shells::Surface}, {"body", Shells::Body}};
+  auto field = choice("shells", optional, &Output::shells, choices,
+                      "shells in the result file: their middle surfaces, or solids with their thickness");
+  field.print = [inner = field.print](const Output& s) {
+    return s.shells == Shells::Surface ? Node{} : inner(s);
+  };
+  return field;
+}
+
 }  // namespace
 
 const Table<Output>& outputTable() {
   static const Table<Output> table{integer("points_per_step", optional, &Output::pointsPerStep, check::count,
                                            "states written per step, its end included"),
-                                   outputFieldList(),
+                                   outputFieldList(), outputShells(),
                                    entries("monitors", optional, &Output::monitors, monitorVariants(),
                                            "each with type, ...", "numbers followed along the path")};
   return table;

@@ -129,6 +129,8 @@ void addShells(Variants<GenerateInput, Generate>& v) {
       withCells<Plate>({real("length", required, &Plate::length, check::positive, "of the edges along x"),
                         real("width", required, &Plate::width, check::positive, "of the other edges"), angle,
                         vector3("origin", optional, &Plate::origin, "corner of x_min and y_min"),
+                        real("grading", optional, &Plate::grading, check::count,
+                             "power with which elements grow from the edges inwards"),
                         attributeThickness<Plate>()},
                        "length, width", shellCells())));
   v.alternatives.push_back(alternative<Generate, Cylinder>(

@@ -17,6 +17,23 @@ const Choices<Component>& axes() {
   return choices;
 }
 
+Field<ContactForceMonitor> nearestPoint() {
+  return {"near",
+          false,
+          "a list of 3 numbers",
+          "only the point nearest to this place of the undeformed body",
+          [](const Value& v, ContactForceMonitor& s) {
+            if (s.component != Component::Normal) {
+              v.fail("has a meaning with component: normal only");
+            }
+            const auto x = v.reals(3);
+            s.near = Vector3{x[0], x[1], x[2]};
+          },
+          [](const ContactForceMonitor& s) {
+            return s.near ? Node{yamlList(*s.near), {}} : Node{};
+          }};
+}
+
 Field<Stop> stopDisplacement() {
   return {"displacement",
           false,
@@ -114,7 +131,8 @@ const Variants<Monitor, decltype(Monitor::quantity)>& monitorVariants() {
            "contact_force",
            {name("contact", required, &ContactForceMonitor::contact, "the name of a contact", "whose force"),
             choice("component", optional, &ContactForceMonitor::component, allComponents(),
-                   "normal: sum of the normal forces; x, y, z: of their resultant on the body")}),
+                   "normal: sum of the normal forces; x, y, z: of their resultant on the body"),
+            nearestPoint()}),
        alternative<V, ReactionMonitor>(
            "reaction", {name("support", required, &ReactionMonitor::support, "the name of a support",
                              "whose force on the body"),

@@ -34,7 +34,7 @@ TEST(Block, SupportsCarryTheContactForce) {
     const auto outcome = follow(problem, {problem.initialState(0), 0.0}, 0.2, tightOptions(bound));
     const auto& u = *outcome.final.u;
     const Numbers values = fem::FeProblem::values(u);
-    const Numbers contact = problem.forces(problem.term(1), u);  // minus the forces on the body
+    const Numbers contact = problem.forces(problem.term(1), u, 0.2);  // minus the forces on the body
     const Numbers reactions = problem.reactions(u, 0.2);
     const auto norm = fem::test::residual(problem, values, 0.2).norm;
     EXPECT_LE(norm.relative(), bound);

@@ -61,7 +61,7 @@ Result pathEnd(fem::FeModel model) {
   Result result;
   result.u = fem::FeProblem::values(*outcome.final.u);
   result.steps = outcome.steps;
-  result.force = -resultant(problem.forces(problem.term(1), *outcome.final.u))[2];
+  result.force = -resultant(problem.forces(problem.term(1), *outcome.final.u, outcome.final.lambda))[2];
   return result;
 }
 

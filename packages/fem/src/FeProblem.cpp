@@ -82,14 +82,15 @@ struct FeProblem::Impl {
   View<int*> columns;
   View<char*> fixed;
   Field value, rate, load, constantLoad;
-  Field sum;            // work
-  Field last;           // U of the order completed last
-  double diagonal = 0;  // s of the prescribed rows
+  Field sum;              // work
+  Field last;             // U of the order completed last
+  double lastLambda = 0;  // and its lambda
+  double diagonal = 0;    // s of the prescribed rows
   double scaleFloor = 0;
   int numFree = 0;
 
   explicit Impl(FeModel m) : model(std::move(m)) {
-    const auto comm = Tpetra::getDefaultComm();
+    const auto comm = model.comm.is_null() ? Tpetra::getDefaultComm() : model.comm;
     if (comm->getSize() != 1)
       throw std::invalid_argument(
           "finite-element problems run on one rank so far: start without mpirun, or with -np 1");
@@ -180,14 +181,24 @@ struct FeProblem::Impl {
     constantLoad = toDevice(model.constantLoad);
   }
 
-  /// Forces at load factor 1: dead loads, and those that the driven supports alone would need.
+  /// Forces at load factor 1: dead loads, those that the driven supports alone would need, and those of terms
+  /// that see lambda as their rate at the start.
   void findScale() {
     double size = std::max(norm(load), norm(constantLoad));
     if (model.supports.driven()) {
       double squares = 0;
-      for (const auto& term : model.terms) squares += term->addResidual(rate, sum);
+      for (const auto& term : model.terms)
+        if (!term->seesLoadFactor()) squares += term->addResidual(rate, 1, sum);
       size = std::max(size, std::sqrt(squares));
     }
+    // Terms that see lambda count by their derivative: their force at load factor 1 in the undeformed body
+    // says nothing (a tool moved through it).
+    Kokkos::deep_copy(sum, 0.0);
+    const TangentSink sink{rowStart, K->getLocalMatrixDevice().values, sum};
+    for (const auto& term : model.terms)
+      if (term->seesLoadFactor()) term->addTangent(value, 0, sink);
+    const double driving = norm(sum);
+    if (std::isfinite(driving)) size = std::max(size, driving);
     scaleFloor = std::max(1e-6 * size, 1e-300);
   }
 
@@ -199,7 +210,7 @@ struct FeProblem::Impl {
         KOKKOS_LAMBDA(int i) { total(i) = -F0(i) - lambda * F1(i); });
     const double external = norm(total);
     double squares = 0;
-    for (const auto& term : model.terms) squares += term->addResidual(u, total);
+    for (const auto& term : model.terms) squares += term->addResidual(u, lambda, total);
     return std::max({scaleFloor, external, std::sqrt(squares)});
   }
 
@@ -268,34 +279,37 @@ path::ResidualNorm FeProblem::residual(const Vector& u, double lambda, Vector& r
   return result;
 }
 
-RCP<const CrsMatrix> FeProblem::tangent(const Vector& u, double, Vector& F) {
-  const ConstField state = field(u);
+RCP<const CrsMatrix> FeProblem::tangent(const Vector& u, double lambda, Vector& F) {
   impl_->K->resumeFill();
   const auto values = impl_->K->getLocalMatrixDevice().values;
-  Kokkos::deep_copy(values, 0.0);
-  for (const auto& term : impl_->model.terms) term->addTangent(state, TangentSink{impl_->rowStart, values});
   const Field direction = writable(F);
+  Kokkos::deep_copy(values, 0.0);
   Kokkos::deep_copy(direction, impl_->load);
+  for (const auto& term : impl_->model.terms)
+    term->addTangent(field(u), lambda, TangentSink{impl_->rowStart, values, direction});
   impl_->applySupports(direction);
   impl_->K->fillComplete(impl_->map, impl_->map);
   return impl_->K;
 }
 
-void FeProblem::beginSeries(const Vector& u, double, int maxOrder) {
-  for (const auto& term : impl_->model.terms) term->beginSeries(field(u), maxOrder);
+void FeProblem::beginSeries(const Vector& u, double lambda, int maxOrder) {
+  for (const auto& term : impl_->model.terms) term->beginSeries(field(u), lambda, maxOrder);
 }
 
 void FeProblem::orderRhs(int k, Vector& Fk) {
   const Field total = impl_->sum, out = writable(Fk);
   const auto fixed = impl_->fixed;
   Kokkos::deep_copy(total, 0.0);
-  for (const auto& term : impl_->model.terms) term->addOrder(k, impl_->last, total);
+  for (const auto& term : impl_->model.terms) term->addOrder(k, impl_->last, impl_->lastLambda, total);
   Kokkos::parallel_for(
       "orderRhs", Kokkos::RangePolicy<Execution>(0, out.size()),
       KOKKOS_LAMBDA(int d) { out(d) = fixed(d) ? 0.0 : -total(d); });
 }
 
-void FeProblem::completeOrder(int, const Vector& Uk, double) { Kokkos::deep_copy(impl_->last, field(Uk)); }
+void FeProblem::completeOrder(int, const Vector& Uk, double lambdaK) {
+  Kokkos::deep_copy(impl_->last, field(Uk));
+  impl_->lastLambda = lambdaK;
+}
 
 RCP<Vector> FeProblem::initialState(double lambda) const {
   auto u = rcp(new Vector(impl_->map));
@@ -314,9 +328,9 @@ std::vector<double> FeProblem::reactions(const Vector& u, double lambda) const {
   return r;
 }
 
-std::vector<double> FeProblem::forces(const Term& term, const Vector& u) const {
+std::vector<double> FeProblem::forces(const Term& term, const Vector& u, double lambda) const {
   Kokkos::deep_copy(impl_->sum, 0.0);
-  term.addResidual(field(u), impl_->sum);
+  term.addResidual(field(u), lambda, impl_->sum);
   return toHost(impl_->sum);
 }
 

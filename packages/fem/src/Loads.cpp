@@ -1,13 +1,7 @@
 #include "atrapos/fem/Loads.hpp"
 
-#include "atrapos/fem/PointSet.hpp"
-
 namespace atrapos::fem {
 namespace {
-
-// Shape functions of the quadratic faces have degree 2 in each direction and the area's Jacobian of a flat,
-// straight-edged face at most 2: cubature of degree 4 is exact there.
-constexpr int kFaceDegree = 4;
 
 /// force += sum over points of weight N^T density(entity, point).
 template <class Density>
@@ -33,7 +27,12 @@ void addNodalLoad(const std::vector<int>& nodes, const std::array<double, 3>& pe
 
 void addTraction(const Mesh& mesh, const SideSet& set, const std::array<double, 3>& traction,
                  std::vector<double>& force) {
-  for (const PointSet& p : facePoints(mesh, set, kFaceDegree))
+  addTraction(facePoints(mesh, set, loadDegree), traction, force);
+}
+
+void addTraction(const std::vector<PointSet>& faces, const std::array<double, 3>& traction,
+                 std::vector<double>& force) {
+  for (const PointSet& p : faces)
     integrate(
         p, [&](std::size_t) { return traction; }, force);
 }
@@ -45,7 +44,11 @@ void addSurfaceForce(const Mesh& mesh, const SideSet& set, const std::array<doub
 }
 
 void addPressure(const Mesh& mesh, const SideSet& set, double pressure, std::vector<double>& force) {
-  for (const PointSet& p : facePoints(mesh, set, kFaceDegree))
+  addPressure(facePoints(mesh, set, loadDegree), pressure, force);
+}
+
+void addPressure(const std::vector<PointSet>& faces, double pressure, std::vector<double>& force) {
+  for (const PointSet& p : faces)
     integrate(
         p,
         [&](std::size_t point) {
@@ -63,9 +66,11 @@ void addBodyForce(const Mesh& mesh, const Block& block, const std::array<double,
       force);
 }
 
-double areaOf(const Mesh& mesh, const SideSet& set) {
+double areaOf(const Mesh& mesh, const SideSet& set) { return areaOf(facePoints(mesh, set, loadDegree)); }
+
+double areaOf(const std::vector<PointSet>& faces) {
   double area = 0;
-  for (const PointSet& p : facePoints(mesh, set, kFaceDegree))
+  for (const PointSet& p : faces)
     for (double w : p.weights) area += w;
   return area;
 }

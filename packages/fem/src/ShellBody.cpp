@@ -83,4 +83,14 @@ std::vector<double> ShellBody::displacements(const ShellGeometry& shells,
   return result;
 }
 
+std::vector<double> ShellBody::forces(const ShellGeometry& shells, const std::vector<double>& f) const {
+  const std::size_t meshDofs = 3 * static_cast<std::size_t>(numMeshNodes);
+  std::vector<double> result(f.begin(), f.begin() + static_cast<long>(meshDofs));
+  for (int d = 0; d < shells.numDirectors(); ++d)
+    for (double zeta : {-1.0, 1.0})
+      for (int i = 0; i < 3; ++i)
+        result.push_back(0.5 * zeta * f[meshDofs + 3 * static_cast<std::size_t>(d) + i]);
+  return result;
+}
+
 }  // namespace atrapos::fem

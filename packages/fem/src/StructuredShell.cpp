@@ -179,6 +179,18 @@ constexpr double radiansPerDegree = 3.14159265358979323846 / 180.0;
 
 double between(double min, double max, double s) { return s == 1.0 ? max : min + s * (max - min); }
 
+/// A lattice coordinate in [0, 1] of corners of cells moved towards the nearer end, symmetric about the
+/// middle; nodes between corners stay halfway.
+double graded(double s, int divisions, double power) {
+  if (power == 1) return s;
+  const auto corner = [&](double c) {
+    const double x = c / divisions;
+    return x < 0.5 ? 0.5 * std::pow(2 * x, power) : 1 - 0.5 * std::pow(2 - 2 * x, power);
+  };
+  const double half = 0.5 * std::round(2 * s * divisions);
+  return 0.5 * (corner(std::floor(half)) + corner(std::ceil(half)));
+}
+
 /// What all options have in common.
 template <class Options>
 Surface common(const Options& options, const std::string& title) {
@@ -210,6 +222,8 @@ Mesh shellPlateMesh(const ShellPlateOptions& options) {
   requirePositive(options.width, kind, "width");
   require(options.angle > 0 && options.angle < 180, kind, "angle must be above 0 and below 180 degrees");
   for (double x : options.origin) requireFinite(x, kind, "origin");
+  require(std::isfinite(options.grading) && options.grading >= 1, kind,
+          "grading must be at least 1, got " + std::to_string(options.grading));
   surface.names = {{{"x_min", "x_max", "x_mid"}, {"y_min", "y_max", "y_mid"}}};
   surface.faces = {"top", "bottom"};
   // A right angle gives exact coordinates.
@@ -217,6 +231,8 @@ Mesh shellPlateMesh(const ShellPlateOptions& options) {
                s = options.angle == 90 ? 1 : std::sin(radiansPerDegree * options.angle);
   surface.position = [&](double a, double b) {
     const Point& o = options.origin;
+    a = graded(a, options.divisions[0], options.grading);
+    b = graded(b, options.divisions[1], options.grading);
     return Point{o[0] + a * options.length + b * options.width * c, o[1] + b * options.width * s, o[2]};
   };
   return SurfaceMesher(surface).build();

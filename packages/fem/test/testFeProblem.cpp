@@ -98,6 +98,27 @@ TEST_P(Cells, TangentIsTheDerivativeOfTheResidual) {
   checkTangent(busyModel(distorted(box(GetParam()), 0.03)));
 }
 
+// A term that sees the load factor: its share of dR/dlambda, and what it shows.
+TEST(FeProblem, TermsSeeTheLoadFactor) {
+  const Mesh mesh = distorted(box(Topology::Hex8), 0.03);
+  const auto pulled = [&] {
+    FeModel model = busyModel(mesh);
+    for (const PointSet& p : facePoints(mesh, sideSet(mesh, "x_max"), 3))
+      model.terms.push_back(std::make_unique<LawTerm<MovingPull, CurrentPosition>>(MovingPull{0.2}, p));
+    return model;
+  };
+  checkTangent(pulled());
+  const int last = static_cast<int>(pulled().terms.size()) - 1;
+  FeProblem problem(pulled());
+  EXPECT_TRUE(problem.term(last).seesLoadFactor());
+  EXPECT_FALSE(problem.term(0).seesLoadFactor());
+  const auto state = vectorOf(problem, Numbers(3 * mesh.numNodes(), 0.0));
+  EXPECT_DOUBLE_EQ(problem.term(last).observe(field(*state), 3).values.at(0), 0.2 + 9);
+  EXPECT_GT(norm(sum(problem.forces(problem.term(last), *state, 1), -1,
+                     problem.forces(problem.term(last), *state, 2))),
+            0.1);
+}
+
 INSTANTIATE_TEST_SUITE_P(All, Cells, testing::ValuesIn(allCells()),
                          [](const auto& info) { return std::string(topologyName(info.param)); });
 
@@ -151,7 +172,7 @@ TEST(FeProblem, TermsAddUpAndLoadsAreSubtracted) {
   EXPECT_LT(norm(reactionError), rounding);
   // All rows count, those of the supports that this random u violates as well.
   EXPECT_NEAR(got.norm.norm, norm(got.r), 1e-13 * norm(got.r));
-  EXPECT_LT(norm(sum(problem.forces(problem.term(7), *vectorOf(problem, u)), -1, central)), rounding);
+  EXPECT_LT(norm(sum(problem.forces(problem.term(7), *vectorOf(problem, u), 0), -1, central)), rounding);
 }
 
 TEST(FeProblem, TangentIsSymmetricWhereAllLawsAre) {
@@ -285,7 +306,7 @@ TEST(FeProblem, ScaleIsTheLargestOfTheForces) {
   EXPECT_DOUBLE_EQ(residual(problem, u, 0.0).norm.scale, norm(constant));
   EXPECT_DOUBLE_EQ(residual(problem, u, 100.0).norm.scale, norm(sum(constant, 100.0, load)));
   u = randomNumbers(u.size(), 0.3, 4);
-  const Numbers internal = problem.forces(problem.term(0), *vectorOf(problem, u));
+  const Numbers internal = problem.forces(problem.term(0), *vectorOf(problem, u), 0);
   EXPECT_GT(norm(internal), norm(constant));
   EXPECT_DOUBLE_EQ(residual(problem, u, 0.0).norm.scale, norm(internal));
 }
@@ -313,7 +334,7 @@ TEST(FeProblem, ScaleCountsWhatCancelsAtTheNodes) {
   FeProblem problem(std::move(model));
   const double scale = residual(problem, u, 0.0).norm.scale;
   EXPECT_NEAR(scale, std::sqrt(squares), 1e-13 * scale);  // rounding of sums of some hundred terms
-  EXPECT_LT(norm(problem.forces(problem.term(0), *vectorOf(problem, u))),
+  EXPECT_LT(norm(problem.forces(problem.term(0), *vectorOf(problem, u), 0)),
             0.7 * scale);  // 0.60: the end faces are left
 }
 
@@ -350,7 +371,7 @@ TEST(FeProblem, ObserveShowsEveryPointInItsPlace) {
     u[3 * n + 2] = 0.05 * x[2];
   }
   const auto state = vectorOf(problem, u);
-  const PointValues seen = problem.term(0).observe(field(*state));
+  const PointValues seen = problem.term(0).observe(field(*state), 0);
   ASSERT_EQ(seen.names, (std::vector<std::string>{"trace", "scale"}));
   ASSERT_EQ(seen.values.size(), 2u * points.numPoints());
   const Numbers scale = unevenScale(points, 11);
@@ -358,7 +379,7 @@ TEST(FeProblem, ObserveShowsEveryPointInItsPlace) {
     EXPECT_NEAR(seen.values[2 * p], -0.15, 1e-13);  // rounding of ten terms of size one
     EXPECT_EQ(seen.values[2 * p + 1], scale[p]);
   }
-  const PointValues places = problem.term(1).observe(field(*state));
+  const PointValues places = problem.term(1).observe(field(*state), 0);
   ASSERT_EQ(places.values.size(), 3u * faces.numPoints());
   for (int p = 0; p < faces.numPoints(); ++p)  // x + u of a linear field, rounding of six terms
     EXPECT_NEAR(places.values[3 * p + 1], 0.7 * faces.positions[3 * p + 1], 1e-14);

@@ -282,6 +282,25 @@ TEST(StructuredShell, BandwidthIsThatOfTheLessDividedDirection) {
   }
 }
 
+// Corners at 2 (i/n)^2 of half an edge, from both ends; nodes between corners halfway.
+TEST(StructuredShell, GradedPlate) {
+  ShellPlateOptions options;
+  options.length = 8;
+  options.grading = 2;
+  options.divisions = {4, 1};
+  const Mesh mesh = shellPlateMesh(options);
+  const int edge = findNodeSet(mesh, "y_min");
+  ASSERT_GE(edge, 0);
+  std::vector<double> x;
+  for (int n : mesh.nodeSets[edge].nodes) x.push_back(mesh.coordinates[3 * n]);
+  std::sort(x.begin(), x.end());
+  const std::vector<double> expected{0, 0.5, 1, 2.5, 4, 5.5, 7, 7.5, 8};
+  ASSERT_EQ(x.size(), expected.size());
+  for (std::size_t i = 0; i < x.size(); ++i) EXPECT_NEAR(x[i], expected[i], 1e-14) << i;  // rounding
+  options.grading = 0.5;
+  EXPECT_THROW(shellPlateMesh(options), std::invalid_argument);
+}
+
 TEST(StructuredShell, BadNumbersThrow) {
   const auto throws = [](auto mesher, auto options) { EXPECT_THROW(mesher(options), std::invalid_argument); };
   auto p = plate();

@@ -101,6 +101,10 @@ void Calls::applyEvent(const std::vector<int>& indices, const State& state) {
   problemCall([&] { problem_.applyEvent(indices, *state.u, state.lambda); });
 }
 
+std::vector<int> Calls::eventsAt(const State& start) {
+  return problemCall([&] { return problem_.eventsAt(*start.u, start.lambda); });
+}
+
 std::optional<linear::Inertia> Calls::inertia() const {
   auto inertia = solver_.inertia();
   if (inertia) inertia->negative -= problem_.constraintPivots();

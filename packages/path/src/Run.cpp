@@ -31,12 +31,14 @@ void Run::follow(const Start& start) {
   weight_ = start.weight ? start.weight : options_.weight;
   tangent_ = start.tangent;
   applied_ = start.events;
+  due_ = start.due;
   lastLength_ = start.length;
   order_ = start.order > 0 ? start.order : options_.order;
   padeFailures_ = start.padeFailures;
   padeWait_ = start.padeWait;
   try {
     equilibrate();
+    if (!tangent_ && applied_.empty()) due_ = calls_.eventsAt(outcome_.final);
     while (step()) {
     }
   } catch (const PathError& error) {
@@ -128,8 +130,8 @@ bool Run::settle(const EndTangent* end) {
     explainStability(report, *end);
   }
   outcome_.worstResidual = std::max(outcome_.worstResidual, report.residual);
-  report.next = {outcome_.final, tangent_, outcome_.steps, outcome_.pathLength, last_->weight(),
-                 lastLength_,    applied_, order_,         padeFailures_,       padeWait_};
+  report.next = {outcome_.final, tangent_, outcome_.steps, outcome_.pathLength, last_->weight(), lastLength_,
+                 applied_,       due_,     order_,         padeFailures_,       padeWait_};
   return observer_.onStep(report, *last_);
 }
 

@@ -71,6 +71,7 @@ class Run {
   // RunStart.cpp: how a step begins.
   void equilibrate();
   Series nextSeries(StepReport& report);
+  Series smoothSeries(StepReport& report);
   void stepOverSingularity(const PathError& cause, int attempt);
   std::string nullVectorText();
   bool directionAgrees(const Series& series, const PathTangent& previous) const;
@@ -84,7 +85,11 @@ class Run {
 
   // RunEvents.cpp: where the Problem changes.
   void limit(const Series& series, Trial& trial) const;
+  std::vector<int> falling(const Series& series, const std::vector<int>& candidates, double sense) const;
+  std::vector<int> overdue(const Series& series) const;
+  Series seriesOfChoice();
   Series seriesAfterEvents(StepReport& report);
+  Series seriesAfterRestart();
 
   // RunTrial.cpp: how far it goes.
   double longestLength() const;

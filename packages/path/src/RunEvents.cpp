@@ -1,6 +1,9 @@
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
+#include <map>
+#include <set>
 
 #include <Tpetra_Vector.hpp>
 
@@ -17,17 +20,29 @@ Polynomial known(const Series& series, int i, const std::vector<int>& applied) {
   return Polynomial(std::move(c));
 }
 
-/// Whether a function that is zero at a = 0 rises in a sense (+1, -1), looked at on this length.
-bool rises(const std::vector<double>& c, double sense, double length) {
-  double size = 0, power = 1;
-  for (const double x : c) {
-    size = std::max(size, std::abs(x) * power);
-    power *= length;
-  }
-  power = length;
+/// max |c_k| length^k over k >= 1.
+double size(const std::vector<double>& c, double length) {
+  double largest = 0, power = length;
   for (std::size_t k = 1; k < c.size(); ++k, power *= length)
-    if (std::abs(c[k]) * power > 1e-9 * size) return (k % 2 == 1 ? sense : 1) * c[k] > 0;
+    largest = std::max(largest, std::abs(c[k]) * power);
+  return largest;
+}
+
+/// Whether a function that is zero at a = 0 rises in a sense (+1, -1), looked at on this length; what is
+/// below `noise` counts as zero.
+bool rises(const std::vector<double>& c, double sense, double length, double noise) {
+  const double small = std::max(noise, 1e-9 * size(c, length));
+  double power = length;
+  for (std::size_t k = 1; k < c.size(); ++k, power *= length)
+    if (std::abs(c[k]) * power > small) return (k % 2 == 1 ? sense : 1) * c[k] > 0;
   return true;  // stays zero: nothing is violated
+}
+
+/// Those of two sorted sets that are in one of them only.
+std::vector<int> difference(const std::vector<int>& a, const std::vector<int>& b) {
+  std::vector<int> d;
+  std::set_symmetric_difference(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(d));
+  return d;
 }
 
 }  // namespace
@@ -42,11 +57,6 @@ void Run::limit(const Series& series, Trial& trial) const {
   std::vector<double> at(series.eventCount(), never);  // where each falls through zero first
   for (int i = 0; i < series.eventCount(); ++i) {
     const Polynomial p = known(series, i, applied_);
-    // Below zero at the start by what the residual bound allows, and falling: it is due at once.
-    if (p.coefficients()[0] < 0 && !rises(p.coefficients(), 1, end)) {
-      at[i] = 0;
-      continue;
-    }
     Rational g = series.scalar(p.coefficients());
     if (p.coefficients()[0] == 0) g = g.withoutRootAtZero();
     const auto slope = g.numerator().derivative();  // the root taken out at 0 does not change its sign
@@ -66,68 +76,147 @@ void Run::limit(const Series& series, Trial& trial) const {
     constexpr double together = 1e-6;
     for (int i = 0; i < series.eventCount(); ++i)
       if (at[i] <= (1 + together) * first) trial.events.push_back(i);
+    std::sort(trial.events.begin(), trial.events.end(), [&](int i, int j) { return at[i] < at[j]; });
   }
 }
 
+/// The candidates that fall along the series in this sense, ascending.
+std::vector<int> Run::falling(const Series& series, const std::vector<int>& candidates, double sense) const {
+  const double reach = std::min(series.radius(options_.delta), options_.maxStep);
+  double largest = 0;
+  for (const int i : candidates) largest = std::max(largest, size(series.eventCoefficients(i), reach));
+  constexpr double rounding = 1e-12;
+  std::vector<int> violated;
+  for (const int i : candidates)
+    if (!rises(series.eventCoefficients(i), sense, reach, rounding * largest)) violated.push_back(i);
+  return violated;
+}
+
+/// The series of the Problem as it is, in the sense that led here.
+Series Run::seriesOfChoice() {
+  relaxOver_ = 0;
+  residual_ = calls_.residual(outcome_.final, *r_).relative();
+  if (!(residual_ <= 10 * bound()))
+    throw PathError(EndReason::problemFailed,
+                    line("at lambda = ", outcome_.final.lambda,
+                         ": the state does not solve the problem as an event has changed it (relative "
+                         "residual ",
+                         residual_, ')'));
+  SeriesRequest request;
+  request.order = order_;
+  request.weight = weight_;
+  request.direction = options_.direction;
+  request.previous = tangent_ ? &*tangent_ : nullptr;
+  return buildSeries(calls_, outcome_.final, request);
+}
+
 /// The Problem changes at the state. Of the functions that are zero there (`due_`) all are applied; where the
-/// path then has no admissible sense, every other choice is tried. Admissible is the sense in which every
-/// function that is zero here rises; it is not asked that the old direction is kept: where lambda then goes
-/// the other way the path has a non-smooth limit point.
+/// path then has no admissible sense, other choices are tried. Admissible is the sense in which every function
+/// that is zero here rises; it is not asked that the old direction is kept: where lambda then goes the other
+/// way the path has a non-smooth limit point. A path that starts here keeps the direction that is asked of it.
 Series Run::seriesAfterEvents(StepReport& report) {
-  std::vector<int> candidates;
-  std::swap(candidates, due_);
-  const int count = static_cast<int>(candidates.size());
-  constexpr int mostTogether = 6;
-  if (lastLength_ <= options_.minStep)
+  std::vector<int> due;
+  std::swap(due, due_);
+  if (due.size() > 1) {
+    // Not quite together: where the state does not solve the changed Problem, the others come next.
+    calls_.applyEvent(due, outcome_.final);
+    const double residual = calls_.residual(outcome_.final, *r_).relative();
+    calls_.applyEvent(due, outcome_.final);
+    if (!(residual <= std::max(bound(), 2 * residual_))) due.resize(1);
+  }
+  std::set<int> zero(applied_.begin(), applied_.end());
+  zero.insert(due.begin(), due.end());
+  const std::vector<int> candidates(zero.begin(), zero.end());
+  std::sort(due.begin(), due.end());
+  if (lastLength_ <= options_.minStep || !applied_.empty())
     ++standing_;
   else
     standing_ = 0;
   if (standing_ > 2 * calls_.problem().eventCount() + 4)
     throw PathError(EndReason::eventsCycle, line("at lambda = ", outcome_.final.lambda, ": ", standing_,
                                                  " events in a row without a step between them"));
-  relaxOver_ = 0;
-  SeriesRequest request;
-  request.order = order_;
-  request.weight = weight_;
-  const unsigned choices = count <= mostTogether ? (1u << count) : 2u;
-  for (unsigned left = 0; left + 1 < choices; ++left) {  // bits of `left`: candidates not applied
-    std::vector<int> chosen;
-    for (int i = 0; i < count; ++i)
-      if (!(left & (1u << i))) chosen.push_back(candidates[i]);
+  // Of a choice: what falls in either sense.
+  struct Choice {
+    bool singular = false;
+    std::vector<int> falls[2];
+  };
+  std::map<std::vector<int>, Choice> tried;
+  const int senses = tangent_ ? 2 : 1;
+  std::optional<Series> found;
+  const auto attempt = [&](const std::vector<int>& chosen) -> const Choice& {
+    const auto [at, isNew] = tried.try_emplace(chosen);
+    Choice& choice = at->second;
+    if (!isNew) return choice;
     calls_.applyEvent(chosen, outcome_.final);
-    residual_ = calls_.residual(outcome_.final, *r_).relative();
     try {
-      if (!(residual_ <= 10 * bound()))
-        throw PathError(EndReason::problemFailed,
-                        line("at lambda = ", outcome_.final.lambda,
-                             ": the state does not solve the problem as an event has changed it (relative "
-                             "residual ",
-                             residual_, ')'));
-      const Series series = buildSeries(calls_, outcome_.final, request);
-      const double reach = std::min(series.radius(options_.delta), options_.maxStep);
-      for (const double sense : {1.0, -1.0}) {
-        bool admissible = true;
-        for (const int i : candidates)
-          admissible = admissible && rises(series.eventCoefficients(i), sense, reach);
-        if (!admissible) continue;
-        Series chosenSeries = sense > 0 ? series : series.reversed();
-        applied_ = candidates;
-        ++outcome_.events;
-        turned_ = tangent_ && (tangent_->lambda > 0) != (chosenSeries.lambdaCoefficient(1) > 0);
-        if (pending_) pending_->events = chosen;
-        return chosenSeries;
+      const Series series = seriesOfChoice();
+      for (int s = 0; s < senses && !found; ++s) {
+        choice.falls[s] = falling(series, candidates, s == 0 ? 1 : -1);
+        if (choice.falls[s].empty()) found = s == 0 ? series : series.reversed();
       }
     } catch (const PathError& error) {
       // A set of constraints that depend on each other, or a mechanism: another choice.
       if (error.reason() != EndReason::singularTangent) throw;
+      choice.singular = true;
     }
-    ++outcome_.eventTrials;
-    ++report.restarts;
-    calls_.applyEvent(chosen, outcome_.final);
+    if (found) {
+      applied_ = candidates;
+      if (!chosen.empty()) ++outcome_.events;
+      turned_ = tangent_ && (tangent_->lambda > 0) != (found->lambdaCoefficient(1) > 0);
+      if (pending_) pending_->events = difference(pending_->events, chosen);
+    } else {
+      ++outcome_.eventTrials;
+      ++report.restarts;
+      calls_.applyEvent(chosen, outcome_.final);
+    }
+    return choice;
+  };
+  // No change at all is the way back, except where a path starts.
+  const auto allowed = [&](const std::vector<int>& chosen) { return !chosen.empty() || !tangent_; };
+
+  // Principal pivoting: all that fall change sides, or the last of them where that would go in a circle.
+  const int count = static_cast<int>(candidates.size());
+  for (int s = 0; s < senses && !found; ++s) {
+    std::set<std::vector<int>> seen;
+    std::vector<int> chosen = due;
+    for (int trial = 0; trial < 3 * count && allowed(chosen) && seen.insert(chosen).second; ++trial) {
+      const Choice& choice = attempt(chosen);
+      if (found || choice.singular) break;
+      std::vector<int> next = difference(chosen, choice.falls[s]);
+      if (seen.count(next)) next = difference(chosen, {choice.falls[s].back()});
+      chosen = next;
+    }
   }
+  // What is left, where it is little: the bits of `left` are the candidates not applied.
+  constexpr int mostTogether = 6;
+  for (unsigned left = 0; !found && count <= mostTogether && left < (1u << count); ++left) {
+    std::vector<int> chosen;
+    for (int i = 0; i < count; ++i)
+      if (!(left & (1u << i))) chosen.push_back(candidates[i]);
+    if (allowed(chosen)) attempt(chosen);
+  }
+  if (found) return *found;
   throw PathError(EndReason::noAdmissibleDirection,
                   line("at lambda = ", outcome_.final.lambda, ": no choice among the ", count,
                        " event(s) there lets the path go on"));
+}
+
+/// A path that goes on from a state where events have been applied: the sense in which their functions rise.
+Series Run::seriesAfterRestart() {
+  Series series = seriesOfChoice();
+  if (falling(series, applied_, 1).empty()) return series;
+  return series.reversed();
+}
+
+/// Functions that are below zero at the start of the series by what the residual bound allows, and fall.
+std::vector<int> Run::overdue(const Series& series) const {
+  const double reach = std::min(series.radius(options_.delta), options_.maxStep);
+  std::vector<int> due;
+  for (int i = 0; i < series.eventCount(); ++i) {
+    const Polynomial p = known(series, i, applied_);
+    if (p.coefficients()[0] < 0 && !rises(p.coefficients(), 1, reach, 0)) due.push_back(i);
+  }
+  return due;
 }
 
 }  // namespace atrapos::path

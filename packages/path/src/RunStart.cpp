@@ -123,7 +123,21 @@ bool Run::retreat() {
 }
 
 Series Run::nextSeries(StepReport& report) {
-  if (!due_.empty()) return seriesAfterEvents(report);
+  // Not empty here: events were applied at this very state before the path was interrupted.
+  const bool restarted = !applied_.empty();
+  Series series = !due_.empty() ? seriesAfterEvents(report)
+                  : restarted   ? seriesAfterRestart()
+                                : smoothSeries(report);
+  for (auto due = overdue(series); !due.empty(); due = overdue(series)) {
+    ++outcome_.eventTrials;
+    ++report.restarts;
+    due_ = due;
+    series = seriesAfterEvents(report);
+  }
+  return series;
+}
+
+Series Run::smoothSeries(StepReport& report) {
   for (int attempt = 1;;) {
     SeriesRequest request;
     request.order = order_;

@@ -169,6 +169,130 @@ TEST(Events, OfTwoThatCoincideOnlyOneMayBeAdmissible) {
   f.expectAdmissible(1e-6);
 }
 
+/// Twelve masses in a row, each on a spring of its own and with springs between them: more events at once than
+/// all choices of them could be tried.
+struct Row : Body {
+  static constexpr int n = 12;
+  std::vector<double> load = {1, 0.6, -0.4, 0.9, 1.2, -0.7, -0.1, 0.8, 0.5, -0.3, 1.1, 0.2};
+  template <class S>
+  std::vector<S> forces(const std::vector<S>& u, const S& lambda) const {
+    std::vector<S> r;
+    for (int i = 0; i < n; ++i) {
+      S f = 3 * u[i] - load[i] * lambda;
+      if (i > 0) f = f - 1.2 * u[i - 1];
+      if (i + 1 < n) f = f - 1.2 * u[i + 1];
+      r.push_back(f);
+    }
+    return r;
+  }
+  /// u of the row pressed against stops, by projected Gauss-Seidel (converges: the matrix is positive
+  /// definite).
+  std::vector<double> against(const std::vector<double>& stops, double lambda) const {
+    std::vector<double> u(n, 0.0);
+    for (int sweep = 0; sweep < 2000; ++sweep)
+      for (int i = 0; i < n; ++i) {
+        const double neighbours = (i > 0 ? u[i - 1] : 0) + (i + 1 < n ? u[i + 1] : 0);
+        u[i] = std::min(stops[i], (load[i] * lambda + 1.2 * neighbours) / 3);
+      }
+    return u;
+  }
+};
+
+TEST(Events, TwelveThatCoincide) {
+  const Row row;
+  // Where the free row is at lambda = 1; a mass that goes the other way has its stop far off.
+  std::vector<double> stops = row.against(std::vector<double>(Row::n, 1e9), 1);
+  int together = 0;
+  for (double& s : stops) {
+    if (s > 0)
+      ++together;
+    else
+      s = 10;
+  }
+  ASSERT_GT(together, 6);
+  Moved<Row> f(row, stops, 2);
+  EXPECT_EQ(f.outcome.reason, EndReason::stopReached) << f.outcome.text;
+  const auto expected = row.against(stops, 2);
+  for (int i = 0; i < Row::n; ++i) EXPECT_NEAR(f.final(i), expected[i], 1e-6) << i;  // residual bound
+  EXPECT_LE(f.outcome.eventTrials, together);
+  f.expectAdmissible(1e-6);
+}
+
+/// All masses touch at the start; some come off at once, the others are pressed.
+TEST(Events, AStartThatTouches) {
+  const Row row;
+  const std::vector<double> stops(Row::n, 0.0);
+  Moved<Row> f(row, stops, 2);
+  EXPECT_EQ(f.outcome.reason, EndReason::stopReached) << f.outcome.text;
+  const auto expected = row.against(stops, 2);
+  int touching = 0;
+  for (int i = 0; i < Row::n; ++i) {
+    EXPECT_NEAR(f.final(i), expected[i], 1e-6) << i;
+    touching += expected[i] == 0;
+  }
+  EXPECT_GT(touching, 3);
+  EXPECT_LT(touching, Row::n);
+  EXPECT_EQ(f.problem.constraintPivots(), touching);
+  f.expectAdmissible(1e-6);
+}
+
+/// Interrupted at any step, also between a root and the change that it brings, and taken up again with the
+/// Problem in the condition that it was in: the same bits.
+TEST(Events, ARestartKeepsTheirBits) {
+  struct Conditions final : Observer {
+    const UnilateralProblem<ComesOff>& problem;
+    std::vector<StepReport> steps;
+    std::vector<std::vector<bool>> touched;
+    explicit Conditions(const UnilateralProblem<ComesOff>& p) : problem(p) {}
+    bool onStep(const StepReport& report, const Series&) override {
+      steps.push_back(report);
+      touched.push_back(problem.law().touched);
+      return true;
+    }
+  };
+  Stops stops;
+  stops.loadFactors = {2.9};
+  const auto follow = [&](UnilateralProblem<ComesOff>& problem, const Start& start, int maxSteps,
+                          Conditions& seen) {
+    SymmetricDenseSolver solver;
+    Options options;
+    options.maxSteps = maxSteps;
+    return PathFollower(problem, solver, options, stops).runFrom(start, seen);
+  };
+  const WithStops<ComesOff> body(ComesOff{}, {1, 10});
+  UnilateralProblem<ComesOff> whole(body);
+  Start start;
+  start.state = {whole.vector({}), 0};
+  Conditions all(whole);
+  EXPECT_EQ(follow(whole, start, 100, all).reason, EndReason::stopReached);
+  ASSERT_GE(all.steps.size(), 3u);
+  const auto same = [&](const Conditions& rest, std::size_t first) {
+    ASSERT_EQ(rest.steps.size() + first, all.steps.size());
+    for (std::size_t i = 0; i < rest.steps.size(); ++i) {
+      const auto &a = rest.steps[i], &b = all.steps[first + i];
+      EXPECT_EQ(a.length, b.length);
+      EXPECT_EQ(a.lambdaEnd, b.lambdaEnd);
+      EXPECT_EQ(a.events, b.events);
+      for (int j = 0; j < 4; ++j) EXPECT_EQ(a.end.u->getData()[j], b.end.u->getData()[j]);
+    }
+  };
+  for (std::size_t s = 0; s + 1 < all.steps.size(); ++s) {
+    auto taken = body;
+    taken.touched = all.touched[s];
+    UnilateralProblem<ComesOff> again(taken);
+    Conditions rest(again);
+    follow(again, all.steps[s].next, 100, rest);
+    same(rest, s + 1);
+    // The limit of steps ends a path before its events are applied.
+    UnilateralProblem<ComesOff> part(body);
+    Conditions head(part);
+    EXPECT_EQ(follow(part, start, static_cast<int>(s) + 1, head).reason, EndReason::stepLimit);
+    Conditions tail(part);
+    follow(part, head.steps.back().next, 100, tail);
+    same(tail, s + 1);
+  }
+}
+
 /// A function that falls whatever is done about it.
 struct Hopeless : UnilateralProblem<OneMass> {
   using UnilateralProblem::UnilateralProblem;

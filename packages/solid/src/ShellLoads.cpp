@@ -5,6 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "ShellSurface.hpp"
 #include "atrapos/fem/LawTerm.hpp"
 #include "atrapos/fem/ReferenceCell.hpp"
 
@@ -84,13 +85,13 @@ Vec3 edgeTangent(const ShellElements& elements, const ShellEdge& edge, const Edg
   return T;
 }
 
-/// Points of edges for EdgeFrame: three nodes of v, three of w, the load factor's; and the laws' data.
+/// Points of edges for EdgeFrame: three nodes of v, three of w; and the laws' data.
 fem::PointSet edgePoints(const ShellElements& elements, const std::vector<ShellEdge>& edges,
-                         int loadFactorNode, std::vector<double>& data) {
+                         std::vector<double>& data) {
   checkEdges(elements, edges);
   fem::PointSet p;
   p.numEntities = static_cast<int>(edges.size());
-  p.nodesPerEntity = 7;
+  p.nodesPerEntity = 6;
   p.pointsPerEntity = 3;
   p.shapeComponents = EdgeFrame::components;
   for (const ShellEdge& edge : edges) {
@@ -98,7 +99,6 @@ fem::PointSet edgePoints(const ShellElements& elements, const std::vector<ShellE
     const auto local = nodesOf(edge);
     for (int half = 0; half < 2; ++half)
       for (int a : local) p.nodes.push_back(elements.nodes[16 * e + 8 * half + a]);
-    p.nodes.push_back(loadFactorNode);
     for (int q = 0; q < 3; ++q) {
       const EdgeShape shape(lineX[q]);
       const Vec3 T = edgeTangent(elements, edge, shape);
@@ -106,10 +106,9 @@ fem::PointSet edgePoints(const ShellElements& elements, const std::vector<ShellE
       for (int a = 0; a < 3; ++a)
         for (int i = 0; i < 3; ++i) D[i] += shape.N[a] * elements.directors[24 * e + 3 * local[a] + i];
       p.weights.push_back(lineW[q] * std::sqrt(detail::dot(T.data(), T.data())));
-      for (int a = 0; a < 3; ++a) p.shape.insert(p.shape.end(), {shape.N[a], shape.dN[a], 0, 0});
+      for (int a = 0; a < 3; ++a) p.shape.insert(p.shape.end(), {shape.N[a], shape.dN[a], 0});
       for (int a = 0; a < 3; ++a)
-        p.shape.insert(p.shape.end(), {0, 0, elements.scale(edge.element, local[a]) * shape.N[a], 0});
-      p.shape.insert(p.shape.end(), {0, 0, 0, 1});
+        p.shape.insert(p.shape.end(), {0, 0, elements.scale(edge.element, local[a]) * shape.N[a]});
       data.insert(data.end(), D.begin(), D.end());
       data.insert(data.end(), T.begin(), T.end());
     }
@@ -127,6 +126,21 @@ void addShellAreaForce(const ShellElements& elements, double zeta, const std::ar
     addAt(elements, e, &t.values[q * 8], zeta, {area * perArea[0], area * perArea[1], area * perArea[2]},
           force);
   });
+}
+
+void addShellBodyForce(const ShellElements& elements, const std::array<double, 3>& perVolume,
+                       std::vector<double>& force) {
+  const fem::Tabulation t = surfaceTable();
+  for (int e = 0; e < elements.count(); ++e)
+    for (int q = 0; q < t.numPoints; ++q)
+      for (std::size_t layer = 0; layer < lineX.size(); ++layer) {  // N zeta J has degree 3 in zeta
+        const double zeta = lineX[layer];
+        const double* R = &elements.midsurface[24 * static_cast<std::size_t>(e)];
+        const double* D = &elements.directors[24 * static_cast<std::size_t>(e)];
+        const double volume = t.weights[q] * lineW[layer] * detail::baseAt(t, q, zeta, R, D).jacobian();
+        addAt(elements, e, &t.values[q * 8], zeta,
+              {volume * perVolume[0], volume * perVolume[1], volume * perVolume[2]}, force);
+      }
 }
 
 void addShellPressure(const ShellElements& elements, double zeta, double pressure,
@@ -163,16 +177,12 @@ double lengthOf(const ShellElements& elements, const std::vector<ShellEdge>& edg
   return length;
 }
 
-void prescribeLoadFactor(fem::Supports& supports, int loadFactorNode) {
-  for (int i = 0; i < 3; ++i) supports.prescribe(loadFactorNode, i, 0, i == 0 ? 1 : 0);
-}
-
 std::unique_ptr<fem::Term> followerPressure(const ShellElements& elements, const std::vector<int>& loaded,
-                                            double zeta, LoadAmount pressure, int loadFactorNode) {
+                                            double zeta, LoadAmount pressure) {
   const fem::Tabulation t = surfaceTable();
   fem::PointSet p;
   p.numEntities = static_cast<int>(loaded.size());
-  p.nodesPerEntity = 17;
+  p.nodesPerEntity = 16;
   p.pointsPerEntity = t.numPoints;
   p.shapeComponents = SurfaceFrame::components;
   std::vector<double> data;
@@ -182,16 +192,14 @@ std::unique_ptr<fem::Term> followerPressure(const ShellElements& elements, const
           fmt::format("pressure on shell element {}: there are {} elements", e + 1, elements.count()));
     const auto first = elements.nodes.begin() + 16 * static_cast<std::ptrdiff_t>(e);
     p.nodes.insert(p.nodes.end(), first, first + 16);
-    p.nodes.push_back(loadFactorNode);
     for (int q = 0; q < t.numPoints; ++q) {
       p.weights.push_back(t.weights[q]);
       for (int half = 0; half < 2; ++half)
         for (int a = 0; a < 8; ++a) {
           const double* dN = &t.gradients[(q * 8 + a) * 2];
           const double scale = half == 0 ? 1.0 : zeta * elements.scale(e, a);
-          p.shape.insert(p.shape.end(), {scale * t.values[q * 8 + a], scale * dN[0], scale * dN[1], 0});
+          p.shape.insert(p.shape.end(), {scale * t.values[q * 8 + a], scale * dN[0], scale * dN[1]});
         }
-      p.shape.insert(p.shape.end(), {0, 0, 0, 1});
       Vec3 g1, g2;
       surfaceTangents(elements, e, t, q, zeta, g1, g2);
       data.insert(data.end(), g1.begin(), g1.end());
@@ -202,17 +210,17 @@ std::unique_ptr<fem::Term> followerPressure(const ShellElements& elements, const
 }
 
 std::unique_ptr<fem::Term> followerEdgeLoad(const ShellElements& elements,
-                                            const std::vector<ShellEdge>& edges, const FollowerEdgeLoad& load,
-                                            int loadFactorNode) {
+                                            const std::vector<ShellEdge>& edges,
+                                            const FollowerEdgeLoad& load) {
   std::vector<double> data;
-  const fem::PointSet p = edgePoints(elements, edges, loadFactorNode, data);
+  const fem::PointSet p = edgePoints(elements, edges, data);
   return std::make_unique<fem::LawTerm<FollowerEdgeLoad, EdgeFrame>>(load, p, data);
 }
 
 std::unique_ptr<fem::Term> deadEdgeMoment(const ShellElements& elements, const std::vector<ShellEdge>& edges,
-                                          const DeadEdgeMoment& load, int loadFactorNode) {
+                                          const DeadEdgeMoment& load) {
   std::vector<double> data;
-  const fem::PointSet p = edgePoints(elements, edges, loadFactorNode, data);
+  const fem::PointSet p = edgePoints(elements, edges, data);
   for (std::size_t i = 0; i < data.size() / 6; ++i)
     for (const Vec3& m : {Vec3{load.x.constant, load.y.constant, load.z.constant},
                           Vec3{load.x.rate, load.y.rate, load.z.rate}}) {

@@ -62,6 +62,16 @@ std::vector<double> surfaceStress(const fem::PointValues& stress, const ShellCub
   return result;
 }
 
+std::vector<double> shellPointsToNodes(const ShellCubature& cubature) {
+  constexpr double xi[8] = {-1, 1, 1, -1, 0, 1, 0, -1}, eta[8] = {-1, -1, 1, 1, -1, 0, 1, 0};
+  const detail::GaussRule line = detail::gaussRule(cubature.inPlane);
+  std::vector<double> result;
+  for (int a = 0; a < 8; ++a)
+    for (double byEta : lagrange(line.x, eta[a]))
+      for (double byXi : lagrange(line.x, xi[a])) result.push_back(byXi * byEta);
+  return result;
+}
+
 std::vector<std::string> ShellResultants::names() {
   return {"n_11", "n_22", "n_12", "m_11", "m_22", "m_12", "q_1", "q_2"};
 }

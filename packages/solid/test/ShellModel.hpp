@@ -13,11 +13,11 @@ namespace atrapos::solid::test {
 using fem::test::Numbers;
 using Shell = ShellTerm<SaintVenantKirchhoff>;
 
-/// Saint Venant-Kirchhoff shell without supports and loads; `moreNodes` beside those of the grid.
+/// Saint Venant-Kirchhoff shell without supports and loads.
 inline fem::FeModel shellModel(const ShellGrid& grid, const SaintVenantKirchhoff& material,
-                               const ShellCubature& cubature = {}, int moreNodes = 0) {
+                               const ShellCubature& cubature = {}) {
   fem::FeModel model;
-  model.numNodes = 2 * grid.numNodes() + moreNodes;
+  model.numNodes = 2 * grid.numNodes();
   model.terms.push_back(std::make_unique<Shell>(ShellLaw<SaintVenantKirchhoff>{material},
                                                 shellPoints(grid.elements(), cubature)));
   model.supports = fem::Supports(model.numNodes);

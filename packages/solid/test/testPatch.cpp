@@ -76,7 +76,7 @@ class Patch : public testing::TestWithParam<fem::Topology> {
 void expectHomogeneous(const fem::FeProblem& problem, const Numbers& u, const Matrix& A, double tolerance) {
   double expected[6];
   material.observe(A.data(), nullptr, expected);
-  const auto seen = problem.term(0).observe(fem::field(*vectorOf(problem, u)));
+  const auto seen = problem.term(0).observe(fem::field(*vectorOf(problem, u)), 0);
   ASSERT_GT(seen.values.size(), 0u);
   double worst = 0, size = 0;
   for (double sigma : expected) size = std::max(size, std::abs(sigma));

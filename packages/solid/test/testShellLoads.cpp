@@ -46,25 +46,14 @@ ShellGrid curved() { return shellGrid(3, 2, thickness, cylinder(1, 0, 1, 0, 0.7)
 
 struct Loaded {
   ShellGrid grid = curved();
-  int lambdaNode = 2 * grid.numNodes();
-  fem::FeModel model = shellModel(grid, SaintVenantKirchhoff::fromYoung(1, 0.3), {}, 1);
+  fem::FeModel model = shellModel(grid, SaintVenantKirchhoff::fromYoung(1, 0.3));
 
-  Loaded() {
-    clamp(model, grid, grid.lineI(0));
-    prescribeLoadFactor(model.supports, lambdaNode);
-  }
-
-  /// Random displacements, the load factor's node at lambda.
-  Numbers state(double lambda, unsigned seed) const {
-    Numbers u = randomState(model.supports, 0.02, seed);
-    u[3 * lambdaNode] = lambda;
-    return u;
-  }
+  Loaded() { clamp(model, grid, grid.lineI(0)); }
 };
 
 /// -1 times the term's forces: the load on the body.
-Numbers loadOf(const fem::FeProblem& problem, int term, const Numbers& u) {
-  Numbers f = problem.forces(problem.term(term), *vectorOf(problem, u));
+Numbers loadOf(const fem::FeProblem& problem, int term, const Numbers& u, double lambda) {
+  Numbers f = problem.forces(problem.term(term), *vectorOf(problem, u), lambda);
   for (double& x : f) x = -x;
   return f;
 }
@@ -115,14 +104,11 @@ TEST(ShellLoads, SqueezedPlate) {
 // On a deformed flat plate x = F X the area vector is cof(F) times the undeformed one.
 TEST(ShellLoads, FollowerPressureIsThatOfTheDeformedArea) {
   const ShellGrid grid = shellGrid(2, 3, thickness, flat(2, 1));
-  const int node = 2 * grid.numNodes();
-  fem::FeModel model = shellModel(grid, SaintVenantKirchhoff::fromYoung(1, 0), {}, 1);
-  prescribeLoadFactor(model.supports, node);
+  fem::FeModel model = shellModel(grid, SaintVenantKirchhoff::fromYoung(1, 0));
   for (double zeta : {bottomSurface, midSurface, topSurface})
-    model.terms.push_back(followerPressure(grid.elements(), {0, 1, 2, 3, 4, 5}, zeta, {0.5, 2}, node));
+    model.terms.push_back(followerPressure(grid.elements(), {0, 1, 2, 3, 4, 5}, zeta, {0.5, 2}));
   fem::FeProblem problem(std::move(model));
-  Numbers u(3 * (node + 1), 0.0);
-  u[3 * node] = 0.75;  // pressure 0.5 + 0.75 * 2 = 2
+  Numbers u(6 * grid.numNodes(), 0.0);
   const double F[9] = {1.1, 0.2, 0.3, -0.1, 0.9, 0.2, 0.4, -0.3, 1.2};
   for (int n = 0; n < grid.numNodes(); ++n)
     for (int i = 0; i < 3; ++i)
@@ -133,8 +119,8 @@ TEST(ShellLoads, FollowerPressureIsThatOfTheDeformedArea) {
   const Vec3 area{2 * (F[3] * F[7] - F[6] * F[4]), 2 * (F[6] * F[1] - F[0] * F[7]),
                   2 * (F[0] * F[4] - F[3] * F[1])};
   for (int t = 1; t <= 3; ++t)
-    expectNear(resultant(grid, loadOf(problem, t, u), u).force, {-2 * area[0], -2 * area[1], -2 * area[2]},
-               1e-13);
+    expectNear(resultant(grid, loadOf(problem, t, u, 0.75), u).force,
+               {-2 * area[0], -2 * area[1], -2 * area[2]}, 1e-13);
 }
 
 // The couple of a dead moment is that moment, however the directors have turned, up to its part about them.
@@ -142,13 +128,12 @@ TEST(ShellLoads, MomentsAreCouples) {
   Loaded l;
   DeadEdgeMoment moment;
   moment.y.rate = 3;
-  l.model.terms.push_back(deadEdgeMoment(l.grid.elements(), l.grid.side(1), moment, l.lambdaNode));
+  l.model.terms.push_back(deadEdgeMoment(l.grid.elements(), l.grid.side(1), moment));
   FollowerEdgeLoad follower;
   follower.moment.rate = 3;
-  l.model.terms.push_back(followerEdgeLoad(l.grid.elements(), l.grid.side(1), follower, l.lambdaNode));
+  l.model.terms.push_back(followerEdgeLoad(l.grid.elements(), l.grid.side(1), follower));
   fem::FeProblem problem(std::move(l.model));
-  Numbers u(3 * (l.lambdaNode + 1), 0.0);
-  u[3 * l.lambdaNode] = 1;
+  Numbers u(6 * l.grid.numNodes(), 0.0);
   for (double angle : {0.0, 1.0, 4.0}) {
     // All directors turned about y: the edge's own axis.
     for (int n = 0; n < l.grid.numNodes(); ++n) {
@@ -158,7 +143,7 @@ TEST(ShellLoads, MomentsAreCouples) {
       w[2] = -std::sin(angle) * D[0] + (std::cos(angle) - 1) * D[2];
     }
     for (int term : {1, 2}) {
-      const Resultant r = resultant(l.grid, loadOf(problem, term, u), u);
+      const Resultant r = resultant(l.grid, loadOf(problem, term, u, 1), u);
       expectNear(r.force, {0, 0, 0}, 1e-14);
       expectNear(r.moment, {0, 3 * 0.7, 0}, 1e-13);
     }
@@ -171,29 +156,30 @@ TEST(ShellLoads, EdgeForcesTurnWithTheEdge) {
   load.outward.constant = 1;
   load.director.constant = 2;
   load.along.constant = 4;
-  l.model.terms.push_back(followerEdgeLoad(l.grid.elements(), l.grid.side(1), load, l.lambdaNode));
+  l.model.terms.push_back(followerEdgeLoad(l.grid.elements(), l.grid.side(1), load));
   fem::FeProblem problem(std::move(l.model));
-  const Numbers u(3 * (l.lambdaNode + 1), 0.0);
+  const Numbers u(6 * l.grid.numNodes(), 0.0);
   // The edge at angle 1: director (sin 1, 0, cos 1), outward (cos 1, 0, -sin 1), along y; length 0.7.
   const double c = std::cos(1.0), s = std::sin(1.0);
-  expectNear(resultant(l.grid, loadOf(problem, 1, u), u).force,
+  expectNear(resultant(l.grid, loadOf(problem, 1, u, 0), u).force,
              {0.7 * (c + 2 * s), 0.7 * 4, 0.7 * (2 * c - s)}, 1e-14);
 }
 
 TEST(ShellLoads, FollowersTangentsAndOrders) {
   Loaded l;
   const auto elements = l.grid.elements();
-  l.model.terms.push_back(followerPressure(elements, {1, 3, 4, 5}, topSurface, {0.001, 0.004}, l.lambdaNode));
+  l.model.terms.push_back(followerPressure(elements, {1, 3, 4, 5}, topSurface, {0.001, 0.004}));
   FollowerEdgeLoad load;
   load.outward.rate = 0.002;
   load.director.constant = 0.001;
   load.along.rate = -0.001;
   load.moment = {1e-4, 2e-4};
-  l.model.terms.push_back(followerEdgeLoad(elements, l.grid.side(1), load, l.lambdaNode));
+  l.model.terms.push_back(followerEdgeLoad(elements, l.grid.side(1), load));
   DeadEdgeMoment moment;
   moment.y = {1e-4, 1e-4};
-  l.model.terms.push_back(deadEdgeMoment(elements, {{0, 0}}, moment, l.lambdaNode));
-  const Numbers u = l.state(0.4, 17), direction = randomState(l.model.supports, 0.02, 18);
+  l.model.terms.push_back(deadEdgeMoment(elements, {{0, 0}}, moment));
+  const Numbers u = randomState(l.model.supports, 0.02, 17),
+                direction = randomState(l.model.supports, 0.02, 18);
   fem::FeProblem problem(std::move(l.model));
   EXPECT_FALSE(problem.symmetric());
   expectTangent(problem, u, direction, 0.4);
@@ -202,11 +188,10 @@ TEST(ShellLoads, FollowersTangentsAndOrders) {
 
 TEST(ShellLoads, Refused) {
   const ShellGrid grid = curved();
-  const int node = 2 * grid.numNodes();
   DeadEdgeMoment drilling;
   drilling.z.rate = 1;
   try {
-    deadEdgeMoment(grid.elements(), grid.side(3), drilling, node);
+    deadEdgeMoment(grid.elements(), grid.side(3), drilling);
     FAIL() << "not refused";
   } catch (const std::invalid_argument& error) {
     EXPECT_STREQ(
@@ -214,6 +199,6 @@ TEST(ShellLoads, Refused) {
         "the moment on edge 4 of shell element 1 has a part about the director: shells take no drilling "
         "moments");
   }
-  EXPECT_THROW(followerPressure(grid.elements(), {6}, midSurface, {}, node), std::invalid_argument);
-  EXPECT_THROW(followerEdgeLoad(grid.elements(), {{0, 4}}, {}, node), std::invalid_argument);
+  EXPECT_THROW(followerPressure(grid.elements(), {6}, midSurface, {}), std::invalid_argument);
+  EXPECT_THROW(followerEdgeLoad(grid.elements(), {{0, 4}}, {}), std::invalid_argument);
 }

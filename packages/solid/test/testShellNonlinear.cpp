@@ -63,14 +63,11 @@ struct BentStrip {
 ShellPath endMoment(int n, double thickness, int& tip) {
   const ShellGrid grid = shellGrid(n, 1, thickness, flat(12, 1));
   const double EI = 100;
-  fem::FeModel model =
-      shellModel(grid, SaintVenantKirchhoff::fromYoung(12 * EI / std::pow(thickness, 3), 0), {}, 1);
-  const int lambdaNode = 2 * grid.numNodes();
+  fem::FeModel model = shellModel(grid, SaintVenantKirchhoff::fromYoung(12 * EI / std::pow(thickness, 3), 0));
   clamp(model, grid, grid.lineI(0));
   FollowerEdgeLoad load;
   load.moment.rate = -50 * M_PI / 3;  // about -y: the tip rises
-  model.terms.push_back(followerEdgeLoad(grid.elements(), grid.side(1), load, lambdaNode));
-  prescribeLoadFactor(model.supports, lambdaNode);
+  model.terms.push_back(followerEdgeLoad(grid.elements(), grid.side(1), load));
   tip = grid.node(2 * n, 1);
   fem::FeProblem problem(std::move(model));
   path::Stops stops;

@@ -139,7 +139,7 @@ TEST(ShellPatch, HomogeneousStateOnQuadrilaterals) {
   EXPECT_LT(largest(sum(u, -1, exact)), 1e-12);
   double expected[6];
   material.observe(A.data(), nullptr, expected);
-  const auto seen = problem.term(0).observe(fem::field(*vectorOf(problem, u)));
+  const auto seen = problem.term(0).observe(fem::field(*vectorOf(problem, u)), 0);
   ASSERT_EQ(seen.values.size(), 9u * 8 * 6);
   double worst = 0;
   for (std::size_t i = 0; i < seen.values.size(); ++i)
@@ -208,24 +208,22 @@ TEST(ShellPatch, ScaledDirectors) {
   for (double& s : scale) s += 1;
   for (int e = 0; e < plain.count(); ++e)
     for (int a = 0; a < 8; ++a) scaled.directorScale.push_back(scale[plain.nodes[16 * e + a]]);
-  const int node = 2 * grid.numNodes();
+  const int nodes = 2 * grid.numNodes();
   const auto problemOf = [&](const ShellElements& elements) {
     fem::FeModel model;
-    model.numNodes = node + 1;
+    model.numNodes = nodes;
     model.terms.push_back(
         std::make_unique<Shell>(ShellLaw<SaintVenantKirchhoff>{material}, shellPoints(elements)));
-    model.terms.push_back(followerPressure(elements, {0, 2, 5}, topSurface, {0.01, 0}, node));
+    model.terms.push_back(followerPressure(elements, {0, 2, 5}, topSurface, {0.01, 0}));
     FollowerEdgeLoad load;
     load.moment.constant = 0.01;
-    model.terms.push_back(followerEdgeLoad(elements, {{2, 1}, {5, 1}}, load, node));
-    model.supports = fem::Supports(node + 1);
-    prescribeLoadFactor(model.supports, node);
-    model.load.assign(3 * (node + 1), 0.0);
+    model.terms.push_back(followerEdgeLoad(elements, {{2, 1}, {5, 1}}, load));
+    model.supports = fem::Supports(nodes);
+    model.load.assign(3 * nodes, 0.0);
     addShellAreaForce(elements, bottomSurface, {0.1, 0.2, 0.3}, model.load);
     return std::make_unique<fem::FeProblem>(std::move(model));
   };
-  Numbers u = randomNumbers(3 * (node + 1), 0.01, 4), v = u;
-  for (int n = 0; n < 3; ++n) u[3 * node + n] = v[3 * node + n] = 0;
+  Numbers u = randomNumbers(3 * nodes, 0.01, 4), v = u;
   for (int n = 0; n < grid.numNodes(); ++n)
     for (int i = 0; i < 3; ++i) v[3 * grid.director(n) + i] /= scale[n];
   auto first = problemOf(plain), second = problemOf(scaled);

@@ -25,7 +25,7 @@ struct Strip {
   ShellResultants resultants(const std::array<double, 3>& axis = {1, 0, 0}) {
     fem::FeProblem problem(std::move(model));
     const Numbers u = linearSolution(problem);
-    const auto stress = problem.term(0).observe(fem::field(*vectorOf(problem, u)));
+    const auto stress = problem.term(0).observe(fem::field(*vectorOf(problem, u)), 0);
     return shellResultants(grid.elements(), stress, u, {{}, axis});
   }
 };
@@ -72,7 +72,7 @@ TEST(ShellResults, CylindricalBending) {
     u[3 * n + 2] = -k * grid.x[n][0] * grid.x[n][0] / 2;
     u[3 * grid.director(n)] = thickness / 2 * k * grid.x[n][0];
   }
-  const auto stress = problem.term(0).observe(fem::field(*vectorOf(problem, u)));
+  const auto stress = problem.term(0).observe(fem::field(*vectorOf(problem, u)), 0);
   const ShellResultants r = shellResultants(grid.elements(), stress, u);
   const auto top = surfaceStress(stress, {}, 1), middle = surfaceStress(stress, {}, 0),
              bottom = surfaceStress(stress, {}, -1);

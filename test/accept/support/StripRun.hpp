@@ -1,46 +1,19 @@
 #pragma once
 
-#include <filesystem>
-#include <memory>
-#include <nlohmann/json.hpp>
-#include <string>
-#include <utility>
-#include <vector>
-
-#include "support/Command.hpp"
-#include "support/Folder.hpp"
-#include "support/Table.hpp"
+#include "support/ExampleRun.hpp"
 
 namespace atrapos::test {
 
-using Edits = std::vector<std::pair<std::string, std::string>>;
-
-/// A folder with the deck examples/strip_roll/<name>, some of its text edited, and its mesh.
-/// Throws std::runtime_error where the mesh cannot be made, std::logic_error where an edit does not fit.
-class StripFolder {
- public:
-  explicit StripFolder(const std::string& name, const Edits& edits = {});
-
-  const std::filesystem::path& path() const { return folder_.path(); }
-  std::filesystem::path deck() const { return folder_ / "deck.yaml"; }
-  std::filesystem::path results(const std::string& file) const { return folder_.path() / "results" / file; }
-
-  /// Arguments of a run of the deck into results().
-  static std::vector<std::string> run(const std::vector<std::string>& more = {});
-
- private:
-  TemporaryFolder folder_;
+/// ExampleFolder and ExampleRun of a deck in examples/strip_roll.
+struct StripFolder : ExampleFolder {
+  explicit StripFolder(const std::string& name, const Edits& edits = {})
+      : ExampleFolder("strip_roll/" + name, edits) {}
 };
 
-/// A run of such a deck to its end, which must be a stop of the deck: throws std::runtime_error where it is
-/// not.
-struct StripRun {
+struct StripRun : ExampleRun {
   explicit StripRun(const std::string& name, const Edits& edits = {},
-                    const std::vector<std::string>& arguments = {});
-
-  StripFolder folder;
-  std::unique_ptr<Table> path;
-  nlohmann::json summary;
+                    const std::vector<std::string>& arguments = {})
+      : ExampleRun("strip_roll/" + name, edits, arguments) {}
 };
 
 }  // namespace atrapos::test

@@ -60,7 +60,7 @@ struct Column {
   /// Force of the plane on the column, from the assembled contact term (whose forces are minus those on the
   /// body).
   double assembledForce(const path::Vector& u) const {
-    return -resultant(problem->forces(problem->term(1), u))[2];
+    return -resultant(problem->forces(problem->term(1), u, 0))[2];
   }
 };
 

@@ -86,4 +86,27 @@ struct Swirl {
   KOKKOS_INLINE_FUNCTION void observe(const double*, const double*, double*) const {}
 };
 
+/// A pull towards the place (lambda, 0, 0) whose strength grows with the load factor: (c + lambda^2) (x -
+/// lambda e_1).
+struct MovingPull {
+  static constexpr int numInputs = 4, numOutputs = 3, numData = 0;
+  static constexpr bool symmetric = true;
+
+  double c = 0.3;
+
+  template <class T>
+  KOKKOS_INLINE_FUNCTION void operator()(const T* in, const taylor::Passive<T>*, T* f) const {
+    const T strength = c + in[3] * in[3];
+    f[0] = strength * (in[0] - in[3]);
+    f[1] = strength * in[1];
+    f[2] = strength * in[2];
+  }
+
+  static constexpr int numObserved = 1;
+  static std::vector<std::string> observedNames() { return {"strength"}; }
+  KOKKOS_INLINE_FUNCTION void observe(const double* in, const double*, double* observed) const {
+    observed[0] = c + in[3] * in[3];
+  }
+};
+
 }  // namespace atrapos::fem::test

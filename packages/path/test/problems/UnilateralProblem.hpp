@@ -52,6 +52,14 @@ class UnilateralProblem : public JetProblem<WithStops<Body>> {
     const auto e = this->law_.events(this->seriesJets());
     for (std::size_t i = 0; i < e.size(); ++i) g[i] = e[i][k];
   }
+  std::vector<int> eventsAt(const Vector& u, double) const override {
+    Jet::terms = 1;
+    const auto g = this->law_.events(this->jets(u));
+    std::vector<int> zero;
+    for (std::size_t i = 0; i < g.size(); ++i)
+      if (!this->law_.touched[i] && g[i][0] < 1e-12) zero.push_back(static_cast<int>(i));
+    return zero;
+  }
   void applyEvent(const std::vector<int>& indices, const Vector&, double) override {
     for (const int i : indices) this->law_.touched[i] = !this->law_.touched[i];
     ++changes;

@@ -165,6 +165,7 @@ class EnhancedTerm final : public Term {
   int nodesPerEntity() const override { return a_.N; }
   const std::vector<int>& nodes() const override { return entityNodes_; }
   bool symmetric() const override { return Law::symmetric; }
+  bool seesLoadFactor() const override { return false; }
   std::size_t historyBytes(int maxOrder) const override {
     return a_.historyDoubles(batches_.count, maxOrder) * sizeof(double);
   }
@@ -173,7 +174,7 @@ class EnhancedTerm final : public Term {
     a_.setPositions(positions, batches_.count);
   }
 
-  double addResidual(const ConstField& u, const Field& f) const override {
+  double addResidual(const ConstField& u, double, const Field& f) const override {
     const Arrays a = a_;
     const View<double*> squares("squares", batches_.count);
     forEachBatch(
@@ -191,7 +192,7 @@ class EnhancedTerm final : public Term {
     return sumOf(squares);
   }
 
-  void addTangent(const ConstField& u, const TangentSink& sink) const override {
+  void addTangent(const ConstField& u, double, const TangentSink& sink) const override {
     const Arrays a = a_;
     forEachBatch(
         "tangent", batches_, a.order, KOKKOS_LAMBDA(int b) {
@@ -231,7 +232,7 @@ class EnhancedTerm final : public Term {
         });
   }
 
-  void beginSeries(const ConstField& u, int maxOrder) override {
+  void beginSeries(const ConstField& u, double, int maxOrder) override {
     a_.reserveHistory(batches_.count, maxOrder);
     const Arrays a = a_;
     const View<LawFailure*> failures("failures", batches_.count);
@@ -255,7 +256,7 @@ class EnhancedTerm final : public Term {
   }
 
   // f_k - K_ub K_bb^-1 g_k, after the histories of order k - 1 became those of the true (U, beta).
-  void addOrder(int k, const ConstField& last, const Field& f) override {
+  void addOrder(int k, const ConstField& last, double, const Field& f) override {
     Arrays a = a_;
     a.block = taylor::orderBlock(k, a.maxOrder);
     forEachBatch(
@@ -290,7 +291,7 @@ class EnhancedTerm final : public Term {
         });
   }
 
-  PointValues observe(const ConstField& u) const override {
+  PointValues observe(const ConstField& u, double) const override {
     PointValues result;
     result.names = Law::observedNames();
     constexpr int V = Law::numObserved;

@@ -7,6 +7,11 @@
 #include "atrapos/fem/Term.hpp"
 #include "atrapos/path/Problem.hpp"
 
+namespace Teuchos {
+template <class Ordinal>
+class Comm;
+}
+
 namespace atrapos::fem {
 
 /// What a finite-element problem is made of.
@@ -16,9 +21,11 @@ struct FeModel {
   Supports supports{0};
   std::vector<double> constantLoad;  ///< F_0, [3 node + component], dead
   std::vector<double> load;          ///< F_1: the dead load at load factor 1
+  /// Communicator of the problem's maps, of one rank; null: Tpetra's default, all ranks of the program.
+  linear::RCP<const Teuchos::Comm<int>> comm;
 };
 
-/// R(u, lambda) = sum of the terms - F_0 - lambda F_1 with Dirichlet conditions, as a path::Problem.
+/// R(u, lambda) = sum of the terms F(u, lambda) - F_0 - lambda F_1 with Dirichlet conditions, as a path::Problem.
 ///
 /// The unknowns are all nodal displacements, 3 a node. The row of a prescribed dof reads s (u - value -
 /// lambda rate) = 0 with s the size of the tangent's diagonal, and its column is carried to the load
@@ -32,7 +39,8 @@ struct FeModel {
 /// vanish at a stressed state, and in a thin body the rounding of the displacements alone then exceeds any
 /// fraction of them.)
 ///
-/// One rank only: a communicator of more throws std::invalid_argument.
+/// One rank only: a communicator of more throws std::invalid_argument. A program of several ranks may have one
+/// problem on each, with Teuchos::MpiComm<int>(MPI_COMM_SELF) as FeModel::comm.
 class FeProblem final : public path::Problem {
  public:
   explicit FeProblem(FeModel model);
@@ -52,8 +60,8 @@ class FeProblem final : public path::Problem {
   /// Forces that the supports exert on the body at (u, lambda), zero at free dofs: [3 node + component].
   std::vector<double> reactions(const path::Vector& u, double lambda) const;
 
-  /// Nodal forces F(u) of one term.
-  std::vector<double> forces(const Term& term, const path::Vector& u) const;
+  /// Nodal forces F(u, lambda) of one term.
+  std::vector<double> forces(const Term& term, const path::Vector& u, double lambda) const;
 
   /// A vector of the map as plain numbers [3 node + component].
   static std::vector<double> values(const path::Vector& u);

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "atrapos/fem/Mesh.hpp"
+#include "atrapos/fem/PointSet.hpp"
 
 namespace atrapos::fem {
 
@@ -17,6 +18,19 @@ void addNodalLoad(const std::vector<int>& nodes, const std::array<double, 3>& pe
 /// A traction per reference area over a side set.
 void addTraction(const Mesh& mesh, const SideSet& set, const std::array<double, 3>& traction,
                  std::vector<double>& force);
+
+/// Cubature degree of the loads on faces: exact for quadratic shape functions on plane faces with straight
+/// edges.
+constexpr int loadDegree = 4;
+
+/// The same over faces given by their points (facePoints, shellFacePoints), and a pressure against their
+/// normals.
+void addTraction(const std::vector<PointSet>& faces, const std::array<double, 3>& traction,
+                 std::vector<double>& force);
+void addPressure(const std::vector<PointSet>& faces, double pressure, std::vector<double>& force);
+
+/// Area of faces.
+double areaOf(const std::vector<PointSet>& faces);
 
 /// A total force spread evenly over the reference area of a side set.
 void addSurfaceForce(const Mesh& mesh, const SideSet& set, const std::array<double, 3>& total,

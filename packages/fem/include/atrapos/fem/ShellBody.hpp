@@ -19,6 +19,10 @@ struct ShellBody {
   /// Displacements of the body's nodes, [3 node + component], from those of the shells' nodes and directors:
   /// v on the middle surface, v -+ w at bottom and top.
   std::vector<double> displacements(const ShellGeometry& shells, const std::vector<double>& u) const;
+
+  /// Nodal forces on the body with the same work as those on v and w: f_v on the middle surface, -+ f_w/2 at
+  /// bottom and top.
+  std::vector<double> forces(const ShellGeometry& shells, const std::vector<double>& f) const;
 };
 
 /// Throws std::invalid_argument where the geometry is not that of the mesh.

@@ -36,6 +36,9 @@ struct ShellPlateOptions {
   double width = 1.0;   ///< of the other two
   double angle = 90.0;  ///< degrees, in (0, 180): 90 a strip or plate, 30 Morley's skew plate
   std::array<double, 3> origin{0.0, 0.0, 0.0};  ///< corner where x_min and y_min meet
+  /// p >= 1: distances from the nearer edge grow like the power p of the number of elements; 1: equal
+  /// elements.
+  double grading = 1.0;
   double thickness = 0.0;
   std::array<int, 2> divisions{1, 1};  ///< along length, width
   Topology topology = Topology::Shell8;

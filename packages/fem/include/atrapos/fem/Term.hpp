@@ -19,6 +19,7 @@ using ConstField = View<const double*>;
 struct TangentSink {
   View<const std::size_t*> rowStart;  ///< [dof] first entry of the row
   View<double*> values;               ///< [entry]
+  Field loadDirection;                ///< [dof] F = -dR/dlambda
 };
 
 /// Named values that a law shows at its points (stresses, gaps, ...): [entity][point][name].
@@ -27,8 +28,8 @@ struct PointValues {
   std::vector<double> values;
 };
 
-/// One contribution F(u) to the residual: a law acting at the points of a set of entities, sum over points of
-/// B^T law(B u). Virtual once per loop, never inside it. Fields have 3 entries a node of the mesh.
+/// One contribution F(u, lambda) to the residual: a law acting at the points of a set of entities, sum over points of
+/// B^T law(B u, lambda). Virtual once per loop, never inside it. Fields have 3 entries a node of the mesh.
 class Term {
  public:
   virtual ~Term() = default;
@@ -37,27 +38,29 @@ class Term {
   virtual int nodesPerEntity() const = 0;
   virtual const std::vector<int>& nodes() const = 0;  ///< [entity][node]
   virtual bool symmetric() const = 0;
+  virtual bool seesLoadFactor() const = 0;  ///< false: F depends on u alone
 
   /// Receives the matrix graph once: position of the block (a, b) of an entity within its row,
   /// [entity][a][b], in units of entries.
   virtual void setPositions(const std::vector<int>& positions) = 0;
 
-  /// f += F(u). Returns the sum of squares of the entities' own nodal forces, before they are summed at
+  /// f += F(u, lambda). Returns the sum of squares of the entities' own nodal forces, before they are summed at
   /// nodes: what equilibrium is the cancellation of.
-  virtual double addResidual(const ConstField& u, const Field& f) const = 0;
+  virtual double addResidual(const ConstField& u, double lambda, const Field& f) const = 0;
 
-  /// K += dF/du.
-  virtual void addTangent(const ConstField& u, const TangentSink& sink) const = 0;
+  /// K += dF/du, load direction -= dF/dlambda.
+  virtual void addTangent(const ConstField& u, double lambda, const TangentSink& sink) const = 0;
 
-  /// Order 0 of the series at u; histories for orders up to maxOrder. Throws taylor::DomainError, naming the
+  /// Order 0 of the series at (u, lambda); histories for orders up to maxOrder. Throws taylor::DomainError, naming the
   /// point, where the law has no series.
-  virtual void beginSeries(const ConstField& u, int maxOrder) = 0;
+  virtual void beginSeries(const ConstField& u, double lambda, int maxOrder) = 0;
 
-  /// Makes U_{k-1} = `last` known (k > 1; unused for k = 1), then f += order k of F(u(a)) with U_k = 0.
-  virtual void addOrder(int k, const ConstField& last, const Field& f) = 0;
+  /// Makes order k - 1, (`last`, `lastLambda`), known (k > 1; unused for k = 1), then f += order k of
+  /// F(u(a), lambda(a)) with U_k = 0 and lambda_k = 0.
+  virtual void addOrder(int k, const ConstField& last, double lastLambda, const Field& f) = 0;
 
-  /// The law's named values at every point in the state u.
-  virtual PointValues observe(const ConstField& u) const = 0;
+  /// The law's named values at every point in the state (u, lambda).
+  virtual PointValues observe(const ConstField& u, double lambda) const = 0;
 
   /// Bytes of the histories of a series of order maxOrder.
   virtual std::size_t historyBytes(int maxOrder) const = 0;

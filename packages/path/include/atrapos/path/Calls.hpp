@@ -37,6 +37,7 @@ class Calls {
   /// Coefficient k of the Problem's event functions.
   std::vector<double> eventOrder(int k);
   void applyEvent(const std::vector<int>& indices, const State& state);
+  std::vector<int> eventsAt(const State& start);
 
   /// Of the last factorization, without the pivots owed to constraints.
   std::optional<linear::Inertia> inertia() const;

@@ -75,6 +75,10 @@ class Problem {
   /// completeOrder(k). g has eventCount() entries and is overwritten.
   virtual void eventOrder(int /*k*/, std::vector<double>& /*g*/) const {}
 
+  /// The event functions that are zero at a state from which a path starts, to the rounding of the state: they
+  /// may have to be applied at once. Throws where one is below zero.
+  virtual std::vector<int> eventsAt(const Vector& /*u*/, double /*lambda*/) const { return {}; }
+
   /// These event functions have fallen to zero at (u, lambda): the Problem changes (a gap closes and becomes
   /// a constraint, a force vanishes and sets a point free). (u, lambda) solves the changed Problem too, the
   /// map and the graph stay, and the functions of these indices are others that start at zero. Called again

@@ -65,6 +65,7 @@ struct Start {
   std::optional<double> weight;        ///< w of the path; empty: by Options::weight
   double length = 0;                   ///< of the step that led here; 0: none
   std::vector<int> events;             ///< applied at this state: their functions are zero here
+  std::vector<int> due;                ///< not applied yet at this state, and their functions are zero here
   int order = 0;                       ///< of the series to come; 0: Options::order
   int padeFailures = 0, padeWait = 0;  ///< when the rational form is tried again
 };

@@ -25,6 +25,10 @@ struct ShellEdge {
 void addShellAreaForce(const ShellElements& elements, double zeta, const std::array<double, 3>& perArea,
                        std::vector<double>& force);
 
+/// A force per undeformed volume, over all elements.
+void addShellBodyForce(const ShellElements& elements, const std::array<double, 3>& perVolume,
+                       std::vector<double>& force);
+
 /// A pressure against the undeformed normal of a surface: -pressure n per undeformed area.
 void addShellPressure(const ShellElements& elements, double zeta, double pressure,
                       std::vector<double>& force);
@@ -36,24 +40,20 @@ void addShellEdgeForce(const ShellElements& elements, const std::vector<ShellEdg
 /// Undeformed length of edges of the mid-surface.
 double lengthOf(const ShellElements& elements, const std::vector<ShellEdge>& edges);
 
-// ---- followers: they need the load factor among their inputs. It enters as the first displacement of one
-// node more than the model would have otherwise, driven to lambda by its support.
-
-/// Drives a node's displacement to (lambda, 0, 0).
-void prescribeLoadFactor(fem::Supports& supports, int loadFactorNode);
+// ---- followers: terms that see the load factor
 
 /// A pressure on the deformed surface of some elements.
 std::unique_ptr<fem::Term> followerPressure(const ShellElements& elements, const std::vector<int>& loaded,
-                                            double zeta, LoadAmount pressure, int loadFactorNode);
+                                            double zeta, LoadAmount pressure);
 
 /// Forces and a moment that turn with the edges.
 std::unique_ptr<fem::Term> followerEdgeLoad(const ShellElements& elements,
-                                            const std::vector<ShellEdge>& edges, const FollowerEdgeLoad& load,
-                                            int loadFactorNode);
+                                            const std::vector<ShellEdge>& edges,
+                                            const FollowerEdgeLoad& load);
 
 /// A moment vector that keeps its direction. Throws std::invalid_argument naming the element where the
 /// moment has a part about the undeformed director: shells take no drilling moments.
 std::unique_ptr<fem::Term> deadEdgeMoment(const ShellElements& elements, const std::vector<ShellEdge>& edges,
-                                          const DeadEdgeMoment& load, int loadFactorNode);
+                                          const DeadEdgeMoment& load);
 
 }  // namespace atrapos::solid

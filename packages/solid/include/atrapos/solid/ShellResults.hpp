@@ -23,6 +23,10 @@ struct ShellResultOptions {
 /// zeta from those at the cubature points (what the term's observe gives).
 std::vector<double> surfaceStress(const fem::PointValues& stress, const ShellCubature& cubature, double zeta);
 
+/// Values at an element's in-plane cubature points taken to its nodes: [8 nodes][in-plane points], the
+/// polynomial through the points (bilinear with 2 x 2).
+std::vector<double> shellPointsToNodes(const ShellCubature& cubature);
+
 /// Stress resultants per deformed length at the in-plane points:
 ///     n_ab = int s_ab mu dz,   m_ab = int z s_ab mu dz,   q_a = int s_a3 mu dz,
 /// s the Cauchy stress in the local axes, z the distance from the mid-surface, mu dz dA the volume. Moments

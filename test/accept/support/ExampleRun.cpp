@@ -1,4 +1,4 @@
-#include "support/StripRun.hpp"
+#include "support/ExampleRun.hpp"
 
 #include <stdexcept>
 
@@ -11,24 +11,24 @@ void mustEndWell(const CommandResult& r) {
 
 }  // namespace
 
-StripFolder::StripFolder(const std::string& name, const Edits& edits) {
-  std::string text = readFile(std::filesystem::path(ATRAPOS_EXAMPLES) / "strip_roll" / name);
+ExampleFolder::ExampleFolder(const std::string& name, const Edits& edits) {
+  std::string text = readFile(std::filesystem::path(ATRAPOS_EXAMPLES) / name);
   for (const auto& [from, to] : edits) text = edited(text, from, to);
   writeFile(deck(), text);
   mustEndWell(runAtrapos({"mesh", "-q", "deck.yaml"}, path()));
 }
 
-std::vector<std::string> StripFolder::run(const std::vector<std::string>& more) {
+std::vector<std::string> ExampleFolder::run(const std::vector<std::string>& more) {
   std::vector<std::string> arguments{"run", "-q", "deck.yaml", "-o", "results"};
   arguments.insert(arguments.end(), more.begin(), more.end());
   return arguments;
 }
 
-StripRun::StripRun(const std::string& name, const Edits& edits, const std::vector<std::string>& arguments)
+ExampleRun::ExampleRun(const std::string& name, const Edits& edits, const std::vector<std::string>& arguments)
     : folder(name, edits) {
   // Under sanitizers or without optimisation a run takes twenty times as long as in the release build.
   constexpr double limit = 1200;
-  mustEndWell(runAtrapos(StripFolder::run(arguments), folder.path(), limit));
+  mustEndWell(runAtrapos(ExampleFolder::run(arguments), folder.path(), limit));
   path = std::make_unique<Table>(folder.results("path.csv"));
   summary = nlohmann::json::parse(readFile(folder.results("summary.json")));
 }
