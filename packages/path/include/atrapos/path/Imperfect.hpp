@@ -35,6 +35,9 @@ class ImperfectProblem : public Problem {
   void applyEvent(const std::vector<int>& indices, const Vector& u, double lambda) override {
     perfect_.applyEvent(indices, u, lambda);
   }
+  std::vector<int> eventsAt(const Vector& u, double lambda) const override {
+    return perfect_.eventsAt(u, lambda);
+  }
   int constraintPivots() const override { return perfect_.constraintPivots(); }
   double inner(const Increment& x, const Increment& y) const override { return perfect_.inner(x, y); }
 
