@@ -11,6 +11,7 @@
 #include <string>
 
 #include "CoupledSystem.hpp"
+#include "EventTerms.hpp"
 
 namespace atrapos::fem {
 
@@ -99,6 +100,7 @@ ConstField field(const Vector& u) {
 
 struct FeProblem::Impl {
   FeModel model;
+  EventTerms events;
   RCP<const Map> map;
   RCP<CrsMatrix> K;
   View<std::size_t*> rowStart;
@@ -106,14 +108,15 @@ struct FeProblem::Impl {
   View<char*> fixed;
   detail::CoupledSystem coupled;
   Field value, rate, load, constantLoad;
-  Field sum;              // work
-  Field last;             // U of the order completed last
-  double lastLambda = 0;  // and its lambda
-  double diagonal = 0;    // s of the prescribed rows
+  Field sum;                  // work
+  Field last;                 // U of the order completed last
+  double lastLambda = 0;      // and its lambda
+  double diagonal = 0;        // s of the prescribed rows
+  double parameterInner = 1;  // factor of a parameter's square in inner()
   double scaleFloor = 0;
   int numFree = 0;
 
-  explicit Impl(FeModel m) : model(std::move(m)) {
+  explicit Impl(FeModel m) : model(std::move(m)), events(model.terms) {
     const auto comm = model.comm.is_null() ? Tpetra::getDefaultComm() : model.comm;
     if (comm->getSize() != 1)
       throw std::invalid_argument(
@@ -252,6 +255,34 @@ struct FeProblem::Impl {
     return std::max({scaleFloor, external, std::sqrt(squares)});
   }
 
+  double ofParameters(const Vector& x, const Vector& y) const {
+    if (model.parameters.empty()) return 0;
+    const auto a = x.getLocalViewHost(Tpetra::Access::ReadOnly),
+               b = y.getLocalViewHost(Tpetra::Access::ReadOnly);
+    double sum = 0;
+    for (const int d : model.parameters) sum += a(d, 0) * b(d, 0);
+    return sum;
+  }
+
+  /// The smallest diagonal entry of the tangent among the free dofs of a node; 0 where there is none.
+  std::vector<double> nodalStiffness() const {
+    const auto onHost = [](const auto& view) {
+      return Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), view);
+    };
+    const auto values = onHost(K->getLocalMatrixDevice().values);
+    const auto start = onHost(rowStart);
+    const auto column = onHost(columns);
+    const auto isFixed = onHost(fixed);
+    std::vector<double> stiffness(model.numNodes, 0.0);
+    for (int d = 0; d < 3 * model.numNodes; ++d)
+      for (std::size_t e = start(d); e < start(d + 1); ++e)
+        if (column(e) == d && !isFixed(d) && values(e) > 0) {
+          double& least = stiffness[d / 3];
+          least = least > 0 ? std::min(least, values(e)) : values(e);
+        }
+    return stiffness;
+  }
+
   /// The size of the free dofs' diagonal.
   void findDiagonal() {
     const auto values = K->getLocalMatrixDevice().values;
@@ -301,6 +332,14 @@ struct FeProblem::Impl {
 FeProblem::FeProblem(FeModel model) : impl_(std::make_unique<Impl>(std::move(model))) {
   Vector F(impl_->map);
   tangent(*initialState(0.0), 0.0, F);  // gives the prescribed rows their size
+  if (impl_->events.empty()) return;
+  auto& events = impl_->events;
+  events.setStiffness(impl_->nodalStiffness());
+  // A tool that moves drives the body through the points that it touches.
+  const auto free = events.conditions();
+  events.setConditions(std::vector<int>(free.size(), 1));
+  impl_->findScale();
+  events.setConditions(free);
 }
 FeProblem::~FeProblem() = default;
 
@@ -364,7 +403,37 @@ void FeProblem::completeOrder(int, const Vector& Uk, double lambdaK) {
   impl_->lastLambda = lambdaK;
 }
 
-int FeProblem::constraintPivots() const { return impl_->model.numMultipliers; }
+double FeProblem::inner(const path::Increment& x, const path::Increment& y) const {
+  return Problem::inner(x, y) + (impl_->parameterInner - 1) * impl_->ofParameters(*x.u, *y.u);
+}
+
+double FeProblem::weight(const path::Increment& Xhat, std::optional<double> given) {
+  const double displacements = Problem::inner(Xhat, Xhat) - impl_->ofParameters(*Xhat.u, *Xhat.u);
+  const double w = given ? *given : 1 / displacements;
+  impl_->parameterInner = impl_->model.parameterWeight / w;
+  return w;
+}
+
+int FeProblem::eventCount() const { return impl_->events.count(); }
+
+void FeProblem::eventOrder(int k, std::vector<double>& g) const {
+  impl_->events.order(k, impl_->last, impl_->lastLambda, g);
+}
+
+std::vector<int> FeProblem::eventsAt(const Vector& u, double lambda) const {
+  return impl_->events.at(field(u), lambda);
+}
+
+void FeProblem::applyEvent(const std::vector<int>& indices, const Vector&, double) {
+  impl_->events.apply(indices);
+}
+
+int FeProblem::constraintPivots() const {
+  return impl_->model.numMultipliers + impl_->events.constraintPivots() +
+         static_cast<int>(impl_->model.parameters.size());
+}
+std::vector<int> FeProblem::conditions() const { return impl_->events.conditions(); }
+void FeProblem::setConditions(const std::vector<int>& conditions) { impl_->events.setConditions(conditions); }
 
 RCP<Vector> FeProblem::initialState(double lambda) const {
   auto u = rcp(new Vector(impl_->map));

@@ -16,6 +16,12 @@ namespace atrapos::fem {
 Supports::Supports(int numNodes)
     : fixed_(3 * numNodes, 0), value_(3 * numNodes, 0.0), rate_(3 * numNodes, 0.0) {}
 
+void Supports::addNodes(int count) {
+  fixed_.resize(fixed_.size() + 3 * count, 0);
+  value_.resize(fixed_.size(), 0.0);
+  rate_.resize(fixed_.size(), 0.0);
+}
+
 void Supports::prescribe(int node, int component, double value, double perLoadFactor) {
   const int dof = 3 * node + component;
   if (fixed_[dof] && (value_[dof] != value || rate_[dof] != perLoadFactor))

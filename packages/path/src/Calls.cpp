@@ -90,6 +90,10 @@ void Calls::completeOrder(int k, const Vector& Uk, double lambdaK) {
   problemCall([&] { problem_.completeOrder(k, Uk, lambdaK); });
 }
 
+double Calls::weight(const Increment& Xhat, std::optional<double> given) {
+  return problemCall([&] { return problem_.weight(Xhat, given); });
+}
+
 std::vector<double> Calls::eventOrder(int k) {
   Stopwatch watch(work_.seconds.orderRhs);
   std::vector<double> g(problem_.eventCount(), 0.0);

@@ -6,4 +6,8 @@ namespace atrapos::path {
 
 double Problem::inner(const Increment& x, const Increment& y) const { return linear::dot(*x.u, *y.u); }
 
+double Problem::weight(const Increment& Xhat, std::optional<double> given) {
+  return given ? *given : 1 / inner(Xhat, Xhat);
+}
+
 }  // namespace atrapos::path

@@ -84,6 +84,7 @@ class Run {
   std::vector<Mode> modesHere(const PathTangent& along, double weight);
 
   // RunEvents.cpp: where the Problem changes.
+  std::vector<double> falls(const Series& series, double end) const;
   void limit(const Series& series, Trial& trial) const;
   std::vector<int> falling(const Series& series, const std::vector<int>& candidates, double sense) const;
   std::vector<int> overdue(const Series& series) const;

@@ -47,14 +47,9 @@ std::vector<int> difference(const std::vector<int>& a, const std::vector<int>& b
 
 }  // namespace
 
-/// Shortens the trial to the first stop or event; those just behind its end are taken now, not by a tiny next
-/// step.
-void Run::limit(const Series& series, Trial& trial) const {
-  const double end = 1.001 * trial.a;
-  trial.events.clear();
-  trial.stop = firstStop(stops_, series, outcome_.pathLength, end, !tangent_);
-  constexpr double never = std::numeric_limits<double>::infinity();
-  std::vector<double> at(series.eventCount(), never);  // where each falls through zero first
+/// Where each event function falls through zero first on (0, end]; infinity where it does not.
+std::vector<double> Run::falls(const Series& series, double end) const {
+  std::vector<double> at(series.eventCount(), std::numeric_limits<double>::infinity());
   for (int i = 0; i < series.eventCount(); ++i) {
     const Polynomial p = known(series, i, applied_);
     Rational g = series.scalar(p.coefficients());
@@ -66,18 +61,38 @@ void Run::limit(const Series& series, Trial& trial) const {
         break;
       }
   }
-  const double first = at.empty() ? never : *std::min_element(at.begin(), at.end());
-  if (trial.stop && trial.stop->a < first) {
-    trial.a = trial.stop->a;
-  } else if (first <= end) {
-    trial.stop.reset();
-    trial.a = first;
-    // Together by symmetry, though not to the last digit.
-    constexpr double together = 1e-6;
-    for (int i = 0; i < series.eventCount(); ++i)
-      if (at[i] <= (1 + together) * first) trial.events.push_back(i);
-    std::sort(trial.events.begin(), trial.events.end(), [&](int i, int j) { return at[i] < at[j]; });
+  return at;
+}
+
+/// Shortens the trial to the first stop or event; those just behind its end are taken now, not by a tiny next
+/// step.
+void Run::limit(const Series& series, Trial& trial) const {
+  trial.events.clear();
+  trial.stop = firstStop(stops_, series, outcome_.pathLength, 1.001 * trial.a, !tangent_);
+  if (trial.stop) trial.a = trial.stop->a;
+  if (series.eventCount() == 0) return;
+  // Far beyond the radius (a series that all but terminates) the high orders are rounding and hide the roots:
+  // what is found last lies within what was searched last.
+  double first = trial.a;
+  std::vector<double> at;
+  for (double end = 1.001 * trial.a;; end = 1.001 * first) {
+    at = falls(series, end);
+    const double next = *std::min_element(at.begin(), at.end());
+    if (!(next < 0.9 * first)) {
+      first = next;
+      break;
+    }
+    first = next;
   }
+  const double end = trial.stop ? trial.a : 1.001 * trial.a;
+  if (!(first <= end)) return;
+  trial.stop.reset();
+  trial.a = first;
+  // Together by symmetry, though not to the last digit.
+  constexpr double together = 1e-6;
+  for (int i = 0; i < series.eventCount(); ++i)
+    if (at[i] <= (1 + together) * first) trial.events.push_back(i);
+  std::sort(trial.events.begin(), trial.events.end(), [&](int i, int j) { return at[i] < at[j]; });
 }
 
 /// The candidates that fall along the series in this sense, ascending.
@@ -111,9 +126,10 @@ Series Run::seriesOfChoice() {
 }
 
 /// The Problem changes at the state. Of the functions that are zero there (`due_`) all are applied; where the
-/// path then has no admissible sense, other choices are tried. Admissible is the sense in which every function
-/// that is zero here rises; it is not asked that the old direction is kept: where lambda then goes the other
-/// way the path has a non-smooth limit point. A path that starts here keeps the direction that is asked of it.
+/// path then has no admissible sense, other choices are tried. Admissible is the sense in which every
+/// function that is zero here rises; it is not asked that the old direction is kept: where lambda then goes
+/// the other way the path has a non-smooth limit point. A path that starts here keeps the direction that is
+/// asked of it.
 Series Run::seriesAfterEvents(StepReport& report) {
   std::vector<int> due;
   std::swap(due, due_);

@@ -136,8 +136,7 @@ Run::Trial Run::polynomialTrial(const Series& series, StepReport& report) {
     ++report.cutBacks;
     previous = trial.residual;
     trial.a = rounded(factor * trial.a);
-    trial.stop.reset();
-    trial.events.clear();
+    limit(series, trial);
   }
 }
 

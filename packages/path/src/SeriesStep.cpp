@@ -43,6 +43,7 @@ Series buildSeries(Calls& calls, const State& start, const SeriesRequest& reques
   auto Fk = calls.newVector();
   calls.orderRhs(1, *Fk);  // zero at a solution; called for what it leaves behind for the later orders
   const Increment Xhat = calls.internalOrder(1, Uhat, 1);
+  const double w = calls.weight(Xhat, request.weight);
   const double hat2 = problem.inner(Xhat, Xhat);
   if (!std::isfinite(hat2)) notFinite("the tangent direction", 1, start);
   if (!(hat2 > 0)) {
@@ -51,7 +52,6 @@ Series buildSeries(Calls& calls, const State& start, const SeriesRequest& reques
     throw PathError(EndReason::loadWithoutEffect, text.str());
   }
 
-  const double w = request.weight.value_or(1 / hat2);
   double lambda1 = request.direction / std::sqrt(1 + w * hat2);
   if (std::abs(lambda1) < nearlySingular) {
     std::ostringstream text;

@@ -48,9 +48,9 @@ inline fem::PointSet contactPoints(const fem::Mesh& mesh, const std::string& set
 }
 
 /// Adds contact of these points; the reference gap is each point's own, but at least `least`.
-template <class Tool>
-void addContact(fem::FeModel& model, const fem::PointSet& points, const Tool& tool,
-                const RegularisedPressure& pressure, double least) {
+template <class Tool, class Pressure = RegularisedPressure>
+void addContact(fem::FeModel& model, const fem::PointSet& points, const Tool& tool, const Pressure& pressure,
+                double least) {
   std::vector<double> gaps;
   for (int p = 0; p < points.numPoints(); ++p) {
     double y[Tool::numUnknowns];
@@ -58,7 +58,7 @@ void addContact(fem::FeModel& model, const fem::PointSet& points, const Tool& to
       throw std::logic_error("addContact: no projection");
     gaps.push_back(std::max(y[0], least));
   }
-  using Law = ContactLaw<Tool>;
+  using Law = ContactLaw<Tool, Pressure>;
   model.terms.push_back(
       std::make_unique<fem::LawTerm<Law, fem::CurrentPosition>>(Law{tool, pressure}, points, gaps));
 }

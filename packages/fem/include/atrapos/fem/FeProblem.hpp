@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "atrapos/fem/Coupling.hpp"
@@ -27,6 +28,12 @@ struct FeModel {
   std::vector<double> load;          ///< F_1: the dead load at load factor 1
   /// Communicator of the problem's maps, of one rank; null: Tpetra's default, all ranks of the program.
   linear::RCP<const Teuchos::Comm<int>> comm;
+  /// Dofs that are parameters t of local laws (places on contact curves), not displacements; each owes a
+  /// negative pivot.
+  std::vector<int> parameters;
+  /// w_t: the square of the change of the load factor that counts in the path parameter as much as a change
+  /// of one t by 1.
+  double parameterWeight = 1;
 };
 
 /// R(u, lambda) = sum of the terms F(u, lambda) - F_0 - lambda F_1 with Dirichlet conditions, as a
@@ -60,7 +67,23 @@ class FeProblem final : public path::Problem {
   void beginSeries(const path::Vector& u, double lambda, int maxOrder) override;
   void orderRhs(int k, path::Vector& Fk) override;
   void completeOrder(int k, const path::Vector& Uk, double lambdaK) override;
+
+  /// Displacements, and parameters of laws with their own weight: w <x, y> = w x_u . y_u + w_t x_t . y_t.
+  double inner(const path::Increment& x, const path::Increment& y) const override;
+  /// Chosen from the displacements alone.
+  double weight(const path::Increment& Xhat, std::optional<double> given) override;
+
+  /// Event functions: those of the terms that change at events, one a contact point.
+  int eventCount() const override;
+  void eventOrder(int k, std::vector<double>& g) const override;
+  std::vector<int> eventsAt(const path::Vector& u, double lambda) const override;
+  void applyEvent(const std::vector<int>& indices, const path::Vector& u, double lambda) override;
   int constraintPivots() const override;
+
+  /// Condition of every event function, 0 (free) or 1 (active): what a path that was interrupted must be
+  /// given beside its state. Throws std::invalid_argument where the number is not eventCount().
+  std::vector<int> conditions() const;
+  void setConditions(const std::vector<int>& conditions);
 
   /// The state at load factor lambda before any load acts: prescribed displacements, zero elsewhere.
   linear::RCP<path::Vector> initialState(double lambda) const;

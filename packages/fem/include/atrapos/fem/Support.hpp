@@ -14,6 +14,9 @@ class Supports {
  public:
   explicit Supports(int numNodes);
 
+  /// More nodes behind those there are, free.
+  void addNodes(int count);
+
   /// Prescribes one component (0, 1, 2) at a node. Throws std::invalid_argument where the same dof was
   /// prescribed before with other numbers.
   void prescribe(int node, int component, double value, double perLoadFactor);

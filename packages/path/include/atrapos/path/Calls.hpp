@@ -34,6 +34,8 @@ class Calls {
   Increment internalOrder(int k, RCP<Vector> v, double mu);
   void completeOrder(int k, const Vector& Uk, double lambdaK);
 
+  double weight(const Increment& Xhat, std::optional<double> given);
+
   /// Coefficient k of the Problem's event functions.
   std::vector<double> eventOrder(int k);
   void applyEvent(const std::vector<int>& indices, const State& state);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "atrapos/linear/Types.hpp"
@@ -75,8 +76,8 @@ class Problem {
   /// completeOrder(k). g has eventCount() entries and is overwritten.
   virtual void eventOrder(int /*k*/, std::vector<double>& /*g*/) const {}
 
-  /// The event functions that are zero at a state from which a path starts, to the rounding of the state: they
-  /// may have to be applied at once. Throws where one is below zero.
+  /// The event functions that are zero at a state from which a path starts, to the rounding of the state:
+  /// they may have to be applied at once. Throws where one is below zero.
   virtual std::vector<int> eventsAt(const Vector& /*u*/, double /*lambda*/) const { return {}; }
 
   /// These event functions have fallen to zero at (u, lambda): the Problem changes (a gap closes and becomes
@@ -93,6 +94,11 @@ class Problem {
   /// a = w <X - X0, X_1> + (lambda - lambda0) lambda_1 with X = (unknowns, internal variables).
   /// Default: the Euclidean product of the unknowns.
   virtual double inner(const Increment& x, const Increment& y) const;
+
+  /// w of the path parameter for the step under way: `given` by the path (Options::weight, or that of its
+  /// earlier steps), or chosen from the response Xhat to the load at its first step. Called before inner()
+  /// is; what inner() takes from it must depend on the result alone. Default: 1 / <Xhat, Xhat>.
+  virtual double weight(const Increment& Xhat, std::optional<double> given);
 };
 
 }  // namespace atrapos::path

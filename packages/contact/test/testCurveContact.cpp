@@ -1,0 +1,136 @@
+// Law (15) with the place on its curve as unknown: the same solutions as with R condensed at the point.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "atrapos/contact/CurveContact.hpp"
+#include "atrapos/contact/MovingTool.hpp"
+#include "atrapos/fem/Loads.hpp"
+#include "support/ContactModel.hpp"
+
+using namespace atrapos;
+using namespace atrapos::contact;
+using namespace atrapos::contact::test;
+
+namespace {
+
+/// One HEX8 of unit cross-section held at its top, its lower face at z = 1 over a plane, pulled down by
+/// lambda.
+fem::FeModel column(const fem::Mesh& mesh) {
+  fem::FeModel model = solidModel(mesh, 4, 0);
+  for (int n : fem::test::nodesOfSet(mesh, "x_min")) model.supports.prescribe(n, 0, 0, 0);
+  for (int n : fem::test::nodesOfSet(mesh, "y_min")) model.supports.prescribe(n, 1, 0, 0);
+  for (int n : fem::test::nodesOfSet(mesh, "z_max")) model.supports.prescribe(n, 2, 0, 0);
+  fem::addSurfaceForce(mesh, fem::test::sideSet(mesh, "z_min"), {0, 0, -1}, model.load);
+  return model;
+}
+
+struct Result {
+  double w = 0, force = 0;
+  path::Outcome outcome;
+  std::vector<long long> negative;  ///< pivots at the start of every step
+};
+
+Result followed(const fem::Mesh& mesh, fem::FeModel model, double lambda) {
+  struct Inertias final : path::Observer {
+    std::vector<long long> negative;
+    bool onStep(const path::StepReport& report, const path::Series&) override {
+      negative.push_back(report.inertia ? report.inertia->negative : -1);
+      return true;
+    }
+  } seen;
+  fem::FeProblem problem(std::move(model));
+  EXPECT_TRUE(problem.symmetric());
+  Result result;
+  result.outcome = follow(problem, {problem.initialState(0), 0.0}, lambda, seen);
+  result.negative = seen.negative;
+  const auto& u = *result.outcome.final.u;
+  result.w = -fem::FeProblem::values(u)[3 * fem::test::nodesOfSet(mesh, "z_min").at(0) + 2];
+  result.force = -resultant(problem.forces(problem.term(1), u, lambda))[2];
+  return result;
+}
+
+}  // namespace
+
+TEST(CurveContact, ColumnAsWithThePressureCondensed) {
+  const auto mesh = fem::test::box(fem::Topology::Hex8, {1, 1, 1}, {1, 1, 4}, {0, 0, 1});
+  const auto points = contactPoints(mesh, "z_min", Where::Nodes);
+  for (const RegularisedPressure law :
+       {RegularisedPressure{1e-2, 1e-2}, RegularisedPressure{1e-5, 1e-4}, RegularisedPressure{0, 1e-3}}) {
+    for (const double lambda : {0.5, 1.4, 1.5, 3.0}) {  // closes at about 1.406
+      auto condensed = column(mesh), onCurve = column(mesh);
+      addContact(condensed, points, Plane{}, law, 0);
+      addCurveContact(onCurve, points, Plane{}, law, Numbers(points.numPoints(), 1.0));
+      const Result a = followed(mesh, std::move(condensed), lambda),
+                   b = followed(mesh, std::move(onCurve), lambda);
+      // Residuals below 1e-10; the column's stiffness is about 1.
+      EXPECT_NEAR(a.w, b.w, 1e-8) << law.eta << ' ' << lambda;
+      EXPECT_NEAR(a.force, b.force, 1e-8) << law.eta << ' ' << lambda;
+      for (const long long n : b.negative) EXPECT_EQ(n, 0);
+    }
+  }
+}
+
+/// Every step moves by as much along the curve: a nearly hard law takes few.
+TEST(CurveContact, FewerStepsOnAColumn) {
+  const auto mesh = fem::test::box(fem::Topology::Hex8, {1, 1, 1}, {1, 1, 4}, {0, 0, 1});
+  const auto points = contactPoints(mesh, "z_min", Where::Nodes);
+  const RegularisedPressure law{0, 1e-6};
+  auto condensed = column(mesh), onCurve = column(mesh);
+  addContact(condensed, points, Plane{}, law, 0);
+  addCurveContact(onCurve, points, Plane{}, law, Numbers(points.numPoints(), 1.0));
+  const Result a = followed(mesh, std::move(condensed), 3), b = followed(mesh, std::move(onCurve), 3);
+  EXPECT_LT(2 * b.outcome.steps, a.outcome.steps);
+}
+
+// Tangent and load direction of a body on a cylinder that moves, against central differences.
+TEST(CurveContact, TangentIsTheSymmetricDerivativeOfTheResidual) {
+  const auto mesh = fem::test::distorted(fem::test::box(fem::Topology::Hex20, {2, 2, 2}, {1, 1, 1}), 0.02);
+  MovingTool<Cylinder> tool;
+  tool.tool = {{0.4, 0, -2.005}, {0.28, 0.96, 0}, 2.0};
+  tool.motion.shift[1][2] = 0.3;
+  auto model = solidModel(mesh, 10, 0.3);
+  const auto points = contactPoints(mesh, "z_min", Where::Nodes);
+  addCurveContact(model, points, tool, {1e-1, 1e-1}, Numbers(points.numPoints(), 0.05));
+  fem::FeProblem problem(std::move(model));
+  const std::size_t dofs = fem::FeProblem::values(*problem.initialState(0)).size();
+  const auto without = [&](Numbers x) {  // the two dofs of a multiplier's node that are held
+    for (std::size_t d = mesh.coordinates.size(); d < x.size(); d += 3) x[d + 1] = x[d + 2] = 0;
+    return x;
+  };
+  Numbers u = without(fem::test::randomNumbers(dofs, 0.08, 5));
+  for (std::size_t d = mesh.coordinates.size(); d < dofs; d += 3) u[d] *= 10;  // t between -0.8 and 0.8
+  const double lambda = 0.3;
+  const auto K = fem::test::tangent(problem, u, lambda);
+  const double largest = fem::test::largest(K.value);
+  for (std::size_t i = 0; i + 1 < K.start.size(); ++i)
+    for (std::size_t e = K.start[i]; e < K.start[i + 1]; ++e)
+      // Sums of some 100 rounded products.
+      ASSERT_NEAR(K.value[e], K.at(K.column[e], static_cast<int>(i)), 1e-13 * largest);
+  const double rate = 0.7;
+  const Numbers v = without(fem::test::randomNumbers(dofs, 1, 6));
+  const Numbers exact = fem::test::sum(K.times(v), -rate, K.F);
+  double before = 0;
+  for (int i = 0; i < 4; ++i) {
+    const double step = 4e-3 / (1 << i);
+    const Numbers plus = fem::test::residual(problem, fem::test::sum(u, step, v), lambda + rate * step).r;
+    const Numbers minus = fem::test::residual(problem, fem::test::sum(u, -step, v), lambda - rate * step).r;
+    Numbers error = fem::test::sum(plus, -1, minus);
+    for (std::size_t d = 0; d < error.size(); ++d) error[d] = error[d] / (2 * step) - exact[d];
+    const double now = fem::test::norm(error);
+    // Rounding is 1e-14/step, 1e-11; the error itself about 1e-6 at the end.
+    if (i > 0) {
+      EXPECT_NEAR(before / now, 4.0, 0.1) << "halving " << i;
+    }
+    before = now;
+  }
+  EXPECT_LT(before, 1e-3 * fem::test::norm(exact));
+}
+
+TEST(CurveContact, RefusesAGapBelowTheBound) {
+  const auto mesh = fem::test::box(fem::Topology::Hex8, {1, 1, 1}, {1, 1, 4}, {0, 0, 1});
+  auto model = column(mesh);
+  const auto points = contactPoints(mesh, "z_min", Where::Nodes);
+  EXPECT_THROW(addCurveContact(model, points, Plane{}, {1, 0.1}, Numbers(points.numPoints(), 0.05)),
+               std::invalid_argument);
+}

@@ -1,0 +1,159 @@
+// Tangent, series and event functions of a whole problem with hard contact, points free and active.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "atrapos/contact/HardContact.hpp"
+#include "atrapos/contact/MovingTool.hpp"
+#include "atrapos/path/SeriesStep.hpp"
+#include "support/ContactModel.hpp"
+
+using namespace atrapos;
+using namespace atrapos::contact;
+using namespace atrapos::contact::test;
+
+namespace {
+
+/// A cylinder below, at rest or moving.
+Cylinder roll() { return {{0.4, 0, -2.005}, {0.28, 0.96, 0}, 2.0}; }
+MovingTool<Cylinder> turning() {
+  MovingTool<Cylinder> tool;
+  tool.tool = roll();
+  tool.motion.shift[1][2] = 0.3;
+  tool.motion.angle[1] = 0.2;
+  return tool;
+}
+
+template <class Tool>
+fem::FeModel onTool(const fem::Mesh& mesh, const Tool& tool) {
+  fem::FeModel model = solidModel(mesh, 10, 0.3);
+  addHardContact(model, contactPoints(mesh, "z_min", Where::Nodes), tool);
+  return model;
+}
+
+/// Every other point is active.
+void alternate(fem::FeProblem& problem) {
+  auto conditions = problem.conditions();
+  for (std::size_t i = 0; i < conditions.size(); ++i) conditions[i] = i % 2 == 0;
+  problem.setConditions(conditions);
+}
+
+/// Displacements and multipliers of some size; those of free points are zero, as on any path.
+Numbers someState(const fem::FeProblem& problem, const fem::Mesh& mesh) {
+  const std::size_t dofs = fem::FeProblem::values(*problem.initialState(0)).size();
+  Numbers u = fem::test::randomNumbers(dofs, 0.08, 5);
+  const auto conditions = problem.conditions();
+  for (std::size_t p = 0; p < conditions.size(); ++p) {
+    const std::size_t first = mesh.coordinates.size() + 3 * p;
+    if (conditions[p] == 0) u[first] = 0;
+    u[first + 1] = u[first + 2] = 0;
+  }
+  return u;
+}
+
+template <class Tool>
+void tangentIsDerivative(const Tool& tool, bool symmetric) {
+  const auto mesh = fem::test::distorted(fem::test::box(fem::Topology::Hex20, {2, 2, 2}, {1, 1, 1}), 0.02);
+  fem::FeProblem problem(onTool(mesh, tool));
+  EXPECT_EQ(problem.symmetric(), symmetric);
+  alternate(problem);
+  const double lambda = 0.3;
+  const Numbers u = someState(problem, mesh);
+  const auto conditions = problem.conditions();
+
+  const auto K = fem::test::tangent(problem, u, lambda);
+  const double largest = fem::test::largest(K.value);
+  if (symmetric)
+    for (std::size_t i = 0; i + 1 < K.start.size(); ++i)
+      for (std::size_t e = K.start[i]; e < K.start[i + 1]; ++e)
+        // Sums of some 100 rounded products.
+        ASSERT_NEAR(K.value[e], K.at(K.column[e], static_cast<int>(i)), 1e-13 * largest);
+
+  // Central differences along random directions, lambda included: the error falls by 4. The multipliers of
+  // free points stay zero: their force is left out of the tangent, so that it is symmetric.
+  for (unsigned seed = 6; seed < 9; ++seed) {
+    Numbers v = fem::test::randomNumbers(u.size(), 1, seed);
+    for (std::size_t p = 0; p < conditions.size(); ++p) {
+      const std::size_t first = mesh.coordinates.size() + 3 * p;
+      if (conditions[p] == 0) v[first] = 0;
+      v[first + 1] = v[first + 2] = 0;
+    }
+    const double rate = 0.7;
+    const Numbers exact = fem::test::sum(K.times(v), -rate, K.F);
+    double before = 0;
+    for (int i = 0; i < 4; ++i) {
+      const double step = 4e-3 / (1 << i);
+      const Numbers plus = fem::test::residual(problem, fem::test::sum(u, step, v), lambda + rate * step).r;
+      const Numbers minus = fem::test::residual(problem, fem::test::sum(u, -step, v), lambda - rate * step).r;
+      Numbers error = fem::test::sum(plus, -1, minus);
+      for (std::size_t d = 0; d < error.size(); ++d) error[d] = error[d] / (2 * step) - exact[d];
+      const double now = fem::test::norm(error);
+      // Rounding is 1e-14/step, 1e-11; the error itself about 1e-6 at the end.
+      if (i > 0) {
+        EXPECT_NEAR(before / now, 4.0, 0.1) << "halving " << i;
+      }
+      before = now;
+    }
+    EXPECT_LT(before, 1e-3 * fem::test::norm(exact));
+  }
+}
+
+}  // namespace
+
+TEST(HardBlock, TangentIsTheDerivativeOfTheResidual) {
+  tangentIsDerivative(roll(), true);
+  tangentIsDerivative(turning(), true);
+  RadialRoll<TaperedProfile> taper;
+  taper.center[2] = -2.005;
+  taper.profile.radius = 2;
+  tangentIsDerivative(taper, false);  // its normal is not the gradient of its gap
+}
+
+// The residual along a series of order K at an equilibrium falls as a^(K+1), and the event functions are the
+// gaps and multipliers along it.
+TEST(HardBlock, SeriesAndEventFunctions) {
+  const auto mesh = fem::test::box(fem::Topology::Hex20, {2, 2, 2}, {1, 1, 1});
+  auto model = onTool(mesh, turning());
+  for (int n : fem::test::nodesOfSet(mesh, "z_max"))
+    for (int i = 0; i < 3; ++i) model.supports.prescribe(n, i, 0, i == 2 ? -1.0 : 0.3);
+  fem::FeProblem problem(std::move(model));
+  auto start = follow(problem, {problem.initialState(0), 0.0}, 0.06, tightOptions(1e-9));
+  const int active = problem.constraintPivots();
+  EXPECT_GE(active, 3);
+  EXPECT_LT(active, problem.eventCount());
+  const Numbers u = fem::test::equilibrium(problem, 0.06, fem::FeProblem::values(*start.final.u), 1e-12).u;
+  const auto solver = linear::makeTangentSolver();
+  path::Calls calls(problem, *solver);
+  for (const int order : {2, 5, 8}) {
+    path::SeriesRequest request;
+    request.order = order;
+    const auto series = path::buildSeries(calls, {fem::test::vectorOf(problem, u), 0.06}, request);
+    auto v = fem::test::zeroVector(problem), r = fem::test::zeroVector(problem);
+    double a = 1e-3, size = 0;
+    const auto at = [&](double length) {
+      const double lambda = series.evaluate(length, *v);
+      return problem.residual(*v, lambda, *r).relative();
+    };
+    for (int i = 0; i < 60 && (size = at(a)) > 1e-6; ++i) a *= 0.8;
+    for (int i = 0; i < 60 && (size = at(a)) < 1e-6; ++i) a *= 1.1;
+    const double half = at(a / 2);
+    EXPECT_GT(half, 1e-13);  // not rounding
+    // The next term adds a (K+2)/(K+1)-th power: a few percent of the exponent.
+    EXPECT_NEAR(std::log2(size / half), order + 1, 0.1 * (order + 1)) << "order " << order << " a " << a;
+
+    const double lambda = series.evaluate(a, *v);
+    const auto shown = problem.term(1).observe(fem::field(*v), lambda);
+    const Numbers values = fem::FeProblem::values(*v);
+    const auto conditions = problem.conditions();
+    for (int p = 0; p < problem.eventCount(); ++p) {
+      const double g = series.scalar(series.eventCoefficients(p))(a);
+      // A multiplier is an unknown and its series its own; a gap's series misses what is beyond its order, as
+      // the residual does.
+      if (conditions[p] == 1)
+        EXPECT_NEAR(g, values[mesh.coordinates.size() + 3 * p], 1e-14);
+      else
+        EXPECT_NEAR(g, shown.values[2 * p], 1e-4) << p;
+    }
+  }
+}
