@@ -40,6 +40,9 @@ class ImperfectProblem : public Problem {
   }
   int constraintPivots() const override { return perfect_.constraintPivots(); }
   double inner(const Increment& x, const Increment& y) const override { return perfect_.inner(x, y); }
+  double weight(const Increment& Xhat, std::optional<double> given) override {
+    return perfect_.weight(Xhat, given);
+  }
 
  private:
   Problem& perfect_;
