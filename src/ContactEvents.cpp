@@ -132,7 +132,7 @@ void ContactEvents::onStep(int branch, int step, double pathLengthStart, double 
           double x[4], R[1] = {0};
           point.place(a, x);
           const double gap[1] = {contact.tool->project(x).gap};
-          if (std::isfinite(gap[0]))
+          if (std::isfinite(gap[0]) && !contact.pressure.hard)  // hard: zero where it closes or opens
             taylor::solveImplicit<1, 1, 1>(contact.pressure.law, gap, &contact.references[t][p], R);
           event.a = a;
           event.loadFactor = x[3];

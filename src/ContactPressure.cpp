@@ -42,6 +42,12 @@ ContactPressure contactPressure(const deck::Contact& contact, const BodySize& bo
     return 0.0;
   };
   switch (contact.law) {
+    case Law::Hard:
+      result.hard = true;
+      result.text = "hard";
+      // Far above the rounding of gaps that are constraints, far below what a contact's state can mean.
+      result.closedGap = 1e-10 * body.length;
+      return result;
     case Law::Hyperbola:
     case Law::Barrier: {
       result.text = contact.law == Law::Barrier ? "barrier" : "hyperbola";

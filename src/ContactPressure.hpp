@@ -21,6 +21,7 @@ struct BodySize {
 
 /// A pressure law with all of its numbers.
 struct ContactPressure {
+  bool hard = false;  ///< no law: h >= 0, R >= 0, h R = 0
   contact::AnyPressure law;
   std::optional<contact::RegularisedPressure> regularised;  ///< the law where it is (15)
   double leastReference = 0;  ///< least sensible Delta of a point that touches at the start; 0: none

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "atrapos/contact/OneOf.hpp"
+#include "atrapos/fem/FeProblem.hpp"
 #include "atrapos/fem/PointSet.hpp"
 #include "atrapos/fem/Term.hpp"
 
@@ -40,8 +41,12 @@ class RigidTool {
   virtual std::unique_ptr<fem::Term> term(const contact::AnyPressure& pressure, const fem::PointSet& points,
                                           const std::vector<double>& referenceGaps) const = 0;
 
-  /// The same with law (15) where eta falls to eta exp(-s), s what the term sees as the load factor, and the
-  /// tool stands where it is at `loadFactor`.
+  /// Adds hard contact of these points to the model: its last term, and a node behind the others for the
+  /// multiplier of each. Throws std::invalid_argument, one line, for tools that cannot have it.
+  virtual void addHard(fem::FeModel& model, const fem::PointSet& points) const = 0;
+
+  /// The contact with law (15) where eta falls to eta exp(-s), s what the term sees as the load factor, and
+  /// the tool stands where it is at `loadFactor`.
   virtual std::unique_ptr<fem::Term> sharpened(const contact::RegularisedPressure& pressure,
                                                const fem::PointSet& points,
                                                const std::vector<double>& referenceGaps,

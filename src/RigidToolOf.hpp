@@ -5,6 +5,7 @@
 
 #include "RigidTool.hpp"
 #include "atrapos/contact/ContactLaw.hpp"
+#include "atrapos/contact/HardContact.hpp"
 #include "atrapos/contact/MovingTool.hpp"
 #include "atrapos/contact/PatchSearch.hpp"
 #include "atrapos/contact/SharpenedContact.hpp"
@@ -77,6 +78,13 @@ class RigidToolOf final : public RigidTool {
     } else {
       return std::make_unique<Term>(Law{tool_, pressure}, points, referenceGaps);
     }
+  }
+
+  void addHard(fem::FeModel& model, const fem::PointSet& points) const override {
+    if constexpr (patches)
+      throw std::invalid_argument("law: hard is not for tools of type patches; use hyperbola or barrier");
+    else
+      contact::addHardContact(model, points, tool_);
   }
 
   std::unique_ptr<fem::Term> sharpened(const contact::RegularisedPressure& pressure,

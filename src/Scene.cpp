@@ -92,7 +92,8 @@ void Scene::addSupports(fem::FeModel& model) const {
 
 void Scene::requireSupport(const fem::Supports& supports) const {
   std::vector<fem::HeldDirection> held;
-  for (const ContactPoints& contact : contacts_)
+  for (const ContactPoints& contact : contacts_) {
+    if (contact.pressure.hard) continue;  // open points hold nothing
     for (const fem::PointSet& points : contact.points)
       for (int n : points.nodes) {
         if (n >= mesh_.numNodes()) continue;  // a director
@@ -101,6 +102,7 @@ void Scene::requireSupport(const fem::Supports& supports) const {
         const ToolProjection over = contact.tool->project(place);
         if (std::isfinite(over.gap)) held.push_back({n, {over.normal[0], over.normal[1], over.normal[2]}});
       }
+  }
   for (const fem::FreeBody& body : fem::freeBodies(mesh_, supports, held, &shells_.geometry, joinedNodes()))
     fail("supports",
          fmt::format("the body with block '{}' can still move freely in {} rigid motion{}: prescribe more "

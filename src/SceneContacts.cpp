@@ -56,6 +56,12 @@ void Scene::addContacts(fem::FeModel& model) {
     choosePressure(contact, body, entry);
     for (std::size_t t = 0; t < entry.points.size(); ++t) {
       entry.terms.push_back(static_cast<int>(model.terms.size()));
+      if (entry.pressure.hard) try {
+          entry.tool->addHard(model, entry.points[t]);
+          continue;
+        } catch (const std::invalid_argument& e) {
+          fail("contact/" + contact.name + "/law", e.what());
+        }
       auto term = std::make_unique<NearContact>(*entry.tool, entry.pressure.law, entry.points[t],
                                                 entry.references[t], all);
       entry.near.push_back(term.get());
@@ -198,6 +204,7 @@ void Scene::grow(const path::Vector& u, double lambda) {
 }
 
 int ContactPoints::numCarried() const {
+  if (pressure.hard) return count;
   return std::accumulate(near.begin(), near.end(), 0,
                          [](int n, const NearContact* term) { return n + term->numCarried(); });
 }

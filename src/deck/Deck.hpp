@@ -258,7 +258,8 @@ struct Contact {
     Barrier,      ///< the same with 1/alpha = 0: R = eta (Delta - h)/h
     Power,        ///< (R + eta) ((h + R/alpha)/Delta)^m = eta
     Exponential,  ///< R = R_0 (exp(-h/l) - exp(-Delta/l))
-    Penalty       ///< alpha max(-h, 0), its corner smoothed over l
+    Penalty,      ///< alpha max(-h, 0), its corner smoothed over l
+    Hard          ///< h >= 0, R >= 0, h R = 0: the set of active points changes at events; nodes only
   };
   /// Which points have the law.
   enum class Carried {
@@ -315,7 +316,7 @@ struct Path {
   /// Sizes of imperfections, each of which adds a path: the largest displacement of a constant force's linear
   /// response at the start, in the shape of the first bifurcation point's null vector.
   std::vector<double> imperfections;
-  bool restart = true;   ///< keeps what a restart needs at every step
+  bool restart = true;  ///< keeps what a restart needs at every step
   /// In (0, 1): at the path's end eta of all contacts falls by this factor; empty: does not.
   std::optional<double> sharpen;
   Stop stop;

@@ -102,11 +102,10 @@ Field<Contact> positiveOr(std::string key, std::optional<double> Contact::*membe
 using ContactLaw = Contact::Law;
 
 const Choices<ContactLaw>& contactLaws() {
-  static const Choices<ContactLaw> laws{{"hyperbola", ContactLaw::Hyperbola},
-                                        {"barrier", ContactLaw::Barrier},
-                                        {"power", ContactLaw::Power},
-                                        {"exponential", ContactLaw::Exponential},
-                                        {"penalty", ContactLaw::Penalty}};
+  static const Choices<ContactLaw> laws{
+      {"hyperbola", ContactLaw::Hyperbola}, {"barrier", ContactLaw::Barrier},
+      {"power", ContactLaw::Power},         {"exponential", ContactLaw::Exponential},
+      {"penalty", ContactLaw::Penalty},     {"hard", ContactLaw::Hard}};
   return laws;
 }
 
@@ -265,7 +264,16 @@ const Table<Contact>& contactTable() {
         v.fail(fmt::format("must be above regularisation/stiffness = {}, got {}", least, v.shown()));
       }
     };
+    auto law = choice("law", optional, &Contact::law, contactLaws(), "pressure as a function of the gap");
+    law.read = [inner = law.read](const Value& v, Contact& s) {
+      inner(v, s);
+      if (s.law == ContactLaw::Hard && s.points != Contact::Points::Nodes) {
+        v.fail("hard contact acts at nodes; expected points: nodes beside it");
+      }
+    };
     using Law = ContactLaw;
+    const std::vector<Law> withDelta{Law::Hyperbola, Law::Barrier, Law::Power, Law::Exponential,
+                                     Law::Penalty};
     return Table<Contact>{
         name("tool", required, &Contact::tool, "the name of a tool", "what the set may touch"),
         name("set", required, &Contact::set, "a side set (with points: nodes also a node set), name or id",
@@ -273,7 +281,7 @@ const Table<Contact>& contactTable() {
         choice("points", optional, &Contact::points, points, "where the law acts"),
         choice("at", optional, &Contact::at, shellPlaces(), "where in the thickness of shells"),
         degree,
-        choice("law", optional, &Contact::law, contactLaws(), "pressure as a function of the gap"),
+        law,
         ofLaws(contactStiffness(), {Law::Hyperbola, Law::Power, Law::Penalty}),
         ofLaws(positiveOr("regularisation", &Contact::regularisation, "auto",
                           "eta: a pressure, with points: nodes a force"),
@@ -286,10 +294,13 @@ const Table<Contact>& contactTable() {
         ofLaws(positiveOr("length", &Contact::length, "auto",
                           "l over which the exponential law grows by e or the penalty's corner is smoothed"),
                {Law::Exponential, Law::Penalty}),
-        gap,
-        choice("carried", optional, &Contact::carried,
-               Choices<Contact::Carried>{{"near", Contact::Carried::Near}, {"all", Contact::Carried::All}},
-               "by which points the law is carried: all, or those that come nearer than half of Delta")};
+        ofLaws(gap, withDelta),
+        ofLaws(
+            choice(
+                "carried", optional, &Contact::carried,
+                Choices<Contact::Carried>{{"near", Contact::Carried::Near}, {"all", Contact::Carried::All}},
+                "by which points the law is carried: all, or those that come nearer than half of Delta"),
+            withDelta)};
   }();
   return table;
 }

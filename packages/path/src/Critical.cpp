@@ -140,7 +140,7 @@ class Search {
     const auto place =
         std::find_if(samples.begin(), samples.end(), [&](const ModeSample& s) { return s.a > a; });
     const auto& before = place == samples.begin() ? samples.front().modes : (place - 1)->modes;
-    ModeSample here{a, speed, nearestModes(calls_, state, t, w, before, search_.watchedModes)};
+    ModeSample here{a, speed, nearestModes(calls_, state, t, w, before, search_.watchedModes, Rates::all)};
     samples.insert(place, std::move(here));
   }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <Teuchos_LAPACK.hpp>
 #include <Tpetra_Vector.hpp>
@@ -31,15 +32,31 @@ bool orthonormalise(std::vector<RCP<Vector>>& x) {
   return true;
 }
 
-/// The cubic on [0, 1] with these ends and slopes.
-Polynomial cubic(double y0, double s0, double y1, double s1) {
+/// Vectors turn along a step; less than this in common is another one.
+constexpr double same = 0.8;
+
+/// Whether the eigenvalue mu of x may vanish within four lengths like that since `before`.
+bool vanishesSoon(double mu, const Vector& x, const std::vector<Mode>& before) {
+  constexpr double lengths = 4;
+  for (const Mode& b : before)
+    if (std::abs(linear::dot(*b.x, x)) >= same)
+      return mu * b.mu <= 0 || std::abs(mu) < lengths * (std::abs(b.mu) - std::abs(mu));
+  return true;  // nothing is known of it
+}
+
+/// The polynomial of least degree on [0, 1] with these ends and slopes; a slope may be not a number.
+Polynomial between(double y0, double s0, double y1, double s1) {
+  const bool first = std::isfinite(s0), second = std::isfinite(s1);
+  if (!first && !second) return Polynomial({y0, y1 - y0});
+  if (!second) return Polynomial({y0, s0, y1 - y0 - s0});
+  if (!first) return Polynomial({y0, 2 * (y1 - y0) - s1, s1 - (y1 - y0)});
   return Polynomial({y0, s0, 3 * (y1 - y0) - 2 * s0 - s1, 2 * (y0 - y1) + s0 + s1});
 }
 
 }  // namespace
 
 std::vector<Mode> nearestModes(Calls& calls, const State& state, const PathTangent& along, double weight,
-                               const std::vector<Mode>& before, int count) {
+                               const std::vector<Mode>& before, int count, Rates rates) {
   const int n = static_cast<int>(std::min<long long>(count, calls.problem().map()->getGlobalNumElements()));
   std::vector<RCP<Vector>> x, y;
   for (int i = 0; i < n; ++i) {
@@ -74,21 +91,26 @@ std::vector<Mode> nearestModes(Calls& calls, const State& state, const PathTange
     mode.x = calls.newVector();
     for (int i = 0; i < n; ++i) mode.x->update(A[j * n + i], *x[i], 1);
     mode.mu = 1 / theta[j];
+    if (!std::isfinite(mode.mu)) continue;
+    if (rates == Rates::soon && !vanishesSoon(mode.mu, *mode.x, before)) {
+      mode.rate = std::numeric_limits<double>::quiet_NaN();
+      modes.push_back(std::move(mode));
+      continue;
+    }
     // As large as X', so that the difference which makes the mixed derivative does not cancel.
     Augmented phi{Teuchos::rcp(new Vector(*mode.x, Teuchos::Copy)), 0};
     const double part = scale > 0 ? scale : 1;
     phi.u->scale(part);
     SecondOrder second(calls, state, mode.x);
     mode.rate = second({along.x.u, along.lambda}, phi) / (part * size);
-    if (std::isfinite(mode.mu) && std::isfinite(mode.rate)) modes.push_back(std::move(mode));
+    if (std::isfinite(mode.rate)) modes.push_back(std::move(mode));
   }
   return modes;
 }
 
 ModeEvidence zerosOf(const std::vector<ModeSample>& samples) {
   ModeEvidence evidence;
-  // Vectors turn along a step; less than this in common is another one.
-  constexpr double same = 0.8, near = 0.2;
+  constexpr double near = 0.2;
   for (std::size_t i = 0; i + 1 < samples.size(); ++i) {
     const ModeSample &first = samples[i], &second = samples[i + 1];
     const double length = second.a - first.a;
@@ -97,7 +119,7 @@ ModeEvidence zerosOf(const std::vector<ModeSample>& samples) {
         const double common = linear::dot(*s.x, *e.x);
         if (std::abs(common) < same) continue;
         const Polynomial mu =
-            cubic(s.mu, length * first.speed * s.rate, e.mu, length * second.speed * e.rate);
+            between(s.mu, length * first.speed * s.rate, e.mu, length * second.speed * e.rate);
         for (const double t : mu.roots(1)) {
           auto x = Teuchos::rcp(new Vector(*s.x, Teuchos::Copy));
           x->update(std::copysign(t, common), *e.x, 1 - t);

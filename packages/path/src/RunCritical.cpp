@@ -59,7 +59,7 @@ std::vector<Mode> Run::modesHere(const PathTangent& along, double weight) {
   if (!options_.criticalPoints || options_.watchedModes == 0) return {};
   if (!calls_.problem().symmetric() || !calls_.inertia()) return {};
   try {
-    return nearestModes(calls_, outcome_.final, along, weight, modes_, options_.watchedModes);
+    return nearestModes(calls_, outcome_.final, along, weight, modes_, options_.watchedModes, Rates::soon);
   } catch (const PathError&) {
     return {};  // next to a singular tangent: the numbers are beyond use
   }

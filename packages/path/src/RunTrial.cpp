@@ -71,7 +71,7 @@ std::optional<Run::Trial> Run::padeTrial(Series& series, StepReport& report) {
   // long step would see nothing of them: there the polynomial, which its radius bounds, goes.
   constexpr double shortOf = 0.9, behind = -0.2;
   for (const Mode& mode : modes_) {
-    const double zero = -mode.mu / mode.rate;
+    const double zero = -mode.mu / mode.rate;  // no bound where the rate is not known
     if (zero > behind * polynomial && shortOf * zero < fit.range) fit.range = std::max(0.0, shortOf * zero);
   }
   report.padeRange = fit.range;

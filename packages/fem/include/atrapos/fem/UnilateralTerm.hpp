@@ -24,7 +24,7 @@ namespace atrapos::fem {
 /// says `symmetric`, the tangent is symmetric: an active point couples r and u by -s grad h, a free one adds
 /// s to the diagonal. Event functions: h of a free point, r of an active one.
 ///
-/// A point whose nodes are all held by supports is never active.
+/// A point whose nodes are all held by supports is never active; its multiplier stays zero.
 template <class Law>
 class UnilateralTerm final : public EventTerm {
   static constexpr int L = kLanes, D = Law::numData, J = Law::numInputs, O = 4;
@@ -36,6 +36,7 @@ class UnilateralTerm final : public EventTerm {
 
   struct Arrays : LawArrays<Law, 1> {
     View<double*> stiffness;  // [batch][lane] s; 0: held
+    double heldDiagonal = 1;  // of the multipliers of held points, which stay zero
     View<double*> active;     // [batch][lane] 1 or 0
     View<double*> gap;        // [batch][lane] h with U_k = 0 of the order swept last
     View<double*> gapStart;   // [batch][lane] h of order 0
@@ -124,11 +125,12 @@ class UnilateralTerm final : public EventTerm {
     forEachBatch(
         "tangent", batches_, a.order, KOKKOS_LAMBDA(int b) {
           Pack local[3 * kMaxNodes], in[J], moduli[9], byMultiplier[3], ofGap[3];
-          Pack byLambda[O], direction[3 * kMaxNodes];
+          Pack byLambda[O], direction[3 * kMaxNodes], own;
           const Pack s = a.at(a.stiffness, b), on = a.at(a.active, b);
           a.gather(b, u, local);
           a.inputs(b, local, lambda, true, in);
           for (int lane = 0; lane < L; ++lane) {
+            own[lane] = s[lane] == 0 ? a.heldDiagonal : s[lane] * (1 - on[lane]);
             double one[J], data[D + 1], result[O], jacobian[O * J];
             a.lanesOf(in, J, lane, one);
             a.lanesOf(a.dataAt(b, 0), D, lane, data);
@@ -153,7 +155,7 @@ class UnilateralTerm final : public EventTerm {
               for (int i = 0; i < 3; ++i) block[3 * i] = byMultiplier[i] * Pack::load(shape + na * L);
             if (na == last && nb < last)
               for (int j = 0; j < 3; ++j) block[j] = ofGap[j] * Pack::load(shape + nb * L);
-            if (na == last && nb == last) block[0] = s * (Pack(1.0) - on);
+            if (na == last && nb == last) block[0] = own;
           };
           a.addBlocks(b, moduli, withMultiplier, sink);
         });
@@ -289,6 +291,8 @@ class UnilateralTerm final : public EventTerm {
       }
       s[p] = std::isfinite(least) ? part * least : 0.0;
     }
+    const double largest = *std::max_element(s.begin(), s.begin() + a_.numEntities);
+    a_.heldDiagonal = largest > 0 ? largest : 1;
     a_.stiffness = upload("stiffness", s);
   }
 
