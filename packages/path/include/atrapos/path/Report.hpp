@@ -89,7 +89,9 @@ struct StepReport {
   std::optional<linear::Inertia> inertiaEnd;  ///< and at its end, i.e. the next step's start
   std::vector<LimitPoint> limitPoints;
   std::vector<Extremum> extrema;  ///< of the monitors, ascending in a
-  std::vector<int> events;        ///< event functions that fell to zero at the step's end and were applied
+  /// Event functions that fell to zero at the step's end and were applied: the Problem is the changed one
+  /// already. An observer that evaluates it inside the step applies them again before, and once more after.
+  std::vector<int> events;
   std::vector<CriticalPoint> criticalPoints;  ///< bifurcation points inside the step, ascending
   /// Eigenvalues that changed sign inside the step and are explained by no point found: the tangent says that
   /// there is a bifurcation, its place is not known.
