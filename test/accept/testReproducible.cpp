@@ -13,10 +13,12 @@ double difference(const Table& a, const Table& b, const std::string& name, std::
   const auto x = a.column(name), y = b.column(name);
   double worst = 0, scale = 0;
   for (std::size_t i = 0; i < rows; ++i) {
-    worst = std::max(worst, std::abs(x.at(i) - y.at(i)));
+    const double off = std::abs(x.at(i) - y.at(i));
+    if (!std::isfinite(off)) return off;
+    worst = std::max(worst, off);
     scale = std::max(scale, std::abs(x[i]));
   }
-  return worst / scale;
+  return worst > 0 ? worst / scale : 0;  // columns of zeros have no scale
 }
 
 /// All columns of the first table but the residual, which is rounding and truncation error itself; the second
