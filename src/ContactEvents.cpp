@@ -22,47 +22,52 @@ std::vector<std::vector<double>> coefficients(const path::Series& series) {
 /// One point of a contact along a step.
 class PointOnSeries {
  public:
+  /// `lambda` is the series' and outlives this.
   PointOnSeries(const ContactPoints& contact, std::size_t term, int point, const path::Series& series,
-                const std::vector<std::vector<double>>& u)
-      : tool_(*contact.tool),
-        closedGap_(contact.closedGaps[term][point]),
-        lambda_(series.lambdaFunction()),
-        order_(series.order()) {
+                const path::Rational& lambda, const std::vector<std::vector<double>>& u)
+      : tool_(*contact.tool), closedGap_(contact.closedGaps[term][point]), series_(series), lambda_(lambda) {
     const fem::PointSet& points = contact.points[term];
     const int N = points.nodesPerEntity, e = point / points.pointsPerEntity;
     const double* shape = &points.shape[static_cast<std::size_t>(point) * N];
     const int* nodes = &points.nodes[static_cast<std::size_t>(e) * N];
     for (int i = 0; i < 3; ++i) {
       std::vector<double>& x = x_[i];
+      x.reserve(u.size());
       for (const auto& field : u) {
         double sum = 0;
         for (int n = 0; n < N; ++n) sum += shape[n] * field[3 * static_cast<std::size_t>(nodes[n]) + i];
         x.push_back(sum);
       }
       x[0] += points.positions[3 * static_cast<std::size_t>(point) + i];
-      position_[i] = series.scalar(x);
     }
-    polynomial_ = series.form() == nullptr;
   }
 
-  void place(double a, double* x) const {
+  /// Most points never ask beyond the start: their functions are not made before.
+  void place(double a, double* x) {
+    if (position_.empty())
+      for (const auto& coefficients : x_) position_.push_back(series_.scalar(coefficients));
     for (int i = 0; i < 3; ++i) x[i] = position_[i](a);
     x[3] = lambda_(a);
   }
 
-  double gap(double a) const {
+  double gapAtStart() const {
+    const double x[4] = {x_[0][0], x_[1][0], x_[2][0], lambda_(0)};
+    return tool_.project(x).gap;
+  }
+
+  double gap(double a) {
     double x[4];
     place(a, x);
     return tool_.project(x).gap;
   }
 
-  bool closed(double a) const { return gap(a) <= closedGap_; }
+  bool closed(double a) { return gap(a) <= closedGap_; }
 
   /// Whether the way that the point goes up to a is too short to close or open it: gaps change by no more.
   bool staysFrom(double gapAtStart, double a) const {
-    if (tool_.moves() || !polynomial_) return false;
+    if (tool_.moves() || series_.form() != nullptr) return false;
     double way = 0, power = 1;
-    for (int k = 1; k <= order_; ++k) {
+    for (std::size_t k = 1; k < x_[0].size(); ++k) {
       power *= a;
       way += power * std::sqrt(x_[0][k] * x_[0][k] + x_[1][k] * x_[1][k] + x_[2][k] * x_[2][k]);
     }
@@ -70,7 +75,7 @@ class PointOnSeries {
   }
 
   /// Where it changes between two places, one closed and one open.
-  double change(double from, double to) const {
+  double change(double from, double to) {
     const bool closedAtStart = closed(from);
     // Bisection down to rounding: the gap may jump at a tool's edge.
     const double tolerance = 4e-16 * to;
@@ -85,10 +90,10 @@ class PointOnSeries {
  private:
   const RigidTool& tool_;
   double closedGap_;
-  std::vector<double> x_[3];
-  path::Rational position_[3], lambda_;
-  int order_;
-  bool polynomial_ = true;
+  const path::Series& series_;
+  const path::Rational& lambda_;
+  std::vector<double> x_[3];  ///< coefficients
+  std::vector<path::Rational> position_;
 };
 
 /// Of the mesh's nodes; those beyond are directors of shells.
@@ -114,6 +119,7 @@ void ContactEvents::onStep(int branch, int step, double pathLengthStart, double 
   if (branch != branch_) closed_.clear();
   branch_ = branch;
   const auto u = coefficients(series);
+  const path::Rational lambda = series.lambdaFunction();
   const bool first = closed_.empty();
   closed_.resize(scene_.contacts().size());
   std::vector<ContactEvent> events;
@@ -125,8 +131,8 @@ void ContactEvents::onStep(int branch, int step, double pathLengthStart, double 
       for (int p = 0; p < contact.points[t].numPoints(); ++p) {
         ++number;
         char& wasClosed = closed_[c][number];
-        const PointOnSeries point(contact, t, p, series, u);
-        const double gapAtStart = point.gap(0);
+        PointOnSeries point(contact, t, p, series, lambda, u);
+        const double gapAtStart = point.gapAtStart();
         const auto note = [&](double a, bool closes) {
           ContactEvent event;
           double x[4], R[1] = {0};

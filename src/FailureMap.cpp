@@ -11,8 +11,8 @@
 #include "PathTable.hpp"
 #include "ReferencePath.hpp"
 #include "RunSettings.hpp"
-#include "atrapos/linear/MakeTangentSolver.hpp"
 #include "atrapos/path/PathFollower.hpp"
+#include "deck/DeckTables.hpp"
 
 namespace atrapos {
 namespace {
@@ -84,21 +84,8 @@ class Judge final : public path::Observer {
   path::RCP<path::Vector> u_, r_;
 };
 
-std::unique_ptr<linear::TangentSolver> solverOf(PathCase& pathCase) {
-  linear::TangentSolverOptions options;
-  options.type = pathCase.deck().solver.spec();
-  options.symmetric = pathCase.problem().symmetric();
-  return linear::makeTangentSolver(options);
-}
-
-path::Options settingsOf(const PathCase& pathCase) {
-  path::Options options = pathOptions(pathCase.deck().path);
-  options.direction *= pathCase.direction();
-  return options;
-}
-
 Reference referenceOf(PathCase& pathCase) {
-  path::Options options = settingsOf(pathCase);
+  path::Options options = pathOptions(pathCase);
   options.order = 10;
   options.autoOrder = false;
   options.delta = options.residualBound = 1e-10;
@@ -107,7 +94,7 @@ Reference referenceOf(PathCase& pathCase) {
   options.maxSteps = 100000;
   Reference reference;
   ReferenceObserver observer(reference);
-  const auto solver = solverOf(pathCase);
+  const auto solver = tangentSolver(pathCase);
   path::PathFollower follower(pathCase.problem(), *solver, options, pathCase.stops());
   const path::Outcome outcome = follower.run(pathCase.start(), observer);
   if (outcome.reason != path::EndReason::stopReached)
@@ -126,15 +113,13 @@ std::string field(std::string text) {
 
 std::string row(PathCase& pathCase, const Reference& reference, int order, double delta, path::PadeUse pade,
                 std::string& outcome) {
-  static const std::map<path::PadeUse, std::string> words{
-      {path::PadeUse::off, "off"}, {path::PadeUse::automatic, "automatic"}, {path::PadeUse::on, "on"}};
-  path::Options options = settingsOf(pathCase);
+  path::Options options = pathOptions(pathCase);
   options.autoOrder = order == 0;
   if (order > 0) options.order = order;
   options.delta = options.residualBound = delta;
   options.pade = pade;
   Judge judge(reference, pathCase.problem());
-  const auto solver = solverOf(pathCase);
+  const auto solver = tangentSolver(pathCase);
   path::PathFollower follower(pathCase.problem(), *solver, options, pathCase.stops());
   const path::Outcome end = follower.run(pathCase.start(), judge);
   std::string reason = end.text;
@@ -154,9 +139,9 @@ std::string row(PathCase& pathCase, const Reference& reference, int order, doubl
     outcome = end.reason == path::EndReason::stepLimit ? "limit" : "ended";
   }
   return fmt::format("{},{},{:g},{},{},{},{},{},{},{},{},{:.2e},{:.4f},{}", field(pathCase.deck().title),
-                     order > 0 ? std::to_string(order) : "auto", delta, words.at(pade), outcome, end.steps,
-                     end.factorizations, end.orders, end.corrections, judge.points, reference.points,
-                     judge.worstResidual, end.seconds.total, field(reason));
+                     order > 0 ? std::to_string(order) : "auto", delta, deck::wordOf(pade, deck::padeUses()),
+                     outcome, end.steps, end.factorizations, end.orders, end.corrections, judge.points,
+                     reference.points, judge.worstResidual, end.seconds.total, field(reason));
 }
 
 }  // namespace

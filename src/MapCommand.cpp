@@ -5,6 +5,8 @@
 #include <cstdlib>
 #include <stdexcept>
 
+#include "deck/DeckTables.hpp"
+
 namespace atrapos {
 namespace {
 
@@ -21,9 +23,8 @@ int order(const std::string& word) {
 }
 
 path::PadeUse pade(const std::string& word) {
-  if (word == "off") return path::PadeUse::off;
-  if (word == "automatic") return path::PadeUse::automatic;
-  if (word == "on") return path::PadeUse::on;
+  for (const auto& [name, use] : deck::padeUses())
+    if (word == name) return use;
   refuse("--pade", word, "off, automatic or on");
 }
 

@@ -14,15 +14,13 @@ void appendRows(const std::vector<T>& from, std::size_t row, std::size_t length,
 }  // namespace
 
 NearContact::NearContact(const RigidTool& tool, const contact::AnyPressure& pressure,
-                         const fem::PointSet& points, const std::vector<double>& referenceGaps, bool all)
+                         const fem::PointSet& points, const std::vector<double>& referenceGaps)
     : tool_(tool),
       pressure_(pressure),
       points_(points),
       referenceGaps_(referenceGaps),
       all_(tool.term(pressure, points, referenceGaps)),
-      carried_(points.numEntities, all ? 1 : 0) {
-  make();
-}
+      carried_(points.numEntities, 0) {}
 
 int NearContact::numCarried() const {
   return points_.pointsPerEntity * static_cast<int>(std::count(carried_.begin(), carried_.end(), 1));

@@ -16,9 +16,9 @@ namespace atrapos {
 /// have (Run.cpp).
 class NearContact final : public fem::Term {
  public:
-  /// `all`: every entity joins at once. The tool outlives the term.
+  /// No entity carries the law yet. The tool outlives the term.
   NearContact(const RigidTool& tool, const contact::AnyPressure& pressure, const fem::PointSet& points,
-              const std::vector<double>& referenceGaps, bool all);
+              const std::vector<double>& referenceGaps);
 
   /// Points that carry the law.
   int numCarried() const;

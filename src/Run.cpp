@@ -15,7 +15,6 @@
 #include "RestartFile.hpp"
 #include "RunSettings.hpp"
 #include "RunSummary.hpp"
-#include "atrapos/linear/MakeTangentSolver.hpp"
 #include "atrapos/path/PathFollower.hpp"
 
 namespace atrapos {
@@ -136,12 +135,8 @@ RunResult resultOf(const path::BranchDiagram& diagram) {
 RunResult runPath(PathCase& pathCase, const RunOptions& options) {
   const deck::Deck& deck = pathCase.deck();
   path::Problem& problem = pathCase.problem();
-  linear::TangentSolverOptions solverOptions;
-  solverOptions.type = deck.solver.spec();
-  solverOptions.symmetric = problem.symmetric();
-  const auto solver = linear::makeTangentSolver(solverOptions);
-  path::Options settings = pathOptions(deck.path);
-  settings.direction *= pathCase.direction();
+  const auto solver = tangentSolver(pathCase);
+  const path::Options settings = pathOptions(pathCase);
   const path::Stops stops = pathCase.stops();
   path::PathFollower follower(problem, *solver, settings, stops);
   path::BranchFollower tree(problem, *solver, settings, stops, branchOptions(deck.path));

@@ -1,12 +1,16 @@
 #pragma once
 
+#include <memory>
+
+#include "PathCase.hpp"
+#include "atrapos/linear/TangentSolver.hpp"
 #include "atrapos/path/Branches.hpp"
-#include "deck/Deck.hpp"
 
 namespace atrapos {
 
-/// The block `path` of a deck as the library takes it.
-path::Options pathOptions(const deck::Path& path);
+// What a case's deck asks for, as the library takes it.
+path::Options pathOptions(const PathCase& pathCase);
 path::BranchOptions branchOptions(const deck::Path& path);
+std::unique_ptr<linear::TangentSolver> tangentSolver(PathCase& pathCase);
 
 }  // namespace atrapos

@@ -39,7 +39,7 @@ struct ContactPoints {
   std::vector<std::vector<double>> references;  ///< [term][point] Delta
   std::vector<std::vector<double>> closedGaps;  ///< [term][point] a point with a smaller gap is closed
   const RigidTool* tool = nullptr;
-  std::vector<NearContact*> near;  ///< [term]
+  std::vector<NearContact*> near;  ///< [term]; empty where all points carry the law
   ContactPressure pressure;
   int count = 0;
   double smallestGap = 0;  ///< at the start
@@ -71,6 +71,8 @@ class Scene {
   /// Of the problem, supported ones included: three for each node of the mesh and each director.
   int numUnknowns() const;
 
+  /// Whether there are contacts whose points get their law along the path.
+  bool contactsGrow() const;
   /// Whether points that carry no contact law so far are near their tool in a state; with `grow` they carry
   /// it from then on.
   bool othersAreNear(const path::Vector& u, double lambda) const;

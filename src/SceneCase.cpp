@@ -99,7 +99,7 @@ std::vector<std::string> SceneCase::remarks() const {
 }
 
 bool SceneCase::changedOn(double length, const path::Series& series) {
-  if (scene_.contacts().empty()) return false;
+  if (!scene_.contactsGrow()) return false;
   constexpr int places = 8;
   path::Vector u(scene_.problem().map());
   bool changed = false;

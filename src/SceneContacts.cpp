@@ -39,7 +39,8 @@ void Scene::addContacts(fem::FeModel& model) {
   makeTools();
   const BodySize body = bodySize();
   // A body that only its contacts hold needs the law of far points too.
-  const bool heldByContacts = !fem::freeBodies(mesh_, model.supports, {}, &shells_.geometry).empty();
+  const bool heldByContacts =
+      !fem::freeBodies(mesh_, model.supports, {}, &shells_.geometry, joinedNodes()).empty();
   for (const deck::Contact& contact : deck_.contacts) {
     const auto position = std::find_if(deck_.tools.begin(), deck_.tools.end(),
                                        [&](const deck::Tool& tool) { return tool.name == contact.tool; });
@@ -56,16 +57,21 @@ void Scene::addContacts(fem::FeModel& model) {
     choosePressure(contact, body, entry);
     for (std::size_t t = 0; t < entry.points.size(); ++t) {
       entry.terms.push_back(static_cast<int>(model.terms.size()));
-      if (entry.pressure.hard) try {
+      const auto& references = entry.references[t];
+      if (entry.pressure.hard) {
+        try {
           entry.tool->addHard(model, entry.points[t]);
-          continue;
         } catch (const std::invalid_argument& e) {
           fail("contact/" + contact.name + "/law", e.what());
         }
-      auto term = std::make_unique<NearContact>(*entry.tool, entry.pressure.law, entry.points[t],
-                                                entry.references[t], all);
-      entry.near.push_back(term.get());
-      model.terms.push_back(std::move(term));
+      } else if (all) {
+        model.terms.push_back(entry.tool->term(entry.pressure.law, entry.points[t], references));
+      } else {
+        auto term =
+            std::make_unique<NearContact>(*entry.tool, entry.pressure.law, entry.points[t], references);
+        entry.near.push_back(term.get());
+        model.terms.push_back(std::move(term));
+      }
     }
     contacts_.push_back(std::move(entry));
   }
@@ -150,9 +156,7 @@ void Scene::choosePressure(const deck::Contact& contact, BodySize body, ContactP
 
 BodySize Scene::bodySize() const {
   BodySize body;
-  for (const deck::Material& material : deck_.materials)
-    std::visit([&](const auto& law) { body.youngsModulus = std::max(body.youngsModulus, law.youngsModulus); },
-               material.law);
+  body.youngsModulus = deck::largestYoungsModulus(deck_);
   double low[3], high[3], volume = 0;
   for (int i = 0; i < 3; ++i) low[i] = high[i] = mesh_.coordinates[i];
   for (std::size_t d = 0; d < mesh_.coordinates.size(); ++d) {
@@ -191,6 +195,11 @@ int Scene::numContactPoints() const {
                          [](int n, const ContactPoints& c) { return n + c.count; });
 }
 
+bool Scene::contactsGrow() const {
+  return std::any_of(contacts_.begin(), contacts_.end(),
+                     [](const ContactPoints& contact) { return !contact.near.empty(); });
+}
+
 bool Scene::othersAreNear(const path::Vector& u, double lambda) const {
   for (const ContactPoints& contact : contacts_)
     for (const NearContact* term : contact.near)
@@ -204,7 +213,7 @@ void Scene::grow(const path::Vector& u, double lambda) {
 }
 
 int ContactPoints::numCarried() const {
-  if (pressure.hard) return count;
+  if (near.empty()) return count;
   return std::accumulate(near.begin(), near.end(), 0,
                          [](int n, const NearContact* term) { return n + term->numCarried(); });
 }

@@ -60,13 +60,6 @@ void addRigid(const fem::Mesh& mesh, const std::vector<int>& nodes, const fem::S
   body.addTo(model, youngsModulus * (size > 0 ? size : 1.0));
 }
 
-double largestYoungsModulus(const deck::Deck& deck) {
-  double largest = 0;
-  for (const deck::Material& material : deck.materials)
-    largest = std::max(largest, std::visit([](const auto& law) { return law.youngsModulus; }, material.law));
-  return largest;
-}
-
 }  // namespace
 
 Scene::SolidSide Scene::solidNodesAt(const deck::Coupling& coupling, int director) const {
@@ -117,7 +110,7 @@ void Scene::addCouplings(fem::FeModel& model) const {
           addPlane(*coupling.normal, nodes, g, model.couplings);
           break;
         case Kind::Rigid:
-          addRigid(mesh_, nodes, g, nextRigid, largestYoungsModulus(deck_), model);
+          addRigid(mesh_, nodes, g, nextRigid, deck::largestYoungsModulus(deck_), model);
           nextRigid += fem::RigidBody::numNodes;
           break;
         case Kind::ShellOnSolid:

@@ -197,10 +197,7 @@ std::vector<std::vector<double>> Scene::elementValues(const path::Vector& u, dou
       add(18, meanResultants(shells_.elements[body.shells], observed, state), 8);
       continue;
     }
-    const std::size_t points = observed.values.size() / 6 / elements;
-    std::vector<double> means(6 * elements, 0.0);
-    for (std::size_t i = 0; i < observed.values.size(); ++i)
-      means[i / (6 * points) * 6 + i % 6] += observed.values[i] / static_cast<double>(points);
+    const auto means = meansOverPoints(observed.values, observed.values.size() / 6 / elements, 6);
     add(0, means, 6);
     if (shells_.empty()) continue;
     add(6, means, 6);

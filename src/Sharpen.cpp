@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <stdexcept>
 
+#include "PathTable.hpp"
 #include "atrapos/fem/FeProblem.hpp"
 
 namespace atrapos {
@@ -49,12 +49,7 @@ class TermAtLoadFactor final : public fem::Term {
 
 class Writer final : public path::Observer {
  public:
-  Writer(const Scene& scene, const std::string& file)
-      : scene_(scene), file_(file), out_(file, std::ios::trunc) {
-    out_ << "factor";
-    for (const auto& name : scene.monitorNames()) out_ << ',' << name;
-    out_ << ",residual\n";
-  }
+  Writer(const Scene& scene, const std::string& file) : scene_(scene), table_(file, header(scene)) {}
 
   bool onStep(const path::StepReport& report, const path::Series&) override {
     write(report.end, report.residual);
@@ -63,19 +58,22 @@ class Writer final : public path::Observer {
 
   void write(const path::State& state, double residual) {
     monitors_ = scene_.monitors(*state.u, state.lambda);
-    out_ << fmt::format("{:.17g}", std::exp(-state.lambda));
-    for (const double m : monitors_) out_ << fmt::format(",{:.17g}", m);
-    out_ << fmt::format(",{:.3e}\n", residual);
-    out_.flush();
-    if (!out_) throw std::runtime_error(fmt::format("{}: cannot be written", file_));
+    std::string row = fmt::format("{:.17g}", std::exp(-state.lambda));
+    for (const double m : monitors_) row += fmt::format(",{:.17g}", m);
+    table_.append(row + fmt::format(",{:.3e}", residual));
   }
 
   const std::vector<double>& monitors() const { return monitors_; }
 
  private:
+  static std::string header(const Scene& scene) {
+    std::string names = "factor";
+    for (const auto& name : scene.monitorNames()) names += ',' + name;
+    return names + ",residual";
+  }
+
   const Scene& scene_;
-  std::string file_;
-  std::ofstream out_;
+  Table table_;
   std::vector<double> monitors_;
 };
 
@@ -86,6 +84,12 @@ void Scene::sharpen(double loadFactor) {
   fem::FeModel model;
   model.numNodes = from.numNodes;
   model.supports = fem::Supports(from.numNodes);
+  for (fem::Coupling coupling : from.couplings.all()) {
+    coupling.value += loadFactor * coupling.perLoadFactor;
+    coupling.perLoadFactor = 0;
+    model.couplings.add(std::move(coupling));
+  }
+  model.numMultipliers = from.numMultipliers;
   model.constantLoad = from.constantLoad;
   for (std::size_t d = 0; d < from.load.size(); ++d) {
     model.constantLoad[d] += loadFactor * from.load[d];

@@ -5,17 +5,13 @@
 #include "atrapos/solid/ShellResults.hpp"
 
 namespace atrapos {
-namespace {
 
-/// [element][point][value] -> [element][value], the mean over the points.
-std::vector<double> means(const std::vector<double>& values, std::size_t points, std::size_t each) {
+std::vector<double> meansOverPoints(const std::vector<double>& values, std::size_t points, std::size_t each) {
   std::vector<double> result(values.size() / points, 0.0);
   for (std::size_t i = 0; i < values.size(); ++i)
     result[i / (points * each) * each + i % each] += values[i] / static_cast<double>(points);
   return result;
 }
-
-}  // namespace
 
 std::vector<std::vector<double>> directorFields(const SceneShells& shells, const std::vector<double>& u) {
   const fem::ShellGeometry& g = shells.geometry;
@@ -43,16 +39,16 @@ std::vector<std::vector<double>> directorFields(const SceneShells& shells, const
 
 std::vector<double> meanSurfaceStress(const fem::PointValues& observed, double zeta) {
   const solid::ShellCubature cubature;
-  return means(solid::surfaceStress(observed, cubature, zeta),
-               static_cast<std::size_t>(cubature.inPlane) * cubature.inPlane, 6);
+  return meansOverPoints(solid::surfaceStress(observed, cubature, zeta),
+                         static_cast<std::size_t>(cubature.inPlane) * cubature.inPlane, 6);
 }
 
 std::vector<double> meanResultants(const solid::ShellElements& elements, const fem::PointValues& observed,
                                    const std::vector<double>& u) {
   const solid::ShellResultOptions options;
-  return means(solid::shellResultants(elements, observed, u, options).values,
-               static_cast<std::size_t>(options.cubature.inPlane) * options.cubature.inPlane,
-               solid::ShellResultants::names().size());
+  return meansOverPoints(solid::shellResultants(elements, observed, u, options).values,
+                         static_cast<std::size_t>(options.cubature.inPlane) * options.cubature.inPlane,
+                         solid::ShellResultants::names().size());
 }
 
 }  // namespace atrapos

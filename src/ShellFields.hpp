@@ -14,6 +14,9 @@ namespace atrapos {
 /// elements). Zero where no shell is. [director_x director_y director_z thickness_change][node]
 std::vector<std::vector<double>> directorFields(const SceneShells& shells, const std::vector<double>& u);
 
+/// [element][point][value] -> [element][value], the mean over the points.
+std::vector<double> meansOverPoints(const std::vector<double>& values, std::size_t points, std::size_t each);
+
 /// Means over each element of the Cauchy stresses at a surface: [element][xx yy zz xy yz zx].
 std::vector<double> meanSurfaceStress(const fem::PointValues& observed, double zeta);
 

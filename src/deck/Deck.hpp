@@ -403,6 +403,9 @@ struct Deck {
   Output output;
 };
 
+/// Of all materials; a pressure in the deck's units.
+double largestYoungsModulus(const Deck& deck);
+
 /// Reads and validates a whole deck. Throws DeckError for the first thing that is wrong.
 Deck readDeck(const std::string& file);
 

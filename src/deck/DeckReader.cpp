@@ -110,6 +110,14 @@ void readToolFiles(const Value& root, const std::filesystem::path& folder, Deck&
 
 }  // namespace
 
+double largestYoungsModulus(const Deck& deck) {
+  double largest = 0;
+  for (const Material& material : deck.materials) {
+    largest = std::max(largest, std::visit([](const auto& law) { return law.youngsModulus; }, material.law));
+  }
+  return largest;
+}
+
 Deck readDeckText(const std::string& text, const std::string& file) {
   const YamlText yaml(text, file);
   const auto list = parse(yaml, file);

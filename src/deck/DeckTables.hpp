@@ -41,6 +41,9 @@ Field<Deck> solverField();
 /// Where in a shell's thickness, with their words.
 const Choices<ShellPlace>& shellPlaces();
 
+/// Uses of Pade forms, with their words.
+const Choices<path::PadeUse>& padeUses();
+
 /// The output fields with their words, in the order that messages give them.
 const Choices<OutputField>& outputFields();
 std::string wordOf(Component component);

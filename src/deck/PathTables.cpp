@@ -130,8 +130,6 @@ Table<Stop> stopKeys(Field<Stop> monitors) {
 }
 
 Table<Path> pathKeys(const Table<Stop>& stops, Need needStop) {
-  static const Choices<path::PadeUse> padeUses{
-      {"off", path::PadeUse::off}, {"automatic", path::PadeUse::automatic}, {"on", path::PadeUse::on}};
   static const Choices<Path::Critical> searches{{"off", Path::Critical::Off},
                                                 {"automatic", Path::Critical::Automatic},
                                                 {"every_step", Path::Critical::EveryStep}};
@@ -153,7 +151,7 @@ Table<Path> pathKeys(const Table<Stop>& stops, Need needStop) {
               "1: the load factor first grows, -1: falls; of model problems: its own sense, or the other"),
       real("weight", &Path::weight, check::positive,
            "w of the path parameter: of displacements against the load factor"),
-      choice("pade", optional, &Path::pade, padeUses, "where rational series stand in for polynomials"),
+      choice("pade", optional, &Path::pade, padeUses(), "where rational series stand in for polynomials"),
       choice("critical_points", optional, &Path::criticalPoints, searches,
              "which bifurcation points are looked for"),
       choice("branches", optional, &Path::branches, follows,
@@ -170,6 +168,12 @@ Table<Path> pathKeys(const Table<Stop>& stops, Need needStop) {
 }
 
 }  // namespace
+
+const Choices<path::PadeUse>& padeUses() {
+  static const Choices<path::PadeUse> choices{
+      {"off", path::PadeUse::off}, {"automatic", path::PadeUse::automatic}, {"on", path::PadeUse::on}};
+  return choices;
+}
 
 const Choices<OutputField>& outputFields() {
   static const Choices<OutputField> choices{{"displacement", OutputField::Displacement},

@@ -6,6 +6,7 @@
 #include "atrapos/path/SeriesStep.hpp"
 
 #include "support/ContactModel.hpp"
+#include "support/Derivatives.hpp"
 #include "support/Differences.hpp"
 
 using namespace atrapos;
@@ -53,26 +54,9 @@ TEST(BlockDerivatives, TangentIsTheSymmetricDerivativeOfTheResidual) {
       ASSERT_NEAR(K.value[e], K.at(K.column[e], static_cast<int>(i)), 1e-13 * largest);
 
   // Central differences along random directions: the error falls by 4.
-  for (unsigned seed = 6; seed < 9; ++seed) {
-    const Numbers v = fem::test::randomNumbers(u.size(), 1, seed);
-    const Numbers exact = K.times(v);
-    double before = 0;
-    for (int i = 0; i < 4; ++i) {
-      // Far below the distance to the laws' branch points, 2 sqrt(eta Delta/alpha) >= 0.014.
-      const double step = 4e-4 / (1 << i);
-      const Numbers plus = fem::test::residual(problem, fem::test::sum(u, step, v), 0).r;
-      const Numbers minus = fem::test::residual(problem, fem::test::sum(u, -step, v), 0).r;
-      Numbers error = fem::test::sum(plus, -1, minus);
-      for (std::size_t d = 0; d < error.size(); ++d) error[d] = error[d] / (2 * step) - exact[d];
-      const double now = fem::test::norm(error);
-      // Rounding, 1e-15/step, is 1e-11; the error itself about 1e-4 at the end.
-      if (i > 0) {
-        EXPECT_NEAR(before / now, 4.0, 0.1) << "halving " << i;
-      }
-      before = now;
-    }
-    EXPECT_LT(before, 1e-3 * fem::test::norm(exact));
-  }
+  for (unsigned seed = 6; seed < 9; ++seed)
+    // Far below the distance to the laws' branch points, 2 sqrt(eta Delta/alpha) >= 0.014.
+    expectDerivative(problem, K, u, 0, fem::test::randomNumbers(u.size(), 1, seed), 0, 4e-4);
 }
 
 // The residual along a series of order K at an equilibrium with contact falls as a^(K+1).
@@ -91,19 +75,7 @@ TEST(BlockDerivatives, ResidualOfASeriesFallsWithItsOrder) {
     path::SeriesRequest request;
     request.order = order;
     const auto series = path::buildSeries(calls, {fem::test::vectorOf(problem, u), -0.03}, request);
-    // A relative residual of about 1e-5 first: high above rounding, inside the radius.
-    auto v = fem::test::zeroVector(problem), r = fem::test::zeroVector(problem);
-    double a = 1e-3, size = 0;
-    const auto at = [&](double length) {
-      const double lambda = series.evaluate(length, *v);
-      return problem.residual(*v, lambda, *r).relative();
-    };
-    for (int i = 0; i < 60 && (size = at(a)) > 1e-6; ++i) a *= 0.8;
-    for (int i = 0; i < 60 && (size = at(a)) < 1e-6; ++i) a *= 1.1;
-    const double half = at(a / 2);
-    EXPECT_GT(half, 1e-13);  // not rounding
-    // The next term adds a (K+2)/(K+1)-th power: a few percent of the exponent.
-    EXPECT_NEAR(std::log2(size / half), order + 1, 0.1 * (order + 1)) << "order " << order << " a " << a;
+    expectOrder(problem, series, order);
   }
 }
 

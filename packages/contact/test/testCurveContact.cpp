@@ -7,6 +7,7 @@
 #include "atrapos/contact/MovingTool.hpp"
 #include "atrapos/fem/Loads.hpp"
 #include "support/ContactModel.hpp"
+#include "support/Derivatives.hpp"
 
 using namespace atrapos;
 using namespace atrapos::contact;
@@ -107,24 +108,7 @@ TEST(CurveContact, TangentIsTheSymmetricDerivativeOfTheResidual) {
     for (std::size_t e = K.start[i]; e < K.start[i + 1]; ++e)
       // Sums of some 100 rounded products.
       ASSERT_NEAR(K.value[e], K.at(K.column[e], static_cast<int>(i)), 1e-13 * largest);
-  const double rate = 0.7;
-  const Numbers v = without(fem::test::randomNumbers(dofs, 1, 6));
-  const Numbers exact = fem::test::sum(K.times(v), -rate, K.F);
-  double before = 0;
-  for (int i = 0; i < 4; ++i) {
-    const double step = 4e-3 / (1 << i);
-    const Numbers plus = fem::test::residual(problem, fem::test::sum(u, step, v), lambda + rate * step).r;
-    const Numbers minus = fem::test::residual(problem, fem::test::sum(u, -step, v), lambda - rate * step).r;
-    Numbers error = fem::test::sum(plus, -1, minus);
-    for (std::size_t d = 0; d < error.size(); ++d) error[d] = error[d] / (2 * step) - exact[d];
-    const double now = fem::test::norm(error);
-    // Rounding is 1e-14/step, 1e-11; the error itself about 1e-6 at the end.
-    if (i > 0) {
-      EXPECT_NEAR(before / now, 4.0, 0.1) << "halving " << i;
-    }
-    before = now;
-  }
-  EXPECT_LT(before, 1e-3 * fem::test::norm(exact));
+  expectDerivative(problem, K, u, lambda, without(fem::test::randomNumbers(dofs, 1, 6)), 0.7, 4e-3);
 }
 
 TEST(CurveContact, RefusesAGapBelowTheBound) {

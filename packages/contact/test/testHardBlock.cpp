@@ -8,6 +8,7 @@
 #include "atrapos/contact/MovingTool.hpp"
 #include "atrapos/path/SeriesStep.hpp"
 #include "support/ContactModel.hpp"
+#include "support/Derivatives.hpp"
 
 using namespace atrapos;
 using namespace atrapos::contact;
@@ -79,23 +80,7 @@ void tangentIsDerivative(const Tool& tool, bool symmetric) {
       if (conditions[p] == 0) v[first] = 0;
       v[first + 1] = v[first + 2] = 0;
     }
-    const double rate = 0.7;
-    const Numbers exact = fem::test::sum(K.times(v), -rate, K.F);
-    double before = 0;
-    for (int i = 0; i < 4; ++i) {
-      const double step = 4e-3 / (1 << i);
-      const Numbers plus = fem::test::residual(problem, fem::test::sum(u, step, v), lambda + rate * step).r;
-      const Numbers minus = fem::test::residual(problem, fem::test::sum(u, -step, v), lambda - rate * step).r;
-      Numbers error = fem::test::sum(plus, -1, minus);
-      for (std::size_t d = 0; d < error.size(); ++d) error[d] = error[d] / (2 * step) - exact[d];
-      const double now = fem::test::norm(error);
-      // Rounding is 1e-14/step, 1e-11; the error itself about 1e-6 at the end.
-      if (i > 0) {
-        EXPECT_NEAR(before / now, 4.0, 0.1) << "halving " << i;
-      }
-      before = now;
-    }
-    EXPECT_LT(before, 1e-3 * fem::test::norm(exact));
+    expectDerivative(problem, K, u, lambda, v, 0.7, 4e-3);
   }
 }
 
@@ -129,19 +114,8 @@ TEST(HardBlock, SeriesAndEventFunctions) {
     path::SeriesRequest request;
     request.order = order;
     const auto series = path::buildSeries(calls, {fem::test::vectorOf(problem, u), 0.06}, request);
-    auto v = fem::test::zeroVector(problem), r = fem::test::zeroVector(problem);
-    double a = 1e-3, size = 0;
-    const auto at = [&](double length) {
-      const double lambda = series.evaluate(length, *v);
-      return problem.residual(*v, lambda, *r).relative();
-    };
-    for (int i = 0; i < 60 && (size = at(a)) > 1e-6; ++i) a *= 0.8;
-    for (int i = 0; i < 60 && (size = at(a)) < 1e-6; ++i) a *= 1.1;
-    const double half = at(a / 2);
-    EXPECT_GT(half, 1e-13);  // not rounding
-    // The next term adds a (K+2)/(K+1)-th power: a few percent of the exponent.
-    EXPECT_NEAR(std::log2(size / half), order + 1, 0.1 * (order + 1)) << "order " << order << " a " << a;
-
+    const double a = expectOrder(problem, series, order);
+    auto v = fem::test::zeroVector(problem);
     const double lambda = series.evaluate(a, *v);
     const auto shown = problem.term(1).observe(fem::field(*v), lambda);
     const Numbers values = fem::FeProblem::values(*v);

@@ -5,8 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "ShellPath.hpp"
-#include "support/ContactModel.hpp"
+#include "support/StripOnRoll.hpp"
 
 using namespace atrapos;
 using namespace atrapos::contact;
@@ -16,41 +15,12 @@ using solid::test::ShellPath;
 
 namespace {
 
-constexpr int stations = 41;
-constexpr double length = 400, width = 20, thickness = 0.8;
-
-/// 20 elements times `refinement`; stations every 10 mm.
-struct Strip {
-  int refinement;
-  solid::test::ShellGrid grid;
+/// The strip with a law at every station, whose nodes share the force.
+struct Strip : StripOnRoll {
   std::unique_ptr<fem::FeProblem> problem;
-  std::vector<int> station;   ///< of each contact point
-  std::vector<double> share;  ///< part of the station's force at each contact point
-  int tip;
 
-  /// `law` acts at every station; its nodes share the force.
-  Strip(const RegularisedPressure& law, int times)
-      : refinement(times),
-        grid(solid::test::shellGrid(20 * times, 1, thickness, solid::test::flat(length, width))),
-        tip(grid.node(2 * grid.nu, 1)) {
-    fem::FeModel model = solid::test::shellModel(grid, solid::SaintVenantKirchhoff::fromYoung(220000, 0));
-    solid::test::clamp(model, grid, grid.lineI(0));
-    solid::addShellEdgeForce(grid.elements(), grid.side(1), {0, 0, -100 / width}, model.load);
-    fem::PointSet points;
-    points.nodesPerEntity = points.pointsPerEntity = points.shapeComponents = 1;
-    for (int s = 1; s < stations; ++s) {
-      const auto nodes = grid.lineI(refinement * s);
-      for (std::size_t k = 0; k < nodes.size(); ++k) {
-        points.nodes.push_back(nodes[k]);
-        points.shape.push_back(1);
-        points.weights.push_back(nodes.size() == 2 ? 0.5 : k == 1 ? 2.0 / 3 : 1.0 / 6);
-        points.positions.insert(points.positions.end(), grid.x[nodes[k]].begin(), grid.x[nodes[k]].end());
-        ++points.numEntities;
-        station.push_back(s);
-      }
-    }
-    share = points.weights;
-    addContact(model, points, Cylinder{{200, 0, -54}, {0, 1, 0}, 50}, law, 0);
+  Strip(const RegularisedPressure& law, int times) : StripOnRoll(times) {
+    addContact(model, points, roll, law, 0);
     problem = std::make_unique<fem::FeProblem>(std::move(model));
   }
 
@@ -62,13 +32,7 @@ struct Strip {
     return path;
   }
 
-  /// Force on the strip at every station in the state u.
-  Numbers stationForces(const Numbers& u) const {
-    const Numbers R = observed(*problem, 1, *fem::test::vectorOf(*problem, u), "contact_pressure");
-    Numbers forces(stations, 0.0);
-    for (std::size_t i = 0; i < R.size(); ++i) forces[station[i]] += share[i] * R[i];
-    return forces;
-  }
+  Numbers stationForces(const Numbers& u) const { return StripOnRoll::stationForces(*problem, u); }
 };
 
 struct Deviations {

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "atrapos/fem/FeProblem.hpp"
+#include "atrapos/path/Series.hpp"
+#include "support/Vectors.hpp"
+
+namespace atrapos::contact::test {
+
+using fem::test::Numbers;
+
+/// K v - rate F of the tangent at (u, lambda) against central differences of the residual, whose error must
+/// fall by 4 with every halving of the step: from `step` three times.
+inline void expectDerivative(fem::FeProblem& problem, const fem::test::Tangent& K, const Numbers& u,
+                             double lambda, const Numbers& v, double rate, double step) {
+  const Numbers exact = fem::test::sum(K.times(v), -rate, K.F);
+  double before = 0;
+  for (int i = 0; i < 4; ++i, step /= 2) {
+    const Numbers plus = fem::test::residual(problem, fem::test::sum(u, step, v), lambda + rate * step).r;
+    const Numbers minus = fem::test::residual(problem, fem::test::sum(u, -step, v), lambda - rate * step).r;
+    Numbers error = fem::test::sum(plus, -1, minus);
+    for (std::size_t d = 0; d < error.size(); ++d) error[d] = error[d] / (2 * step) - exact[d];
+    const double now = fem::test::norm(error);
+    // Rounding is 1e-14/step, about 1e-11; the error itself 1e-6 to 1e-4 at the end.
+    if (i > 0) {
+      EXPECT_NEAR(before / now, 4.0, 0.1) << "halving " << i;
+    }
+    before = now;
+  }
+  EXPECT_LT(before, 1e-3 * fem::test::norm(exact));
+}
+
+/// The relative residual along a series of this order at an equilibrium falls as a^(order + 1). Returns an a
+/// where it is 1e-6: high above rounding, inside the radius.
+inline double expectOrder(fem::FeProblem& problem, const path::Series& series, int order) {
+  auto v = fem::test::zeroVector(problem), r = fem::test::zeroVector(problem);
+  double a = 1e-3, size = 0;
+  const auto at = [&](double length) {
+    const double lambda = series.evaluate(length, *v);
+    return problem.residual(*v, lambda, *r).relative();
+  };
+  for (int i = 0; i < 60 && (size = at(a)) > 1e-6; ++i) a *= 0.8;
+  for (int i = 0; i < 60 && (size = at(a)) < 1e-6; ++i) a *= 1.1;
+  const double half = at(a / 2);
+  EXPECT_GT(half, 1e-13);  // not rounding
+  // The next term adds a (K+2)/(K+1)-th power: a few percent of the exponent.
+  EXPECT_NEAR(std::log2(size / half), order + 1, 0.1 * (order + 1)) << "order " << order << " a " << a;
+  return a;
+}
+
+}  // namespace atrapos::contact::test
