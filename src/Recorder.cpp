@@ -36,7 +36,7 @@ Recorder::Recorder(PathCase& pathCase, std::string directory, std::ostream* prog
       start_(std::chrono::steady_clock::now()) {
   const std::string beside = continued ? kBeside : "";
   const deck::Path& settings = case_.deck().path;
-  if (settings.restart && settings.branches == path::Follow::none && case_.problem().eventCount() == 0)
+  if (settings.restart && settings.branches == path::Follow::none)
     restart_.emplace(file("restart.bin") + beside);
   fields_ = case_.makeFieldFile(file(fieldsName(0)) + beside);
   watch_ = case_.makeWatch(file("events.csv") + beside);

@@ -15,7 +15,7 @@ namespace {
 /// At the head of the file: the format's name and version, and a number that tells another byte order.
 struct Head {
   char name[16] = "atrapos restart";
-  std::uint32_t version = 1, byteOrder = 0x01020304;
+  std::uint32_t version = 2, byteOrder = 0x01020304;
 };
 
 /// Fowler, Noll and Vo's hash (FNV-1a, 64 bits): sees a record that was cut or damaged.
@@ -88,6 +88,9 @@ std::string packed(const path::Start& s) {
   p.put(*s.state.u);
   p.put(*s.tangent->x.u);
   p.put(s.tangent->x.internal);
+  p.put(s.events);
+  p.put(s.due);
+  p.put(s.conditions);
   return p.bytes();
 }
 
@@ -119,6 +122,9 @@ path::Start unpacked(const std::string& record, const std::string& file,
   s.state.u = vector(u.list<double>());
   tangent.x.u = vector(u.list<double>());
   tangent.x.internal = u.list<double>();
+  s.events = u.list<int>();
+  s.due = u.list<int>();
+  s.conditions = u.list<int>();
   s.tangent = tangent;
   return s;
 }

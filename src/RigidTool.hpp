@@ -42,8 +42,13 @@ class RigidTool {
                                           const std::vector<double>& referenceGaps) const = 0;
 
   /// Adds hard contact of these points to the model: its last term, and a node behind the others for the
-  /// multiplier of each. Throws std::invalid_argument, one line, for tools that cannot have it.
+  /// multiplier of each.
   virtual void addHard(fem::FeModel& model, const fem::PointSet& points) const = 0;
+
+  /// Adds contact by law (15) with the place on its curve as unknown: the model's last term, and a node
+  /// behind the others for each point. Throws std::invalid_argument, one line, for tools that cannot have it.
+  virtual void addCurve(fem::FeModel& model, const contact::RegularisedPressure& pressure,
+                        const fem::PointSet& points, const std::vector<double>& referenceGaps) const = 0;
 
   /// The contact with law (15) where eta falls to eta exp(-s), s what the term sees as the load factor, and
   /// the tool stands where it is at `loadFactor`.

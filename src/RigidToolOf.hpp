@@ -5,6 +5,7 @@
 
 #include "RigidTool.hpp"
 #include "atrapos/contact/ContactLaw.hpp"
+#include "atrapos/contact/CurveContact.hpp"
 #include "atrapos/contact/HardContact.hpp"
 #include "atrapos/contact/MovingTool.hpp"
 #include "atrapos/contact/PatchSearch.hpp"
@@ -74,7 +75,7 @@ class RigidToolOf final : public RigidTool {
       std::vector<double> data;
       for (const double Delta : referenceGaps) data.insert(data.end(), {Delta, -1, 0, 0});
       return std::make_unique<Term>(Law{tool_, pressure}, points, data,
-                                    contact::PatchSearch<Tool>{set_, tool_});
+                                    contact::PatchSearch<Tool>{set_, tool_}.pieces(1));
     } else {
       return std::make_unique<Term>(Law{tool_, pressure}, points, referenceGaps);
     }
@@ -82,9 +83,17 @@ class RigidToolOf final : public RigidTool {
 
   void addHard(fem::FeModel& model, const fem::PointSet& points) const override {
     if constexpr (patches)
-      throw std::invalid_argument("law: hard is not for tools of type patches; use hyperbola or barrier");
+      contact::addHardContact(model, points, contact::PatchSearch<Tool>{set_, tool_});
     else
       contact::addHardContact(model, points, tool_);
+  }
+
+  void addCurve(fem::FeModel& model, const contact::RegularisedPressure& pressure,
+                const fem::PointSet& points, const std::vector<double>& referenceGaps) const override {
+    if constexpr (patches)
+      throw std::invalid_argument("curve is not for tools of type patches; expected displacement");
+    else
+      contact::addCurveContact(model, points, tool_, pressure, referenceGaps);
   }
 
   std::unique_ptr<fem::Term> sharpened(const contact::RegularisedPressure& pressure,

@@ -98,8 +98,6 @@ std::optional<Continued> continuedRun(PathCase& pathCase, const RunOptions& opti
     throw std::invalid_argument("path/branches: a run with branches cannot be restarted; expected none");
   if (!pathCase.deck().path.imperfections.empty())
     throw std::invalid_argument("path/imperfections: a run with imperfect paths cannot be restarted");
-  if (pathCase.problem().eventCount() > 0)
-    throw std::invalid_argument("a problem that changes by events cannot be restarted");
   Continued continued{options.restart, readRestart(options.restart + "/restart.bin", options.fromStep,
                                                    pathCase.problem().map())};
   if (!pathCase.deck().path.autoOrder)

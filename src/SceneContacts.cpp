@@ -59,10 +59,12 @@ void Scene::addContacts(fem::FeModel& model) {
       entry.terms.push_back(static_cast<int>(model.terms.size()));
       const auto& references = entry.references[t];
       if (entry.pressure.hard) {
+        entry.tool->addHard(model, entry.points[t]);
+      } else if (contact.unknown == deck::Contact::Unknown::Curve) {
         try {
-          entry.tool->addHard(model, entry.points[t]);
+          entry.tool->addCurve(model, *entry.pressure.regularised, entry.points[t], references);
         } catch (const std::invalid_argument& e) {
-          fail("contact/" + contact.name + "/law", e.what());
+          fail("contact/" + contact.name + "/unknown", e.what());
         }
       } else if (all) {
         model.terms.push_back(entry.tool->term(entry.pressure.law, entry.points[t], references));

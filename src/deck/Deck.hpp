@@ -266,6 +266,11 @@ struct Contact {
     Near,  ///< those that come near the tool, found along the path
     All
   };
+  /// What path following sees of a point of law (15).
+  enum class Unknown {
+    Displacement,  ///< its displacement: R is found at the point
+    Curve          ///< also the place on its curve: hyperbola and barrier, not with tools of type patches
+  };
   std::string name;
   std::string tool;
   std::string set;  ///< side set; with nodes: node set, else side set
@@ -281,6 +286,7 @@ struct Contact {
   std::optional<double> length;          ///< l > 0 of the exponential and penalty laws; empty = chosen
   std::optional<double> referenceGap;    ///< Delta > eta/alpha; empty = each point's own initial gap
   Carried carried = Carried::All;
+  Unknown unknown = Unknown::Displacement;
   /// Whether 1/alpha = 0.
   bool isRigid() const { return rigid || law == Law::Barrier; }
 };

@@ -153,10 +153,12 @@ void checkReferences(const Value& root, const Deck& deck) {
   checkBranches(root, deck);
   if (deck.path.sharpen) {
     const auto hasEta = [](const Contact& c) {
-      return c.law == Contact::Law::Hyperbola || c.law == Contact::Law::Barrier;
+      return (c.law == Contact::Law::Hyperbola || c.law == Contact::Law::Barrier) &&
+             c.unknown == Contact::Unknown::Displacement;
     };
     if (deck.contacts.empty() || !std::all_of(deck.contacts.begin(), deck.contacts.end(), hasEta)) {
-      root.at("path").at("sharpen").fail("needs contacts with the law hyperbola or barrier");
+      root.at("path").at("sharpen").fail(
+          "needs contacts with the law hyperbola or barrier and unknown: displacement");
     }
   }
   const auto& fields = deck.output.fields;

@@ -272,6 +272,17 @@ const Table<Contact>& contactTable() {
       }
     };
     using Law = ContactLaw;
+    using Unknown = Contact::Unknown;
+    auto carried =
+        choice("carried", optional, &Contact::carried,
+               Choices<Contact::Carried>{{"near", Contact::Carried::Near}, {"all", Contact::Carried::All}},
+               "by which points the law is carried: all, or those that come nearer than half of Delta");
+    carried.read = [inner = carried.read](const Value& v, Contact& s) {
+      inner(v, s);
+      if (s.carried == Contact::Carried::Near && s.unknown == Unknown::Curve) {
+        v.fail("near has no meaning with unknown: curve; expected all");
+      }
+    };
     const std::vector<Law> withDelta{Law::Hyperbola, Law::Barrier, Law::Power, Law::Exponential,
                                      Law::Penalty};
     return Table<Contact>{
@@ -295,12 +306,11 @@ const Table<Contact>& contactTable() {
                           "l over which the exponential law grows by e or the penalty's corner is smoothed"),
                {Law::Exponential, Law::Penalty}),
         ofLaws(gap, withDelta),
-        ofLaws(
-            choice(
-                "carried", optional, &Contact::carried,
-                Choices<Contact::Carried>{{"near", Contact::Carried::Near}, {"all", Contact::Carried::All}},
-                "by which points the law is carried: all, or those that come nearer than half of Delta"),
-            withDelta)};
+        ofLaws(choice("unknown", optional, &Contact::unknown,
+                      Choices<Unknown>{{"displacement", Unknown::Displacement}, {"curve", Unknown::Curve}},
+                      "of a point: its displacement alone, or also the place on the curve of its law"),
+               {Law::Hyperbola, Law::Barrier}),
+        ofLaws(carried, withDelta)};
   }();
   return table;
 }

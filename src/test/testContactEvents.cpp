@@ -95,5 +95,25 @@ TEST_F(ContactEvents, AddUpToTheActivePoints) {
             std::string::npos);
 }
 
+// The same law with its curve as unknown: the same state at the end, in less steps.
+TEST_F(ContactEvents, CurveAsUnknown) {
+  const std::string law = "tool: roll, set: z_min, points: nodes, stiffness: 1.0e6, regularisation: 1.0e-6";
+  const std::string deck = edited(kSmallDeck, "{load_factor: 0.5}", "{load_factor: 1.5}");
+  double deflection[2];
+  int steps[2];
+  std::size_t changes[2];
+  for (const int curve : {0, 1}) {
+    changes[curve] = run(edited(deck, kLaw, "{" + law + (curve == 1 ? ", unknown: curve}" : "}"))).size();
+    exodus::ResultReader results((folder_ / "deck_results" / "results.exo").string());
+    const int last = results.numSteps() - 1;
+    EXPECT_EQ(results.global(last, "load_factor"), 1.5);
+    deflection[curve] = results.nodal(last, "displ_z").back();
+    steps[curve] = last;
+  }
+  EXPECT_NEAR(deflection[1], deflection[0], 1e-7);  // residual bound 1e-8 of about 10, stiffness about 1
+  EXPECT_EQ(changes[1], changes[0]);
+  EXPECT_LT(3 * steps[1], 2 * steps[0]);
+}
+
 }  // namespace
 }  // namespace atrapos::test

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 
+#include <algorithm>
 #include <chrono>
 #include <nlohmann/json.hpp>
 #include <thread>
@@ -102,6 +103,33 @@ TEST_F(Restart, BehindAnyStepIntoAnotherFolder) {
     EXPECT_EQ(summary("again").at("restarted_behind_step"), step);
   }
   EXPECT_TRUE(snapshot(folder_ / "whole") == before);
+}
+
+// The set of active points goes on too, behind steps that end with an event and others, and where a limit of
+// steps has come before the event at the end of the last one was applied.
+TEST_F(Restart, OfHardContact) {
+  const std::string hard =
+      edited(edited(kSmallDeck, "{tool: roll, set: z_min, stiffness: 1000, regularisation: 1.0e-3}",
+                    "{tool: roll, set: z_min, points: nodes, law: hard}"),
+             "{load_factor: 0.5}", "{load_factor: 3}");
+  writeFile(folder_ / "deck.yaml", hard);
+  run({"-o", "hard"});
+  const int steps = summary("hard").at("steps");
+  const std::string events = readFile(folder_ / "hard" / "events.csv");
+  ASSERT_GT(std::count(events.begin(), events.end(), '\n'), 4) << events;
+  for (int step = 1; step < steps; ++step) {
+    SCOPED_TRACE(step);
+    writeFile(folder_ / "deck.yaml", hard);
+    run({"--restart", "hard", "--from", std::to_string(step), "-o", "again"});
+    expectSameResults(folder_ / "again", folder_ / "hard");
+    EXPECT_EQ(readFile(folder_ / "again" / "events.csv"), events);
+    writeFile(folder_ / "deck.yaml",
+              edited(hard, "{load_factor: 3}", "{load_factor: 3, steps: " + std::to_string(step) + "}"));
+    run({"-o", "part"});
+    writeFile(folder_ / "deck.yaml", hard);
+    run({"--restart", "part"});
+    EXPECT_EQ(readFile(folder_ / "part" / "path.csv"), readFile(folder_ / "hard" / "path.csv"));
+  }
 }
 
 TEST_F(Restart, WithOtherSettingsFromTheMiddle) {

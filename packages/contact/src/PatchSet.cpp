@@ -153,6 +153,13 @@ bool PatchSet::beyondEdge(const Foot& foot, const double* x) const {
 }
 
 Foot PatchSet::nearest(const double* x) const {
+  Foot best = nearestPoint(x);
+  if (beyondEdge(best, x)) best.patch = -1;
+  return best;
+}
+
+/// The nearest point of all patches, edges included.
+Foot PatchSet::nearestPoint(const double* x) const {
   std::vector<double> bounds;
   for (const Patch& patch : patches_) bounds.push_back(boxDistance(patch, x));
   std::vector<int> order(patches_.size());
@@ -166,8 +173,35 @@ Foot PatchSet::nearest(const double* x) const {
     // Of patches that share the place, the first: decided by more than rounding.
     if (foot.distance < best.distance - 1e-14 * size_) best = foot;
   }
-  if (beyondEdge(best, x)) best.patch = -1;
   return best;
+}
+
+/// Parameters this far beyond a border count as on it: the corrections of states on a border are of this size
+/// at most, and the gaps of patches that continue each other differ by its square.
+constexpr double kOnBorder = 1e-4;
+
+bool PatchSet::onEdge(const Foot& foot) const {
+  for (int d = 0; d < 2; ++d)
+    for (const int side : {0, 1})
+      if ((side == 0 ? -foot.t[d] : foot.t[d]) >= 1 - kOnBorder && !patches_[foot.patch].shared[2 * d + side])
+        return true;
+  return false;
+}
+
+std::array<double, 3> PatchSet::locate(const double* x, int preferred) const {
+  const Foot any = nearestPoint(x);
+  if (preferred < 0 || preferred >= numPatches()) {
+    if (preferred == -1 && onEdge(any)) return {-1, 0, 0};
+    return locate(x);
+  }
+  const Foot own = nearestOn(preferred, x);
+  const double trial[3] = {static_cast<double>(preferred), own.t[0], own.t[1]};
+  double y[6];
+  tool_.start(x, trial, y);
+  const bool near = std::max(std::fabs(y[4]), std::fabs(y[5])) <= 1 + kOnBorder &&
+                    own.distance <= any.distance + kOnBorder * size_ && gapAt(own, x) >= -thickness_;
+  if (!near) return locate(x);
+  return {trial[0], y[4], y[5]};
 }
 
 std::array<double, 3> PatchSet::locate(const double* x) const {

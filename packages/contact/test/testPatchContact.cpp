@@ -48,7 +48,7 @@ void addContact(fem::FeModel& model, const fem::PointSet& points, std::shared_pt
   using Law = ContactLaw<PatchTool>;
   const PatchTool tool = set->tool();
   model.terms.push_back(std::make_unique<fem::LawTerm<Law, fem::CurrentPosition>>(
-      Law{tool, pressure}, points, data, PatchSearch<PatchTool>{std::move(set), tool}));
+      Law{tool, pressure}, points, data, PatchSearch<PatchTool>{std::move(set), tool}.pieces(1)));
 }
 std::shared_ptr<const PatchSet> setOf(const std::vector<BezierPatch>& patches) {
   return std::make_shared<PatchSet>(patches);
@@ -92,8 +92,9 @@ TEST(PatchContact, SameRollThreeWays) {
   }
 }
 
-// Part of the face beyond the edge of the tool: those points carry nothing. At 0.9 of the way a pressed one
-// slides over the edge, where paths end.
+// Part of the face beyond the edge of the tool: those points carry nothing. At 0.9 of the way the body has
+// sunk beside the tool and bulges into its edge, which is no contact of points with a surface: the path ends
+// there.
 TEST(PatchContact, PointsBeyondTheEdgeCarryNothing) {
   const auto mesh = block();
   const auto points = contactPoints(mesh, "z_min", Where::Quadrature, 2);
@@ -120,6 +121,24 @@ TEST(PatchContact, PointsBeyondTheEdgeCarryNothing) {
   EXPECT_GT(over, 5);
   EXPECT_GT(pressed, 2);
   EXPECT_GT(beyond, 5);
+
+  const auto solver = linear::makeTangentSolver();
+  path::Stops stops;
+  stops.loadFactors = {1.0};
+  NoObserver observer;
+  const auto end = path::PathFollower(problem, *solver, tightOptions(), stops).run(outcome.final, observer);
+  EXPECT_EQ(end.reason, path::EndReason::problemFailed) << end.text;
+  EXPECT_NE(end.text.find("comes over an edge of its tool into its surface"), std::string::npos) << end.text;
+  // Exactly there: a point is at the edge.
+  double nearest = 1;
+  const Numbers u = fem::FeProblem::values(*end.final.u);
+  for (int p = 0; p < points.numPoints(); ++p) {
+    double x = points.positions[3 * p];
+    const int e = p / points.pointsPerEntity, N = points.nodesPerEntity;
+    for (int n = 0; n < N; ++n) x += points.shape[p * N + n] * u[3 * points.nodes[e * N + n]];
+    nearest = std::min(nearest, std::abs(x - 0.5));
+  }
+  EXPECT_LT(nearest, 1e-6);  // Newton's correction of the step's end may move it: bound of the residual 1e-10
 }
 
 /// A block whose top is pushed down and along x by a half: its points cross what is at x = 0.5 below it.
@@ -156,6 +175,83 @@ TEST_F(Slide, TwoSideBySideAreOne) {
   EXPECT_EQ(a.steps, b.steps);
   EXPECT_NEAR(b.force, a.force, 1e-9 * a.force);  // bound of the residual on the path: 1e-10
   for (std::size_t i = 0; i < a.u.size(); ++i) EXPECT_NEAR(b.u[i], a.u[i], 1e-9);
+}
+
+/// A plate that turns up into an arc at x = 0.55 with a common tangent but not the same curvature; the plate
+/// is cut at `border`.
+std::vector<BezierPatch> plateAndArc(double border) {
+  std::vector<BezierPatch> patches(3);
+  const auto plate = [](double from, double to) {
+    BezierPatch p;
+    p.points = {{from, -1, -0.05}, {from, 2, -0.05}, {to, -1, -0.05}, {to, 2, -0.05}};
+    return p;
+  };
+  patches[0] = plate(-1, border);
+  patches[1] = plate(border, 0.55);
+  patches[2].degree = {2, 1};
+  patches[2].points = {{0.55, -1, -0.05}, {0.55, 2, -0.05}, {1.3, -1, -0.05},
+                       {1.3, 2, -0.05},   {2, -1, 0.3},     {2, 2, 0.3}};
+  return patches;
+}
+
+// Pressed points cross the jump of the curvature: a step ends at the border, the next one begins on the arc.
+// Borders within the plate are none.
+TEST_F(Slide, OverAJumpOfTheCurvature) {
+  fem::FeModel one = slid(mesh), two = slid(mesh);
+  addContact(one, points, setOf(plateAndArc(0)), 1e-3);
+  addContact(two, points, setOf(plateAndArc(-0.4)), 1e-3);
+  const Result a = pathEnd(std::move(one)), b = pathEnd(std::move(two));
+  EXPECT_GT(a.force, 0.05);
+  EXPECT_NEAR(b.force, a.force, 1e-8 * a.force);  // residuals of 1e-10 at the ends of steps
+  for (std::size_t i = 0; i < a.u.size(); ++i) EXPECT_NEAR(b.u[i], a.u[i], 1e-8);
+}
+
+// Every break is at the border, and a restart from any step, behind a break too, has the same bits.
+TEST_F(Slide, BreaksAreAtTheBorderAndRestart) {
+  const auto set = setOf(plateAndArc(0));
+  const auto problem = [&] {
+    fem::FeModel model = slid(mesh);
+    addContact(model, points, set, 1e-3);
+    return fem::FeProblem(std::move(model));
+  };
+  struct Seen final : path::Observer {
+    std::vector<path::StepReport> steps;
+    bool onStep(const path::StepReport& report, const path::Series&) override {
+      steps.push_back(report);
+      return true;
+    }
+  };
+  path::Stops stops;
+  stops.loadFactors = {1.0};
+  const auto run = [&](fem::FeProblem& on, const path::Start& start, Seen& seen) {
+    const auto solver = linear::makeTangentSolver();
+    return path::PathFollower(on, *solver, tightOptions(), stops).runFrom(start, seen);
+  };
+  fem::FeProblem whole = problem();
+  Seen all;
+  path::Start start;
+  start.state = {whole.initialState(0), 0.0};
+  const auto outcome = run(whole, start, all);
+  ASSERT_EQ(outcome.reason, path::EndReason::stopReached) << outcome.text;
+  int breaks = 0;
+  for (const auto& step : all.steps) {
+    if (step.events.empty()) continue;
+    ++breaks;
+    double nearest = 1;
+    for (const double x : whole.term(1).places(fem::field(*step.end.u), step.end.lambda))
+      nearest = std::min(nearest, std::abs(x - 0.55));
+    EXPECT_LT(nearest, 1e-6);  // Newton's correction of a step's end may move it
+  }
+  EXPECT_GE(breaks, 2);
+  EXPECT_LE(outcome.steps, 60);
+  for (std::size_t s = 0; s + 1 < all.steps.size(); s += all.steps[s].events.empty() ? 6 : 2) {
+    fem::FeProblem other = problem();
+    Seen rest;
+    const auto again = run(other, all.steps[s].next, rest);
+    EXPECT_EQ(again.steps, outcome.steps);
+    EXPECT_TRUE(fem::FeProblem::values(*again.final.u) == fem::FeProblem::values(*outcome.final.u))
+        << "behind step " << s + 1;
+  }
 }
 
 /// Keeps how every step ended.

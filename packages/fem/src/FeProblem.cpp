@@ -12,6 +12,7 @@
 
 #include "CoupledSystem.hpp"
 #include "EventTerms.hpp"
+#include "PieceTerms.hpp"
 
 namespace atrapos::fem {
 
@@ -101,6 +102,7 @@ ConstField field(const Vector& u) {
 struct FeProblem::Impl {
   FeModel model;
   EventTerms events;
+  PieceTerms pieces;
   RCP<const Map> map;
   RCP<CrsMatrix> K;
   View<std::size_t*> rowStart;
@@ -332,6 +334,9 @@ struct FeProblem::Impl {
 FeProblem::FeProblem(FeModel model) : impl_(std::make_unique<Impl>(std::move(model))) {
   Vector F(impl_->map);
   tangent(*initialState(0.0), 0.0, F);  // gives the prescribed rows their size
+  impl_->pieces =
+      PieceTerms(impl_->model.terms, impl_->events.count(),
+                 [this](const Vector& u, double lambda, Vector& r) { return residual(u, lambda, r); });
   if (impl_->events.empty()) return;
   auto& events = impl_->events;
   events.setStiffness(impl_->nodalStiffness());
@@ -376,7 +381,8 @@ RCP<const CrsMatrix> FeProblem::tangent(const Vector& u, double lambda, Vector& 
   Kokkos::deep_copy(direction, impl_->load);
   for (const auto& term : impl_->model.terms)
     term->addTangent(field(u), lambda, TangentSink{impl_->rowStart, values, direction});
-  impl_->findDiagonal();
+  // Once: were it that of the last tangent, the rounding of prescribed rows would tell what came before.
+  if (impl_->diagonal == 0) impl_->findDiagonal();
   impl_->coupled.transform(impl_->rowStart, impl_->columns, values, impl_->diagonal, direction);
   impl_->applySupports(direction);
   impl_->K->fillComplete(impl_->map, impl_->map);
@@ -424,16 +430,32 @@ std::vector<int> FeProblem::eventsAt(const Vector& u, double lambda) const {
   return impl_->events.at(field(u), lambda);
 }
 
-void FeProblem::applyEvent(const std::vector<int>& indices, const Vector&, double) {
+void FeProblem::applyEvent(const std::vector<int>& indices, const Vector& u, double lambda) {
   impl_->events.apply(indices);
+  impl_->pieces.apply(indices, u, lambda);
 }
+
+path::Pieces* FeProblem::pieces() { return impl_->pieces.empty() ? nullptr : &impl_->pieces; }
 
 int FeProblem::constraintPivots() const {
   return impl_->model.numMultipliers + impl_->events.constraintPivots() +
          static_cast<int>(impl_->model.parameters.size());
 }
-std::vector<int> FeProblem::conditions() const { return impl_->events.conditions(); }
-void FeProblem::setConditions(const std::vector<int>& conditions) { impl_->events.setConditions(conditions); }
+std::vector<int> FeProblem::conditions() const {
+  std::vector<int> all = impl_->events.conditions();
+  const auto preferred = impl_->pieces.conditions();
+  all.insert(all.end(), preferred.begin(), preferred.end());
+  return all;
+}
+
+void FeProblem::setConditions(const std::vector<int>& conditions) {
+  const std::size_t events = impl_->events.count(), pieces = impl_->pieces.numPoints();
+  if (conditions.size() != events + pieces)
+    throw std::invalid_argument("conditions of " + std::to_string(conditions.size()) +
+                                " contact points, but there are " + std::to_string(events + pieces));
+  impl_->events.setConditions({conditions.begin(), conditions.begin() + events});
+  impl_->pieces.setConditions({conditions.begin() + events, conditions.end()});
+}
 
 RCP<Vector> FeProblem::initialState(double lambda) const {
   auto u = rcp(new Vector(impl_->map));

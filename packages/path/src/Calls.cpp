@@ -105,9 +105,32 @@ void Calls::applyEvent(const std::vector<int>& indices, const State& state) {
   problemCall([&] { problem_.applyEvent(indices, *state.u, state.lambda); });
 }
 
+void Calls::setConditions(const std::vector<int>& conditions) {
+  problemCall([&] { problem_.setConditions(conditions); });
+}
+
 std::vector<int> Calls::eventsAt(const State& start) {
   return problemCall([&] { return problem_.eventsAt(*start.u, start.lambda); });
 }
+
+ResidualNorm Calls::residualOfSeries(const State& state, Vector& r) {
+  Stopwatch watch(work_.seconds.residual);
+  return problemCall([&] { return problem_.pieces()->residualOfSeries(*state.u, state.lambda, r); });
+}
+
+bool Calls::eventsAstray(const State& state, const std::vector<int>& events) {
+  return problemCall([&] { return problem_.pieces()->eventsAstray(*state.u, state.lambda, events); });
+}
+
+std::vector<Break> Calls::breaks(const Series& series, double end) {
+  return problemCall([&] { return problem_.pieces()->breaks(series, end); });
+}
+
+bool Calls::continues(const State& state, int index) {
+  return problemCall([&] { return problem_.pieces()->continues(*state.u, state.lambda, index); });
+}
+
+std::string Calls::breakText(int index) const { return problem_.pieces()->text(index); }
 
 std::optional<linear::Inertia> Calls::inertia() const {
   auto inertia = solver_.inertia();

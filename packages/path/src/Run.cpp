@@ -37,6 +37,7 @@ void Run::follow(const Start& start) {
   padeFailures_ = start.padeFailures;
   padeWait_ = start.padeWait;
   try {
+    if (!start.conditions.empty()) calls_.setConditions(start.conditions);
     equilibrate();
     if (!tangent_ && applied_.empty()) due_ = calls_.eventsAt(outcome_.final);
     while (step()) {
@@ -130,8 +131,9 @@ bool Run::settle(const EndTangent* end) {
     explainStability(report, *end);
   }
   outcome_.worstResidual = std::max(outcome_.worstResidual, report.residual);
-  report.next = {outcome_.final, tangent_, outcome_.steps, outcome_.pathLength, last_->weight(), lastLength_,
-                 applied_,       due_,     order_,         padeFailures_,       padeWait_};
+  report.next = {outcome_.final, tangent_, outcome_.steps, outcome_.pathLength,           last_->weight(),
+                 lastLength_,    applied_, due_,           calls_.problem().conditions(), order_,
+                 padeFailures_,  padeWait_};
   return observer_.onStep(report, *last_);
 }
 

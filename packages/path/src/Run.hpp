@@ -50,7 +50,7 @@ class Run {
     RCP<Vector> r;        ///< R there
     double residual = 0;  ///< its relative norm
     std::optional<StopHit> stop;
-    std::vector<int> events;  ///< event functions that are zero there
+    std::vector<int> events;  ///< event functions that are zero there, and breaks
   };
 
   /// What the tangent at a step's end tells.
@@ -86,9 +86,9 @@ class Run {
   // RunEvents.cpp: where the Problem changes.
   std::vector<double> falls(const Series& series, double end) const;
   void limit(const Series& series, Trial& trial) const;
-  std::vector<int> falling(const Series& series, const std::vector<int>& candidates, double sense) const;
+  std::vector<int> falling(const Series& series, const std::vector<int>& candidates, double sense);
   std::vector<int> overdue(const Series& series) const;
-  Series seriesOfChoice();
+  Series seriesOfChoice(const std::vector<int>& chosen = {});
   Series seriesAfterEvents(StepReport& report);
   Series seriesAfterRestart();
 
@@ -99,8 +99,10 @@ class Run {
   std::optional<Trial> padeTrial(Series& series, StepReport& report);
   Trial polynomialTrial(const Series& series, StepReport& report);
   void evaluate(const Series& series, Trial& trial);
+  bool astray(const Trial& trial);
+  bool endAtBreak(const Series& series, Trial& trial);
   double startPart(double a) const;
-  double shorterBy(const Trial& trial) const;
+  double shorterBy(double a, double residual) const;
   void correct(const Series& series, Trial& trial, StepReport& report, double above);
 
   double bound() const { return options_.residualBound; }

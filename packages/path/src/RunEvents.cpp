@@ -95,22 +95,42 @@ void Run::limit(const Series& series, Trial& trial) const {
   std::sort(trial.events.begin(), trial.events.end(), [&](int i, int j) { return at[i] < at[j]; });
 }
 
-/// The candidates that fall along the series in this sense, ascending.
-std::vector<int> Run::falling(const Series& series, const std::vector<int>& candidates, double sense) const {
+/// The candidates that fall along the series in this sense, ascending. A break falls where the series leaves
+/// its piece.
+std::vector<int> Run::falling(const Series& series, const std::vector<int>& candidates, double sense) {
   const double reach = std::min(series.radius(options_.delta), options_.maxStep);
+  const int functions = series.eventCount();
   double largest = 0;
-  for (const int i : candidates) largest = std::max(largest, size(series.eventCoefficients(i), reach));
-  constexpr double rounding = 1e-12;
-  std::vector<int> violated;
   for (const int i : candidates)
-    if (!rises(series.eventCoefficients(i), sense, reach, rounding * largest)) violated.push_back(i);
+    if (i < functions) largest = std::max(largest, size(series.eventCoefficients(i), reach));
+  constexpr double rounding = 1e-12;
+  // Far enough to tell the pieces apart, near enough for the sense that the path starts in.
+  constexpr double ahead = 1e-3;
+  Trial place;
+  std::vector<int> violated;
+  for (const int i : candidates) {
+    if (i < functions) {
+      if (!rises(series.eventCoefficients(i), sense, reach, rounding * largest)) violated.push_back(i);
+      continue;
+    }
+    if (place.state.u.is_null()) {
+      const double a = sense * ahead * (std::isfinite(reach) ? reach : lastLength_);
+      place.state.u = calls_.newVector();
+      place.state.lambda = series.evaluate(a, *place.state.u);
+    }
+    if (!calls_.continues(place.state, i)) violated.push_back(i);
+  }
   return violated;
 }
 
-/// The series of the Problem as it is, in the sense that led here.
-Series Run::seriesOfChoice() {
+/// The series of the Problem as it is, in the sense that led here; `chosen` has just been applied.
+Series Run::seriesOfChoice(const std::vector<int>& chosen) {
   relaxOver_ = 0;
   residual_ = calls_.residual(outcome_.final, *r_).relative();
+  for (const int i : chosen)
+    if (!(residual_ <= 10 * bound()) && i >= calls_.problem().eventCount())
+      throw PathError(EndReason::problemFailed,
+                      line("at lambda = ", outcome_.final.lambda, ": ", calls_.breakText(i)));
   if (!(residual_ <= 10 * bound()))
     throw PathError(EndReason::problemFailed,
                     line("at lambda = ", outcome_.final.lambda,
@@ -165,7 +185,7 @@ Series Run::seriesAfterEvents(StepReport& report) {
     if (!isNew) return choice;
     calls_.applyEvent(chosen, outcome_.final);
     try {
-      const Series series = seriesOfChoice();
+      const Series series = seriesOfChoice(chosen);
       for (int s = 0; s < senses && !found; ++s) {
         choice.falls[s] = falling(series, candidates, s == 0 ? 1 : -1);
         if (choice.falls[s].empty()) found = s == 0 ? series : series.reversed();

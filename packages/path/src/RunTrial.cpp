@@ -34,11 +34,45 @@ void Run::evaluate(const Series& series, Trial& trial) {
   trial.residual = calls_.residual(trial.state, *trial.r).relative();
 }
 
+/// Whether event functions at the trial's end are those of another piece than the state lies on.
+bool Run::astray(const Trial& trial) {
+  if (!calls_.hasPieces() || calls_.problem().eventCount() == 0) return false;
+  std::vector<int> functions;
+  for (const int i : trial.events)
+    if (i < calls_.problem().eventCount()) functions.push_back(i);
+  return calls_.eventsAstray(trial.state, functions);
+}
+
+/// Ends the trial at the last break before which nothing is wrong; false where there is none.
+bool Run::endAtBreak(const Series& series, Trial& trial) {
+  const std::vector<Break> all = calls_.breaks(series, trial.a);
+  Trial best;
+  // What is wrong behind a break stays wrong: the last good one is found by halving.
+  for (std::size_t low = 0, high = all.size(); low < high;) {
+    const std::size_t middle = (low + high) / 2;
+    Trial at;
+    at.a = all[middle].a;
+    evaluate(series, at);
+    if (at.residual <= bound() && !astray(at)) {
+      best = std::move(at);
+      low = middle + 1;
+    } else {
+      high = middle;
+    }
+  }
+  if (best.a == 0) return false;
+  constexpr double together = 1e-6;
+  for (const Break& b : all)
+    if (std::abs(b.a - best.a) <= together * best.a) best.events.push_back(b.index);
+  trial = std::move(best);
+  return true;
+}
+
 /// Factor for the next trial length: the truncation error of the residual grows like a^(K+1).
-double Run::shorterBy(const Trial& trial) const {
-  if (!std::isfinite(trial.residual)) return 0.5;
-  const double start = startPart(trial.a);
-  const double truncation = trial.residual - start;
+double Run::shorterBy(double a, double residual) const {
+  if (!std::isfinite(residual)) return 0.5;
+  const double start = startPart(a);
+  const double truncation = residual - start;
   const double room = 0.5 * (correctAbove() - start);
   if (truncation <= 0 || room <= 0) return 0.5;
   return std::clamp(std::pow(room / truncation, 1.0 / (order_ + 1)), 0.1, 0.9);
@@ -85,7 +119,7 @@ std::optional<Run::Trial> Run::padeTrial(Series& series, StepReport& report) {
       evaluate(series, trial);
       inside.a = 0.7 * trial.a;
       if (trial.residual <= correctAbove()) evaluate(series, inside);
-      if (trial.residual <= correctAbove() && inside.residual <= bound()) {
+      if (trial.residual <= correctAbove() && inside.residual <= bound() && !astray(trial)) {
         padeFailures_ = 0;
         report.pade = true;
         return trial;
@@ -112,9 +146,20 @@ Run::Trial Run::polynomialTrial(const Series& series, StepReport& report) {
   double previous = std::numeric_limits<double>::infinity();  // residual of the longer trial before
   for (;;) {
     evaluate(series, trial);
-    if (trial.residual <= correctAbove()) return trial;
-    const double factor = shorterBy(trial);
-    if (trial.residual <= bound()) {
+    const bool wrong = astray(trial);
+    if (trial.residual <= correctAbove() && !wrong) return trial;
+    double ofSeries = trial.residual;
+    if (calls_.hasPieces() && (wrong || trial.residual > bound())) {
+      // Shortening cures what the truncated orders leave, not what another piece adds.
+      const auto unused = calls_.newVector();
+      ofSeries = calls_.residualOfSeries(trial.state, *unused).relative();
+      if (ofSeries <= bound() && endAtBreak(series, trial)) {
+        ++report.cutBacks;
+        return trial;
+      }
+    }
+    const double factor = shorterBy(trial.a, ofSeries);
+    if (trial.residual <= bound() && !wrong) {
       const bool shorten = !shortened && !trial.stop && trial.events.empty() && factor >= worthKeeping &&
                            startPart(factor * trial.a) < correctAbove();
       if (!shorten || trials == options_.maxCutBacks) return trial;

@@ -6,36 +6,49 @@
 #include <vector>
 
 #include "atrapos/contact/ContactLaw.hpp"
+#include "atrapos/contact/PatchSearch.hpp"
 #include "atrapos/fem/UnilateralTerm.hpp"
 
 namespace atrapos::contact {
 
 /// Hard frictionless contact of a material point with a rigid tool, as a law of fem::UnilateralTerm: the gap
-/// h
-/// >= 0, and the force along n that keeps it so (docs/theory/contact.md, Hard contact).
+/// h >= 0, and the force along n that keeps it so (docs/theory/contact.md, Hard contact).
 ///
-/// in:  current position x = X + u, multiplier r (a length), with a tool that moves also the load factor.
-/// out: -r n, h.
+/// in:   current position x = X + u, multiplier r (a length), with a tool that moves also the load factor.
+/// data: the tool's own.
+/// out:  -r n, h; 0 and 1 for a point that is over no part of the tool.
 template <class Tool>
 struct HardContactLaw {
-  static_assert(
-      detail::ToolData<Tool>::value == 0,
-      "hard contact is for tools without data of their own: a point that leaves a patch is no event");
   static constexpr int numPlace = detail::PlaceInputs<Tool>::value;
-  static constexpr int numInputs = numPlace + 1, numOutputs = 4, numData = 0;
+  static constexpr int numInputs = numPlace + 1, numOutputs = 4, numData = detail::ToolData<Tool>::value;
   static constexpr bool symmetric = Tool::symmetric;
 
   Tool tool;
 
   template <class T>
-  KOKKOS_INLINE_FUNCTION void operator()(const T* in, const taylor::Passive<T>*, T* out) const {
+  KOKKOS_INLINE_FUNCTION void operator()(const T* in, const taylor::Passive<T>* data, T* out) const {
     T place[numPlace], projection[Tool::numUnknowns];
     for (int i = 0; i < 3; ++i) place[i] = in[i];
     if constexpr (numPlace == 4) place[3] = in[4];
     for (int i = 0; i < Tool::numUnknowns; ++i) projection[i] = T(0.0);
-    taylor::solveImplicit<numPlace, Tool::numUnknowns>(tool, place, projection);
-    for (int i = 0; i < 3; ++i) out[i] = -(in[3] * projection[1 + i]);
-    out[3] = projection[0];
+    if constexpr (numData > 0) {
+      taylor::solveImplicit<numPlace, Tool::numUnknowns, numData>(tool, static_cast<const T*>(place), data,
+                                                                  projection);
+      const taylor::Passive<T> on = tool.carries(data);
+      for (int i = 0; i < 3; ++i) out[i] = -(in[3] * projection[1 + i]) * on;
+      out[3] = projection[0] * on + (1.0 - on);
+    } else {
+      taylor::solveImplicit<numPlace, Tool::numUnknowns>(tool, place, projection);
+      for (int i = 0; i < 3; ++i) out[i] = -(in[3] * projection[1 + i]);
+      out[3] = projection[0];
+    }
+  }
+
+  KOKKOS_INLINE_FUNCTION bool exists(const double* data) const {
+    if constexpr (numData > 0)
+      return tool.carries(data) != 0;
+    else
+      return true;
   }
 
   static std::vector<std::string> observedNames() { return {"contact_gap", "contact_pressure"}; }
@@ -51,6 +64,18 @@ void addHardContact(fem::FeModel& model, const fem::PointSet& points, const Tool
   using Law = HardContactLaw<Tool>;
   const fem::PointSet own = fem::withMultipliers(model, points);
   model.terms.push_back(std::make_unique<fem::UnilateralTerm<Law>>(Law{tool}, own));
+}
+
+/// The same with a set of patches, at rest (PatchTool) or moving (MovingTool<PatchTool>).
+template <class Tool>
+void addHardContact(fem::FeModel& model, const fem::PointSet& points, const PatchSearch<Tool>& search) {
+  search.tool.validate();
+  using Law = HardContactLaw<Tool>;
+  const fem::PointSet own = fem::withMultipliers(model, points);
+  std::vector<double> data;
+  for (int p = 0; p < own.numEntities; ++p) data.insert(data.end(), {-1, 0, 0});
+  model.terms.push_back(
+      std::make_unique<fem::UnilateralTerm<Law>>(Law{search.tool}, own, data, search.pieces(0)));
 }
 
 }  // namespace atrapos::contact

@@ -34,8 +34,10 @@ class PatchSet {
   Foot nearest(const double* x) const;
 
   /// The law's data of a point that is now at x: patch, t1, t2; patch = -1 also where it is deeper than the
-  /// thickness. A function of the place alone.
+  /// thickness. A function of the place alone, unless it lies on the border of patches, or on an edge: then
+  /// it is over `preferred` where that is one of them (-1 on an edge: over none).
   std::array<double, 3> locate(const double* x) const;
+  std::array<double, 3> locate(const double* x, int preferred) const;
 
   enum class Event {
     Stays,    ///< on its patch, or over none
@@ -68,6 +70,8 @@ class PatchSet {
   Foot nearestOn(int patch, const double* x) const;
   Foot descend(int patch, double t1, double t2, const double* x) const;
   double boxDistance(const Patch& patch, const double* x) const;
+  Foot nearestPoint(const double* x) const;
+  bool onEdge(const Foot& foot) const;
   bool beyondEdge(const Foot& foot, const double* x) const;
   double gapAt(const Foot& foot, const double* x) const;
   void requireNormals() const;

@@ -21,6 +21,12 @@ class EventTerm : public Term {
   /// std::invalid_argument where a point is below zero.
   virtual std::vector<int> eventsAt(const ConstField& u, double lambda) const = 0;
 
+  /// Whether event functions of the series under way are wrong at a state on it (path::Pieces::eventsAstray).
+  virtual bool eventsAstray(const ConstField& /*u*/, double /*lambda*/,
+                            const std::vector<int>& /*points*/) const {
+    return false;
+  }
+
   /// Changes these points from one condition to the other.
   virtual void applyEvent(const std::vector<int>& points) = 0;
 

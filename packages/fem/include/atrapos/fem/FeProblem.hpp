@@ -80,10 +80,11 @@ class FeProblem final : public path::Problem {
   void applyEvent(const std::vector<int>& indices, const path::Vector& u, double lambda) override;
   int constraintPivots() const override;
 
-  /// Condition of every event function, 0 (free) or 1 (active): what a path that was interrupted must be
-  /// given beside its state. Throws std::invalid_argument where the number is not eventCount().
-  std::vector<int> conditions() const;
-  void setConditions(const std::vector<int>& conditions);
+  /// Condition of every event function, 0 (free) or 1 (active), then the pieces that points prefer
+  /// (fem::PointPieces), of all terms.
+  std::vector<int> conditions() const override;
+  void setConditions(const std::vector<int>& conditions) override;
+  path::Pieces* pieces() override;
 
   /// The state at load factor lambda before any load acts: prescribed displacements, zero elsewhere.
   linear::RCP<path::Vector> initialState(double lambda) const;

@@ -1,9 +1,12 @@
 #pragma once
 
+#include <algorithm>
 #include <functional>
+#include <memory>
 #include <utility>
 
 #include "atrapos/fem/LawArrays.hpp"
+#include "atrapos/fem/PointPieces.hpp"
 
 namespace atrapos::fem {
 
@@ -59,6 +62,18 @@ class LawTerm final : public Term {
     initialData_ = data;
     seriesData_ = View<double*>("seriesData", a_.data.size());
   }
+
+  /// A law that is analytic piece by piece: which piece a point is on is part of its data.
+  LawTerm(const Law& law, const PointSet& points, const std::vector<double>& data, PieceSearch search)
+      : LawTerm(law, points, data, [this](int, const double* in, double* renewed) {
+          const std::size_t count = static_cast<std::size_t>(pieces_->numPoints()) * J;
+          const auto found = pieces_->at({in, in + count});
+          std::copy(found.begin(), found.end(), renewed);
+        }) {
+    pieces_ = std::make_unique<PointPieces>(std::move(search), points.numPoints(), data);
+  }
+  LawTerm(const LawTerm&) = delete;
+  LawTerm& operator=(const LawTerm&) = delete;
 
   int numEntities() const override { return a_.numEntities; }
   int nodesPerEntity() const override { return a_.N; }
@@ -127,7 +142,7 @@ class LawTerm final : public Term {
 
   void beginSeries(const ConstField& u, double lambda, int maxOrder) override {
     a_.reserveHistory(batches_.count, maxOrder);
-    const Arrays a = updated(u, lambda, seriesData_);
+    const Arrays a = updated(u, lambda, seriesData_, pieces_.get());
     const View<LawFailure*> failures("failures", batches_.count);
     forEachBatch(
         "beginSeries", batches_, a.order, KOKKOS_LAMBDA(int b) {
@@ -170,6 +185,25 @@ class LawTerm final : public Term {
         });
   }
 
+  PointPieces* pieces() override { return pieces_.get(); }
+  std::vector<double> places(const ConstField& u, double lambda) const override {
+    const int Q = a_.Q;
+    const Arrays a = a_;
+    const View<double*> all("inputs", static_cast<std::size_t>(a.numEntities) * Q * J);
+    forEachBatch(
+        "inputs", batches_, a.order, KOKKOS_LAMBDA(int b) {
+          Pack local[3 * kMaxNodes], in[J];
+          a.gather(b, u, local);
+          for (int q = 0; q < Q; ++q) {
+            inputs(a, b, q, local, lambda, in);
+            for (int lane = 0; lane < a.lanesIn(b); ++lane)
+              a.lanesOf(in, J, lane, &all((static_cast<std::size_t>(b * L + lane) * Q + q) * J));
+          }
+        });
+    const auto host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), all);
+    return {host.data(), host.data() + host.size()};
+  }
+
   PointValues observe(const ConstField& u, double lambda) const override {
     PointValues result;
     result.names = Law::observedNames();
@@ -205,24 +239,15 @@ class LawTerm final : public Term {
   }
 
   /// The arrays, with `data` in place of theirs and brought up to date at the state where there is an update.
-  Arrays updated(const ConstField& u, double lambda, const View<double*>& data) const {
+  /// A series that begins tells its pieces to `pieces`.
+  Arrays updated(const ConstField& u, double lambda, const View<double*>& data,
+                 PointPieces* pieces = nullptr) const {
     if (!update_) return a_;
     Arrays a = a_;
-    const int Q = a.Q;
-    const View<double*> all("inputs", static_cast<std::size_t>(a.numEntities) * Q * J);
-    forEachBatch(
-        "inputs", batches_, a.order, KOKKOS_LAMBDA(int b) {
-          Pack local[3 * kMaxNodes], in[J];
-          a.gather(b, u, local);
-          for (int q = 0; q < Q; ++q) {
-            inputs(a, b, q, local, lambda, in);
-            for (int lane = 0; lane < a.lanesIn(b); ++lane)
-              a.lanesOf(in, J, lane, &all((static_cast<std::size_t>(b * L + lane) * Q + q) * J));
-          }
-        });
-    const auto host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), all);
+    const auto in = places(u, lambda);
     std::vector<double> renewed = initialData_;
-    update_(a.numEntities * Q, host.data(), renewed.data());
+    update_(a.numEntities * a.Q, in.data(), renewed.data());
+    if (pieces) pieces->beginSeries(renewed);
     auto mirror = Kokkos::create_mirror_view(data);
     a.pack(renewed, D, batches_.count, mirror.data());
     Kokkos::deep_copy(data, mirror);
@@ -234,6 +259,7 @@ class LawTerm final : public Term {
   Batches batches_;
   Arrays a_;
   DataUpdate update_;
+  std::unique_ptr<PointPieces> pieces_;  ///< null: not in pieces
   std::vector<double> initialData_;
   View<double*> seriesData_;  ///< those of the series under way, as a_.data
 };

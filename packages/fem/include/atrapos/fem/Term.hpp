@@ -28,8 +28,11 @@ struct PointValues {
   std::vector<double> values;
 };
 
-/// One contribution F(u, lambda) to the residual: a law acting at the points of a set of entities, sum over points of
-/// B^T law(B u, lambda). Virtual once per loop, never inside it. Fields have 3 entries a node of the mesh.
+class PointPieces;
+
+/// One contribution F(u, lambda) to the residual: a law acting at the points of a set of entities, sum over
+/// points of B^T law(B u, lambda). Virtual once per loop, never inside it. Fields have 3 entries a node of
+/// the mesh.
 class Term {
  public:
   virtual ~Term() = default;
@@ -44,20 +47,26 @@ class Term {
   /// [entity][a][b], in units of entries.
   virtual void setPositions(const std::vector<int>& positions) = 0;
 
-  /// f += F(u, lambda). Returns the sum of squares of the entities' own nodal forces, before they are summed at
-  /// nodes: what equilibrium is the cancellation of.
+  /// f += F(u, lambda). Returns the sum of squares of the entities' own nodal forces, before they are summed
+  /// at nodes: what equilibrium is the cancellation of.
   virtual double addResidual(const ConstField& u, double lambda, const Field& f) const = 0;
 
   /// K += dF/du, load direction -= dF/dlambda.
   virtual void addTangent(const ConstField& u, double lambda, const TangentSink& sink) const = 0;
 
-  /// Order 0 of the series at (u, lambda); histories for orders up to maxOrder. Throws taylor::DomainError, naming the
-  /// point, where the law has no series.
+  /// Order 0 of the series at (u, lambda); histories for orders up to maxOrder. Throws taylor::DomainError,
+  /// naming the point, where the law has no series.
   virtual void beginSeries(const ConstField& u, double lambda, int maxOrder) = 0;
 
   /// Makes order k - 1, (`last`, `lastLambda`), known (k > 1; unused for k = 1), then f += order k of
   /// F(u(a), lambda(a)) with U_k = 0 and lambda_k = 0.
   virtual void addOrder(int k, const ConstField& last, double lastLambda, const Field& f) = 0;
+
+  /// The pieces that its points are on, the term's own; null where the law is analytic everywhere.
+  virtual PointPieces* pieces() { return nullptr; }
+  /// What pieces are found from, in the state (u, lambda): [point][input] (PieceSearch); empty where there
+  /// are none.
+  virtual std::vector<double> places(const ConstField& /*u*/, double /*lambda*/) const { return {}; }
 
   /// The law's named values at every point in the state (u, lambda).
   virtual PointValues observe(const ConstField& u, double lambda) const = 0;

@@ -3,13 +3,17 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <sstream>
 #include <stdexcept>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "atrapos/fem/EventTerm.hpp"
 #include "atrapos/fem/LawArrays.hpp"
 #include "atrapos/fem/Multipliers.hpp"
+#include "atrapos/fem/PointPieces.hpp"
 
 namespace atrapos::fem {
 
@@ -18,6 +22,9 @@ namespace atrapos::fem {
 ///
 /// Law (see taylor/Law.hpp): inputs (x, r) or (x, r, lambda), outputs (-r grad h, h); numObserved = 1 and
 ///     static std::vector<std::string> observedNames();   // of h and of P over the point's weight
+/// A law with data (pieces: PieceSearch) has also
+///     bool exists(const double* data) const;   // false: the point is over nothing, its gap infinite
+/// and a positive constant for h where that is false.
 /// r is the multiplier as a length: P = s r with s the body's stiffness at the point. Every point is its own
 /// entity, and its last node is that of the multiplier (`withMultipliers`). Its row reads -s h = 0 where the
 /// point is active and s r = 0 where it is free, so the graph of the tangent never changes and, where the law
@@ -68,9 +75,13 @@ class UnilateralTerm final : public EventTerm {
   };
 
  public:
-  /// `points` as withMultipliers makes them; weights only divide the force that is shown. A law's data:
-  /// [point][datum].
-  UnilateralTerm(const Law& law, const PointSet& points, const std::vector<double>& data = {})
+  /// `points` as withMultipliers makes them; weights only divide the force that is shown.
+  UnilateralTerm(const Law& law, const PointSet& points) : UnilateralTerm(law, points, {}, {}) {
+    static_assert(D == 0, "a law with data needs the search that keeps them up to date");
+  }
+
+  /// The same with a law that is analytic piece by piece. A law's data: [point][datum].
+  UnilateralTerm(const Law& law, const PointSet& points, const std::vector<double>& data, PieceSearch search)
       : entityNodes_(points.nodes),
         weights_(points.weights),
         shape_(points.shape),
@@ -85,6 +96,10 @@ class UnilateralTerm final : public EventTerm {
     a_.force = View<double*>("force", lanes);
     a_.gradient = View<double*>("gradient", 4 * lanes);
     active_.assign(a_.numEntities, 0);
+    if constexpr (D > 0) {
+      pieces_ = std::make_unique<PointPieces>(std::move(search), points.numPoints(), data);
+      seriesData_ = View<double*>("seriesData", a_.data.size());
+    }
     for (int p = 0; p < 3 * a_.numEntities; ++p) extent_ = std::max(extent_, std::abs(points.positions[p]));
   }
 
@@ -102,7 +117,7 @@ class UnilateralTerm final : public EventTerm {
   }
 
   double addResidual(const ConstField& u, double lambda, const Field& f) const override {
-    const Arrays a = a_;
+    const Arrays a = updated(u, lambda, a_.data);
     const View<double*> squares("squares", batches_.count);
     forEachBatch(
         "residual", batches_, a.order, KOKKOS_LAMBDA(int b) {
@@ -121,7 +136,7 @@ class UnilateralTerm final : public EventTerm {
   }
 
   void addTangent(const ConstField& u, double lambda, const TangentSink& sink) const override {
-    const Arrays a = a_;
+    const Arrays a = updated(u, lambda, a_.data);
     forEachBatch(
         "tangent", batches_, a.order, KOKKOS_LAMBDA(int b) {
           Pack local[3 * kMaxNodes], in[J], moduli[9], byMultiplier[3], ofGap[3];
@@ -163,7 +178,7 @@ class UnilateralTerm final : public EventTerm {
 
   void beginSeries(const ConstField& u, double lambda, int maxOrder) override {
     a_.reserveHistory(batches_.count, maxOrder);
-    const Arrays a = a_;
+    const Arrays a = updated(u, lambda, seriesData_, pieces_.get());
     const View<LawFailure*> failures("failures", batches_.count);
     forEachBatch(
         "beginSeries", batches_, a.order, KOKKOS_LAMBDA(int b) {
@@ -191,6 +206,7 @@ class UnilateralTerm final : public EventTerm {
 
   void addOrder(int k, const ConstField& last, double lastLambda, const Field& f) override {
     Arrays a = a_;
+    if (D > 0) a.data = seriesData_;
     a.block = taylor::orderBlock(k, a.maxOrder);
     forEachBatch(
         "addOrder", batches_, a.order, KOKKOS_LAMBDA(int b) {
@@ -234,13 +250,50 @@ class UnilateralTerm final : public EventTerm {
     std::copy(host.data(), host.data() + a_.numEntities, g);
   }
 
+  PointPieces* pieces() override { return pieces_.get(); }
+  std::vector<double> places(const ConstField& u, double lambda) const override {
+    if (!pieces_) return {};
+    constexpr int stride = seesLambda ? 4 : 3;
+    const Arrays a = a_;
+    const View<double*> all("places", static_cast<std::size_t>(a.numEntities) * stride);
+    forEachBatch(
+        "places", batches_, a.order, KOKKOS_LAMBDA(int b) {
+          Pack local[3 * kMaxNodes], in[J];
+          a.gather(b, u, local);
+          a.inputs(b, local, lambda, true, in);
+          for (int lane = 0; lane < a.lanesIn(b); ++lane) {
+            double* place = &all((static_cast<std::size_t>(b) * L + lane) * stride);
+            for (int i = 0; i < 3; ++i) place[i] = in[i][lane];
+            if (seesLambda) place[3] = lambda;
+          }
+        });
+    const auto host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), all);
+    return {host.data(), host.data() + host.size()};
+  }
+
+  bool eventsAstray(const ConstField& u, double lambda, const std::vector<int>& points) const override {
+    if (!pieces_) return false;
+    const auto in = places(u, lambda);
+    const auto shown = observe(u, lambda);
+    const auto stiffness = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), a_.stiffness);
+    // Roots and states are good to some digits less than coordinates; another piece is further off.
+    const double small = 1e-9 * sizeAt(u);
+    for (int p = 0; p < a_.numEntities; ++p) {
+      if (active_[p] || stiffness(p) == 0) continue;
+      if (pieces_->pieceAt(p, &in[static_cast<std::size_t>(p) * pieces_->numInputs()]) ==
+          pieces_->pieceOfSeries(p))
+        continue;
+      const double h = shown.values[2 * p];
+      const bool falls = std::find(points.begin(), points.end(), p) != points.end();
+      if (h < -small || (falls && h > small)) return true;
+    }
+    return false;
+  }
+
   std::vector<int> eventsAt(const ConstField& u, double lambda) const override {
     const auto shown = observe(u, lambda);
     auto stiffness = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), a_.stiffness);
-    const auto displacements = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), u);
-    double size = extent_;
-    for (int n : entityNodes_)
-      for (int i = 0; i < 3; ++i) size = std::max(size, std::abs(displacements(3 * n + i)));
+    const double size = sizeAt(u);
     // Coordinates and the tool's equations are rounded to a few units of 1e-16 of the size; meshes read from
     // files in single precision are not meant to touch exactly.
     const double touching = 1e-11 * size;
@@ -299,7 +352,7 @@ class UnilateralTerm final : public EventTerm {
   PointValues observe(const ConstField& u, double lambda) const override {
     PointValues result;
     result.names = Law::observedNames();
-    const Arrays a = a_;
+    const Arrays a = updated(u, lambda, a_.data);
     View<double*> values("observed", 2 * static_cast<std::size_t>(a_.numEntities));
     forEachBatch(
         "observe", batches_, a.order, KOKKOS_LAMBDA(int b) {
@@ -308,7 +361,7 @@ class UnilateralTerm final : public EventTerm {
           a.inputs(b, local, lambda, true, in);
           a.evaluate(b, 0, in, out);
           for (int lane = 0; lane < a.lanesIn(b); ++lane) {
-            values(2 * (b * L + lane)) = out[3][lane];
+            values(2 * (b * L + lane)) = shownGap(a, b, lane, out[3][lane]);
             values(2 * (b * L + lane) + 1) = a.stiffness(b * L + lane) * in[3][lane];
           }
         });
@@ -319,6 +372,39 @@ class UnilateralTerm final : public EventTerm {
   }
 
  private:
+  /// The arrays, with `data` in place of theirs and brought up to date at the state where points are on
+  /// pieces. A series that begins tells its pieces to `pieces`.
+  Arrays updated(const ConstField& u, double lambda, const View<double*>& data,
+                 PointPieces* pieces = nullptr) const {
+    if (!pieces_) return a_;
+    const auto renewed = pieces_->at(places(u, lambda));
+    if (pieces) pieces->beginSeries(renewed);
+    auto mirror = Kokkos::create_mirror_view(data);
+    a_.pack(renewed, D, batches_.count, mirror.data());
+    Kokkos::deep_copy(data, mirror);
+    Arrays a = a_;
+    a.data = data;
+    return a;
+  }
+
+  KOKKOS_INLINE_FUNCTION static double shownGap(const Arrays& a, int b, int lane, double h) {
+    if constexpr (D > 0) {
+      double data[D];
+      a.lanesOf(a.dataAt(b, 0), D, lane, data);
+      if (!a.law.exists(data)) return std::numeric_limits<double>::infinity();
+    }
+    return h;
+  }
+
+  /// The largest coordinate and displacement.
+  double sizeAt(const ConstField& u) const {
+    const auto displacements = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), u);
+    double size = extent_;
+    for (int n : entityNodes_)
+      for (int i = 0; i < 3; ++i) size = std::max(size, std::abs(displacements(3 * n + i)));
+    return size;
+  }
+
   void uploadConditions() {
     std::vector<double> on(a_.active.size(), 0.0);
     std::copy(active_.begin(), active_.end(), on.begin());
@@ -329,8 +415,10 @@ class UnilateralTerm final : public EventTerm {
   std::vector<double> weights_, shape_;
   Batches batches_;
   Arrays a_;
-  std::vector<int> active_;  ///< [point]
-  double extent_ = 0;        ///< largest coordinate
+  std::unique_ptr<PointPieces> pieces_;  ///< null: not in pieces
+  View<double*> seriesData_;             ///< those of the series under way, as a_.data
+  std::vector<int> active_;              ///< [point]
+  double extent_ = 0;                    ///< largest coordinate
 };
 
 }  // namespace atrapos::fem

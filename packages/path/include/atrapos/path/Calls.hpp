@@ -1,5 +1,6 @@
 #pragma once
 
+#include "atrapos/path/Pieces.hpp"
 #include "atrapos/path/Report.hpp"
 
 namespace atrapos::path {
@@ -39,7 +40,16 @@ class Calls {
   /// Coefficient k of the Problem's event functions.
   std::vector<double> eventOrder(int k);
   void applyEvent(const std::vector<int>& indices, const State& state);
+  void setConditions(const std::vector<int>& conditions);
   std::vector<int> eventsAt(const State& start);
+
+  /// Those of the Problem; call the other three only where there are some.
+  bool hasPieces() const { return problem_.pieces() != nullptr; }
+  ResidualNorm residualOfSeries(const State& state, Vector& r);
+  bool eventsAstray(const State& state, const std::vector<int>& events);
+  std::vector<Break> breaks(const Series& series, double end);
+  bool continues(const State& state, int index);
+  std::string breakText(int index) const;
 
   /// Of the last factorization, without the pivots owed to constraints.
   std::optional<linear::Inertia> inertia() const;

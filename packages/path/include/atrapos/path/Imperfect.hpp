@@ -38,6 +38,8 @@ class ImperfectProblem : public Problem {
   std::vector<int> eventsAt(const Vector& u, double lambda) const override {
     return perfect_.eventsAt(u, lambda);
   }
+  std::vector<int> conditions() const override { return perfect_.conditions(); }
+  void setConditions(const std::vector<int>& conditions) override { perfect_.setConditions(conditions); }
   int constraintPivots() const override { return perfect_.constraintPivots(); }
   double inner(const Increment& x, const Increment& y) const override { return perfect_.inner(x, y); }
   double weight(const Increment& Xhat, std::optional<double> given) override {

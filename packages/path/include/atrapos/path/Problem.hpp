@@ -25,6 +25,8 @@ struct Increment {
   std::vector<double> internal;
 };
 
+class Pieces;
+
 /// What path following needs from any physics: R(U, lambda) = 0 and its series.
 ///
 /// With U(a) = sum a^k U_k and lambda(a) = sum a^k lambda_k around a solution, order k of R is linear in
@@ -83,8 +85,18 @@ class Problem {
   /// These event functions have fallen to zero at (u, lambda): the Problem changes (a gap closes and becomes
   /// a constraint, a force vanishes and sets a point free). (u, lambda) solves the changed Problem too, the
   /// map and the graph stay, and the functions of these indices are others that start at zero. Called again
-  /// with the same indices it changes back.
+  /// with the same indices it changes back. Indices from eventCount() on are those of breaks (pieces()).
   virtual void applyEvent(const std::vector<int>& /*indices*/, const Vector& /*u*/, double /*lambda*/) {}
+
+  /// What events have made of the Problem, as numbers: those of StepReport::next, given to setConditions, let
+  /// an interrupted path go on. Empty where it never changes. setConditions throws std::invalid_argument, one
+  /// line, where they cannot be this Problem's.
+  virtual std::vector<int> conditions() const { return {}; }
+  virtual void setConditions(const std::vector<int>& /*conditions*/) {}
+
+  /// Where the Problem is analytic piece by piece only; null: everywhere between its events. The object is
+  /// the Problem's own.
+  virtual Pieces* pieces() { return nullptr; }
 
   /// Negative pivots of K_T that are owed to constraints with multipliers among the unknowns: they say
   /// nothing about stability and are not counted.

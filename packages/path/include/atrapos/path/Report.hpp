@@ -66,6 +66,7 @@ struct Start {
   double length = 0;                   ///< of the step that led here; 0: none
   std::vector<int> events;             ///< applied at this state: their functions are zero here
   std::vector<int> due;                ///< not applied yet at this state, and their functions are zero here
+  std::vector<int> conditions;         ///< Problem::conditions() at this state; empty: as the Problem is
   int order = 0;                       ///< of the series to come; 0: Options::order
   int padeFailures = 0, padeWait = 0;  ///< when the rational form is tried again
 };
@@ -89,8 +90,9 @@ struct StepReport {
   std::optional<linear::Inertia> inertiaEnd;  ///< and at its end, i.e. the next step's start
   std::vector<LimitPoint> limitPoints;
   std::vector<Extremum> extrema;  ///< of the monitors, ascending in a
-  /// Event functions that fell to zero at the step's end and were applied: the Problem is the changed one
-  /// already. An observer that evaluates it inside the step applies them again before, and once more after.
+  /// Event functions that fell to zero at the step's end, or breaks there (indices from Problem::eventCount()
+  /// on; see Pieces), that were applied: the Problem is the changed one already. An observer that evaluates
+  /// it inside the step applies them again before, and once more after.
   std::vector<int> events;
   std::vector<CriticalPoint> criticalPoints;  ///< bifurcation points inside the step, ascending
   /// Eigenvalues that changed sign inside the step and are explained by no point found: the tangent says that
