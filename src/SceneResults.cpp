@@ -13,6 +13,15 @@ namespace {
 
 int componentIndex(deck::Component c) { return static_cast<int>(c); }
 
+int nearestNode(const fem::Mesh& mesh, const std::vector<int>& nodes, const deck::Vector3& place) {
+  const auto distance = [&](int n) {
+    const double* x = &mesh.coordinates[3 * static_cast<std::size_t>(n)];
+    return std::hypot(x[0] - place[0], x[1] - place[1], x[2] - place[2]);
+  };
+  return *std::min_element(nodes.begin(), nodes.end(),
+                           [&](int a, int b) { return distance(a) < distance(b); });
+}
+
 }  // namespace
 
 void Scene::addMonitors() {
@@ -20,7 +29,8 @@ void Scene::addMonitors() {
     linear::RCP<path::Vector> weights;
     if (const auto* m = std::get_if<deck::DisplacementMonitor>(&monitor.quantity)) {
       weights = linear::rcp(new path::Vector(problem_->map()));
-      const auto nodes = nodesOf(m->set);
+      auto nodes = nodesOf(m->set);
+      if (m->near) nodes = {nearestNode(mesh_, nodes, *m->near)};
       const double each = m->reduce == deck::DisplacementMonitor::Reduce::Mean ? 1.0 / nodes.size() : 1.0;
       for (int n : nodes) weights->sumIntoLocalValue(3 * n + componentIndex(m->component), each);
     }

@@ -352,6 +352,7 @@ struct DisplacementMonitor {
   std::string set;  ///< node set, else side set
   Component component = Component::X;
   Reduce reduce = Reduce::Mean;  ///< over the set's nodes
+  std::optional<Vector3> near;   ///< only the node of the set that is nearest to it before deformation
 };
 
 /// Total contact force on the tool's side of a contact: the sum of the normal forces, or a component of the

@@ -110,6 +110,19 @@ Field<fem::ShellSphereOptions> shellLatitude() {
   return latitude;
 }
 
+/// The plane in which a cylinder goes on; printed only where there is one.
+template <class S>
+Table<S> tangentPlane() {
+  auto length = real("tangent", optional, &S::tangent, check::positive,
+                     "length of a plane that continues the cylinder at the last angle");
+  auto count = integer("tangent_divisions", optional, &S::tangentDivisions, check::count,
+                       "cells along the tangent plane, besides those of divisions");
+  for (auto* field : {&length, &count}) {
+    field->print = [inner = field->print](const S& s) { return s.tangent > 0 ? inner(s) : Node{}; };
+  }
+  return {length, count};
+}
+
 /// The middle surfaces of shells, in the order of Generate.
 void addShells(Variants<GenerateInput, Generate>& v) {
   using Plate = fem::ShellPlateOptions;
@@ -133,16 +146,24 @@ void addShells(Variants<GenerateInput, Generate>& v) {
                              "power with which elements grow from the edges inwards"),
                         attributeThickness<Plate>()},
                        "length, width", shellCells())));
+  Table<Cylinder> cylinder{
+      real("radius", required, &Cylinder::radius, check::positive, "of the middle surface"),
+      range("theta", &Cylinder::thetaMin, &Cylinder::thetaMax, "first and last angle, degrees from z to x"),
+      real("length", required, &Cylinder::length, check::positive, "along y"),
+      real("y_min", optional, &Cylinder::yMin, check::any, "where the length begins"),
+      slit<Cylinder>(),
+      attributeThickness<Cylinder>()};
+  for (auto& field : tangentPlane<Cylinder>()) cylinder.push_back(std::move(field));
   v.alternatives.push_back(alternative<Generate, Cylinder>(
-      "shell_cylinder",
-      withCells<Cylinder>(
-          {real("radius", required, &Cylinder::radius, check::positive, "of the middle surface"),
-           range("theta", &Cylinder::thetaMin, &Cylinder::thetaMax,
-                 "first and last angle, degrees from z to x"),
-           real("length", required, &Cylinder::length, check::positive, "along y"),
-           real("y_min", optional, &Cylinder::yMin, check::any, "where the length begins"), slit<Cylinder>(),
-           attributeThickness<Cylinder>()},
-          "theta, y", shellCells())));
+      "shell_cylinder", withCells<Cylinder>(std::move(cylinder), "theta, y", shellCells()),
+      [](const Value& map, const Cylinder& s) {
+        if ((s.tangent > 0) != (s.tangentDivisions > 0)) {
+          map.fail("tangent and tangent_divisions come together");
+        }
+        if (s.tangent > 0 && s.thetaMax - s.thetaMin == 360 && !s.slit) {
+          map.at("tangent").fail("a closed cylinder has no tangent plane");
+        }
+      }));
   v.alternatives.push_back(alternative<Generate, Annulus>(
       "shell_annulus",
       withCells<Annulus>(

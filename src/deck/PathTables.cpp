@@ -17,21 +17,32 @@ const Choices<Component>& axes() {
   return choices;
 }
 
-Field<ContactForceMonitor> nearestPoint() {
+/// A place of which a monitor sees the nearest point only.
+template <class M>
+Field<M> nearestPoint(std::string meaning) {
   return {"near",
           false,
           "a list of 3 numbers",
-          "only the point nearest to this place of the undeformed body",
-          [](const Value& v, ContactForceMonitor& s) {
-            if (s.component != Component::Normal) {
-              v.fail("has a meaning with component: normal only");
-            }
+          std::move(meaning),
+          [](const Value& v, M& s) {
             const auto x = v.reals(3);
             s.near = Vector3{x[0], x[1], x[2]};
           },
-          [](const ContactForceMonitor& s) {
+          [](const M& s) {
             return s.near ? Node{yamlList(*s.near), {}} : Node{};
           }};
+}
+
+Field<ContactForceMonitor> nearestContactPoint() {
+  auto field =
+      nearestPoint<ContactForceMonitor>("only the point nearest to this place of the undeformed body");
+  field.read = [inner = field.read](const Value& v, ContactForceMonitor& s) {
+    if (s.component != Component::Normal) {
+      v.fail("has a meaning with component: normal only");
+    }
+    inner(v, s);
+  };
+  return field;
 }
 
 /// One number, or a list of them.
@@ -233,13 +244,15 @@ const Variants<Monitor, decltype(Monitor::quantity)>& monitorVariants() {
            {name("set", required, &DisplacementMonitor::set, "a node set or side set, name or id",
                  "its nodes"),
             choice("component", required, &DisplacementMonitor::component, axes(), "which displacement"),
-            choice("reduce", optional, &DisplacementMonitor::reduce, reductions, "over the set's nodes")}),
+            choice("reduce", optional, &DisplacementMonitor::reduce, reductions, "over the set's nodes"),
+            nearestPoint<DisplacementMonitor>(
+                "only the set's node nearest to this place of the undeformed body")}),
        alternative<V, ContactForceMonitor>(
            "contact_force",
            {name("contact", required, &ContactForceMonitor::contact, "the name of a contact", "whose force"),
             choice("component", optional, &ContactForceMonitor::component, allComponents(),
                    "normal: sum of the normal forces; x, y, z: of their resultant on the body"),
-            nearestPoint()}),
+            nearestContactPoint()}),
        alternative<V, ReactionMonitor>(
            "reaction", {name("support", required, &ReactionMonitor::support, "the name of a support",
                              "whose force on the body"),

@@ -194,7 +194,7 @@ output:
   fields: [contact, displacement]
   monitors:
     u: {type: displacement, set: n, component: z, reduce: sum}
-    v: {type: displacement, set: n, component: y}
+    v: {type: displacement, set: n, component: y, near: [1, 2, 3]}
     f: {type: contact_force, contact: foot}
     fx: {type: contact_force, contact: foot, component: x}
     r: {type: reaction, support: held, component: z}
@@ -249,6 +249,7 @@ output:
   ASSERT_EQ(deck.output.monitors.size(), 5u);
   EXPECT_EQ(std::get<DisplacementMonitor>(deck.output.monitors[0].quantity).reduce,
             DisplacementMonitor::Reduce::Sum);
+  EXPECT_EQ(std::get<DisplacementMonitor>(deck.output.monitors[1].quantity).near, (Vector3{1, 2, 3}));
   EXPECT_EQ(std::get<ContactForceMonitor>(deck.output.monitors[2].quantity).contact, "foot");
   EXPECT_EQ(std::get<ContactForceMonitor>(deck.output.monitors[2].quantity).component, Component::Normal);
   EXPECT_EQ(std::get<ContactForceMonitor>(deck.output.monitors[3].quantity).component, Component::X);

@@ -160,6 +160,15 @@ TEST(ShellDeck, everyShapeReadsItsKeys) {
   EXPECT_EQ(cylinder.thetaMin, -40);
   EXPECT_EQ(cylinder.yMin, -1);
   EXPECT_TRUE(cylinder.slit);
+  EXPECT_EQ(cylinder.tangentDivisions, 0);
+  const auto onRoll = std::get<fem::ShellCylinderOptions>(shape(
+      "shape: shell_cylinder, radius: 5, theta: [-90, 0], length: 7, tangent: 10, tangent_divisions: 6, "
+      "divisions: [3, 4]"));
+  EXPECT_EQ(onRoll.tangent, 10);
+  EXPECT_EQ(onRoll.tangentDivisions, 6);
+  const std::string roll = "shape: shell_cylinder, radius: 5, length: 7, divisions: [3, 4], theta: ";
+  EXPECT_THROW(shape(roll + "[-90, 0], tangent: 10"), std::exception);
+  EXPECT_THROW(shape(roll + "[-90, 270], tangent: 10, tangent_divisions: 6"), std::exception);
   const auto annulus = std::get<fem::ShellAnnulusOptions>(
       shape("shape: shell_annulus, inner_radius: 6, outer_radius: 10, angle: [0, 360], divisions: [3, 12]"));
   EXPECT_EQ(annulus.outerRadius, 10);
@@ -171,11 +180,12 @@ TEST(ShellDeck, everyShapeReadsItsKeys) {
 }
 
 TEST(ShellDeck, describedDeckReadsBack) {
-  for (const std::string& text : {std::string(goodDeck), changed("thickness: 0.25", "thickness: attribute"),
-                                  changed("shape: shell_plate, length: 10, width: 2, divisions: [5, 1]",
-                                          "shape: shell_cylinder, radius: 5, theta: [-40, 40], length: 7, "
-                                          "thickness: 0.1, divisions: [3, 4]"),
-                                  changed("condition: clamped", "condition: hinged")}) {
+  for (const std::string& text :
+       {std::string(goodDeck), changed("thickness: 0.25", "thickness: attribute"),
+        changed("shape: shell_plate, length: 10, width: 2, divisions: [5, 1]",
+                "shape: shell_cylinder, radius: 5, theta: [-40, 40], length: 7, "
+                "thickness: 0.1, tangent: 2, tangent_divisions: 5, divisions: [3, 4]"),
+        changed("condition: clamped", "condition: hinged")}) {
     std::ostringstream first, second;
     describe(readDeckText(text, "shell.yaml"), first);
     describe(readDeckText(first.str(), "shell.yaml"), second);

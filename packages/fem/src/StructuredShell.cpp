@@ -245,13 +245,25 @@ Mesh shellCylinderMesh(const ShellCylinderOptions& options) {
   requireAngles(options.thetaMin, options.thetaMax, options.divisions[0], kind, "theta");
   requirePositive(options.length, kind, "length");
   requireFinite(options.yMin, kind, "yMin");
+  require(std::isfinite(options.tangent) && options.tangent >= 0, kind,
+          "tangent must not be below 0, got " + std::to_string(options.tangent));
+  require(options.tangent > 0 ? options.tangentDivisions >= 1 : options.tangentDivisions == 0, kind,
+          "tangent and tangentDivisions come together, got " + std::to_string(options.tangent) + " and " +
+              std::to_string(options.tangentDivisions));
   surface.closed[0] = options.thetaMax - options.thetaMin == 360 && !options.slit;
+  require(!surface.closed[0] || options.tangent == 0, kind, "a closed cylinder has no tangent plane");
+  surface.divisions[0] += options.tangentDivisions;
   surface.names = {{{"theta_min", "theta_max", "theta_mid"}, {"y_min", "y_max", "y_mid"}}};
   surface.faces = {"outer", "inner"};
   surface.position = [&](double a, double b) {
-    const double theta = radiansPerDegree * between(options.thetaMin, options.thetaMax, a);
-    return Point{options.radius * std::sin(theta), options.yMin + b * options.length,
-                 options.radius * std::cos(theta)};
+    // Half elements along both parts, counted: the border between them is exact.
+    const double at = std::round(2 * a * surface.divisions[0]), arc = 2 * options.divisions[0],
+                 beyond = at > arc ? options.tangent * ((at - arc) / (2 * options.tangentDivisions)) : 0,
+                 theta =
+                     radiansPerDegree * between(options.thetaMin, options.thetaMax, std::min(at / arc, 1.0));
+    return Point{options.radius * std::sin(theta) + beyond * std::cos(theta),
+                 options.yMin + b * options.length,
+                 options.radius * std::cos(theta) - beyond * std::sin(theta)};
   };
   return SurfaceMesher(surface).build();
 }

@@ -301,6 +301,31 @@ TEST(StructuredShell, GradedPlate) {
   EXPECT_THROW(shellPlateMesh(options), std::invalid_argument);
 }
 
+TEST(StructuredShell, TangentPlaneContinuesACylinder) {
+  for (Topology cell : shells) {
+    auto o = cylinder(cell);
+    o.tangent = 5;
+    o.tangentDivisions = 3;
+    const Mesh mesh = shellCylinderMesh(o);
+    EXPECT_EQ(mesh.numElements(), (4 + 3) * 6);
+    const double c = std::cos(40 * pi / 180), s = std::sin(40 * pi / 180);
+    double last = 0;
+    for (int n = 0; n < mesh.numNodes(); ++n) {
+      const double x = mesh.coordinates[3 * n], z = mesh.coordinates[3 * n + 2];
+      const double along = x * c - z * s, across = x * s + z * c;  // of the plane, from its foot on the axis
+      last = std::max(last, along);
+      EXPECT_NEAR(along > 0 ? across : std::hypot(x, z), 10, 1e-13);  // rounding
+    }
+    EXPECT_NEAR(last, 5, 1e-13);
+    // The plane's elements are exact; the arc's are those without it.
+    EXPECT_NEAR(area(mesh, "outer"), area(shellCylinderMesh(cylinder(cell)), "outer") + 5 * 7, 1e-11);
+    for (const NodeSet& set : mesh.nodeSets)
+      if (set.name == "theta_max")
+        for (int n : set.nodes)
+          EXPECT_NEAR(mesh.coordinates[3 * n] * c - mesh.coordinates[3 * n + 2] * s, 5, 1e-13);
+  }
+}
+
 TEST(StructuredShell, BadNumbersThrow) {
   const auto throws = [](auto mesher, auto options) { EXPECT_THROW(mesher(options), std::invalid_argument); };
   auto p = plate();
@@ -323,6 +348,15 @@ TEST(StructuredShell, BadNumbersThrow) {
   throws(shellCylinderMesh, c);
   c.thetaMax = c.thetaMin + 361;
   throws(shellCylinderMesh, c);
+  c = cylinder();
+  c.tangent = 1;
+  throws(shellCylinderMesh, c);  // without divisions
+  c.tangent = -1;
+  c.tangentDivisions = 1;
+  throws(shellCylinderMesh, c);
+  c.tangent = 1;
+  c.thetaMax = c.thetaMin + 360;
+  throws(shellCylinderMesh, c);  // closed
   c = cylinder();
   c.thetaMax = c.thetaMin + 91;
   c.divisions = {1, 1};

@@ -48,13 +48,17 @@ Mesh shellPlateMesh(const ShellPlateOptions& options);
 
 /// A circular cylinder about the y axis, (x, z) = r (sin theta, cos theta): theta = 0 is the crown of a roof
 /// with z upwards. The normal points outwards. At most 90 degrees a cell; 360 degrees close the cylinder.
+/// With a `tangent` it goes on at thetaMax as a plane, tangent to it, up to theta_max: a strip that leaves a
+/// roll.
 struct ShellCylinderOptions {
   double radius = 1.0;
   double thetaMin = 0.0;   ///< degrees
   double thetaMax = 90.0;  ///< degrees
   double length = 1.0;     ///< along y, from yMin
   double yMin = 0.0;
-  bool slit = false;  ///< 360 degrees stay open: two edges at the same place
+  bool slit = false;         ///< 360 degrees stay open: two edges at the same place
+  double tangent = 0.0;      ///< length of the plane, at least 0
+  int tangentDivisions = 0;  ///< along it, besides those along theta
   double thickness = 0.0;
   std::array<int, 2> divisions{1, 1};  ///< along theta, y
   Topology topology = Topology::Shell8;
