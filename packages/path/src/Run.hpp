@@ -79,6 +79,8 @@ class Run {
   EndTangent closeEnd();
 
   // RunCritical.cpp: what the step passed.
+  bool turnsAside(const Series& series) const;
+  bool sharpenState(const Series& series);
   void clean(Series& series);
   void explainStability(StepReport& report, const EndTangent& end);
   std::vector<Mode> modesHere(const PathTangent& along, double weight);

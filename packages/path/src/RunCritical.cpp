@@ -6,21 +6,70 @@
 
 #include "Critical.hpp"
 #include "GeometricProgression.hpp"
+#include "Newton.hpp"
 #include "Run.hpp"
 
 namespace atrapos::path {
 
-/// Next to a bifurcation point the residual of the start, an imperfection of the size of the bound, turns the
-/// path away from its branch: the late terms are a geometric progression and the steps shrink towards the
-/// point. The progression is taken out by the small force that makes the opposite one; what is left passes
-/// the point. The residual, which that force enters, decides about its length as about any other.
+/// Whether the series is that of a path turned away by its residual: the steps shrink towards a point ahead
+/// and the late terms are a geometric progression.
+bool Run::turnsAside(const Series& series) const {
+  if (!options_.criticalPoints || !last_ || series.eventCount() > 0) return false;
+  constexpr double shrinks = 0.6, ratioBound = 1e-3, perpBound = 0.3;
+  if (!(series.radius(options_.delta) < shrinks * lastLength_)) return false;
+  return geometricProgression(calls_.problem(), series, ratioBound, perpBound).has_value();
+}
+
+/// Next to a bifurcation point the residual of the state, an imperfection of the size of the bound, excites the
+/// null vector by r / mu, mu the eigenvalue that is about to vanish. Newton iterations with the factorization
+/// that the solver holds take it away. False where they do not: all stays as it is. True: the state has moved
+/// a little, and its series wants a factorization of its own, which counts as that of a correction.
+bool Run::sharpenState(const Series& series) {
+  if (!pending_ || !due_.empty() || !applied_.empty()) return false;
+  const Border border = holdPathParameter(calls_.problem(), series.weight(), *tangent_);
+  auto F = calls_.newVector(), x1 = calls_.newVector(), x2 = calls_.newVector();
+  State state{copy(*outcome_.final.u), outcome_.final.lambda};
+  auto r = copy(*r_);
+  double residual = residual_;
+  constexpr int maxIterations = 5;
+  try {
+    calls_.tangent(state, *F);
+    calls_.solve(*F, *x2);
+    for (int i = 0; i < maxIterations; ++i) {
+      calls_.solve(*r, *x1);
+      const double dLambda = border.c(x1) / (border.c(x2) + border.cLambda);
+      State trial{copy(*state.u), state.lambda + dLambda};
+      trial.u->update(-1, *x1, dLambda, *x2, 1);
+      auto left = calls_.newVector();
+      const double now = calls_.residual(trial, *left).relative();
+      constexpr double falls = 0.1;  // less is rounding, or the tangent's own change
+      if (!(now < falls * residual)) break;
+      state = trial;
+      r = left;
+      residual = now;
+    }
+  } catch (const PathError&) {
+    return false;
+  }
+  constexpr double useful = 1e-2;  // the excitation falls as the residual does
+  if (!(residual < useful * residual_)) return false;
+  outcome_.final = pending_->end = state;
+  pending_->lambdaEnd = state.lambda;
+  residual_ = pending_->residual = residual;
+  r_ = r;
+  ++pending_->corrections;
+  ++outcome_.corrections;
+  return true;
+}
+
+/// What a residual that cannot be corrected away does to the late terms is taken out by the small force that
+/// makes the opposite progression; what is left passes the point. The residual, which that force enters,
+/// decides about its length as about any other.
 void Run::clean(Series& series) {
-  if (!options_.criticalPoints || !last_ || series.eventCount() > 0) return;
+  if (!turnsAside(series)) return;
+  constexpr double gains = 1.5;
   const double radius = series.radius(options_.delta);
-  constexpr double shrinks = 0.6, ratioBound = 1e-3, perpBound = 0.3, gains = 1.5;
-  if (!(radius < shrinks * lastLength_)) return;
   const auto& problem = calls_.problem();
-  if (!geometricProgression(problem, series, ratioBound, perpBound)) return;
   const int N = series.order();
   std::optional<Series> made;
   try {
