@@ -52,7 +52,7 @@ bool Run::step() {
     return end(EndReason::stepLimit, line("the limit of ", options_.maxSteps, " steps is reached"));
   StepReport report;
   Series series = nextSeries(report);
-  if (turnsAside(series) && sharpenState(series)) series = nextSeries(report);
+  if (sharpenState(series)) series = nextSeries(report);
   EndTangent tangent{calls_.inertia(), series.lambdaCoefficient(1), {}};
   tangent.modes = modesHere({series.coefficient(1), series.lambdaCoefficient(1)}, series.weight());
   // After an event the tangent is that of the changed problem and says nothing about the step before.

@@ -79,7 +79,7 @@ class Run {
   EndTangent closeEnd();
 
   // RunCritical.cpp: what the step passed.
-  bool turnsAside(const Series& series) const;
+  std::optional<double> progressionPole(const Series& series) const;
   bool sharpenState(const Series& series);
   void clean(Series& series);
   void explainStability(StepReport& report, const EndTangent& end);
