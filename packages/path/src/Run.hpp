@@ -125,6 +125,7 @@ class Run {
   double lastLength_ = 0;  ///< of the last accepted step; 0 before the first
   double lastEnd_ = 0;     ///< where the state is on the last series; > lastLength_ after a singularity
   int order_ = 0;          ///< of the next series
+  int seriesOrders_ = 0, seriesBuilt_ = 0;  ///< orders of the accepted series in all; how many
   std::optional<double> weight_;
   std::optional<Series> last_;          ///< the last accepted series
   std::optional<StepReport> pending_;   ///< its step, not yet seen by the observer

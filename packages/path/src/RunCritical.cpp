@@ -23,8 +23,8 @@ std::optional<double> Run::progressionPole(const Series& series) const {
 /// Next to a bifurcation point the residual of the state, an imperfection of the size of the bound, displaces
 /// it by e = r / mu along the null vector, mu the eigenvalue that is about to vanish, which goes on as
 /// e / (1 - a/a_c). Newton iterations with the factorization that the solver holds take it away. False where
-/// the progression is another one or they do not help: all stays as it is. True: the state has moved a little,
-/// and its series wants a factorization of its own, which counts as that of a correction.
+/// the progression is another one or they do not help: all stays as it is. True: the state has moved a
+/// little, and its series wants a factorization of its own, which counts as that of a correction.
 bool Run::sharpenState(const Series& series) {
   if (!pending_ || !due_.empty() || !applied_.empty()) return false;
   const auto pole = progressionPole(series);
@@ -63,7 +63,7 @@ bool Run::sharpenState(const Series& series) {
   } catch (const PathError&) {
     return false;
   }
-  constexpr double useful = 1e-2;  // the displacement falls as the residual does
+  constexpr double useful = 0.1;  // the displacement falls as the residual does
   if (!(residual < useful * residual_)) return false;
   outcome_.final = pending_->end = state;
   pending_->lambdaEnd = state.lambda;
@@ -85,7 +85,8 @@ void Run::clean(Series& series) {
   const int N = series.order();
   std::optional<Series> made;
   try {
-    made = pathResponse(calls_, outcome_.final, *tangent_, series.weight(), N);
+    // Excited by the least force that does it, in the shape of the late terms, i.e. the null vector.
+    made = pathResponse(calls_, outcome_.final, *tangent_, series.weight(), N, series.coefficient(N).u.get());
   } catch (const PathError&) {
     return;  // so near the point that the response is beyond numbers: the series stays as it is
   }

@@ -70,8 +70,8 @@ std::optional<Run::Trial> Run::padeTrial(Series& series, StepReport& report) {
   PadeFit fit = fitPade(calls_.problem(), series, options_.delta, longestLength());
   // Where an eigenvalue of the tangent is about to vanish, or just has, other branches may be near, and a
   // long step would see nothing of them: there the polynomial, which its radius bounds, goes. Not at limit
-  // points, where the null vector is the path's direction. A step that ends short of the point leaves the next
-  // one room to pass it.
+  // points, where the null vector is the path's direction. A step that ends short of the point leaves the
+  // next one room to pass it.
   constexpr double shortOf = 0.75, behind = -0.2, alongPath = 0.7;
   const auto& direction = *series.coefficient(1).u;
   for (const Mode& mode : modes_) {
