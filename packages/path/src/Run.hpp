@@ -68,12 +68,14 @@ class Run {
   void chooseOrder();
   bool end(EndReason reason, std::string text);
 
+  // RunSingular.cpp: where the tangent is singular.
+  void startAside(const PathError& cause);
+  void stepOverSingularity(const PathError& cause, int attempt);
+
   // RunStart.cpp: how a step begins.
   void equilibrate();
   Series nextSeries(StepReport& report);
   Series smoothSeries(StepReport& report);
-  void stepOverSingularity(const PathError& cause, int attempt);
-  std::string nullVectorText();
   bool directionAgrees(const Series& series, const PathTangent& previous) const;
   bool retreat();
   EndTangent closeEnd();
@@ -134,6 +136,7 @@ class Run {
   std::vector<int> due_;      ///< event functions that fell to zero at the state and are not applied yet
   std::vector<int> applied_;  ///< applied at the state: their functions start at zero
   bool turned_ = false;       ///< lambda goes the other way after the events
+  std::string mechanism_;     ///< the null vector of a singular start that was left aside
   int standing_ = 0;          ///< events in a row without a step of sensible length
   int padeFailures_ = 0;      ///< steps in a row that the rational form did not lengthen
   int padeWait_ = 0;          ///< steps until it is tried again
