@@ -44,7 +44,10 @@ RCP<const CrsMatrix> Calls::tangent(const State& state, Vector& F) {
 }
 
 void Calls::factor(const State& state, Vector& F) {
-  const auto K = tangent(state, F);
+  factor(tangent(state, F));
+}
+
+void Calls::factor(const RCP<const CrsMatrix>& K) {
   Stopwatch watch(work_.seconds.factor);
   ++work_.factorizations;
   solverCall([&] {

@@ -53,6 +53,7 @@ bool Run::step() {
     return end(EndReason::stepLimit, line("the limit of ", options_.maxSteps, " steps is reached"));
   StepReport report;
   Series series = nextSeries(report);
+  if (sharpenState(series)) series = nextSeries(report);
   EndTangent tangent{calls_.inertia(), series.lambdaCoefficient(1), {}};
   tangent.modes = modesHere({series.coefficient(1), series.lambdaCoefficient(1)}, series.weight());
   // After an event the tangent is that of the changed problem and says nothing about the step before.
@@ -103,6 +104,8 @@ void Run::accept(Trial trial, StepReport report, Series series) {
   last_ = std::move(series);
   applied_.clear();
   tangent_ = last_->tangent(trial.a);
+  seriesOrders_ += last_->order();
+  ++seriesBuilt_;
   if (options_.autoOrder) chooseOrder();
   pending_ = std::move(report);
 }
@@ -137,12 +140,15 @@ bool Run::settle(const EndTangent* end) {
   return observer_.onStep(report, *last_);
 }
 
+/// What a step costs whatever its order, besides the factorization the eigenvalues followed, residuals and
+/// searches, is all that is not spent on the orders of the series.
 void Run::chooseOrder() {
   const Work& work = calls_.work();
-  if (work.factorizations == 0 || work.orders == 0) return;
+  if (work.solves == 0 || work.orders == 0) return;
   const auto& s = work.seconds;
-  order_ = bestOrder((s.tangent + s.factor) / work.factorizations, (s.solve + s.orderRhs) / work.orders,
-                     options_.delta);
+  const double order = s.solve / work.solves + s.orderRhs / work.orders;
+  const double all = s.tangent + s.factor + s.solve + s.orderRhs + s.residual;
+  order_ = bestOrder(std::max(0.0, all - order * seriesOrders_) / seriesBuilt_, order, options_.delta);
 }
 
 void Run::finish() {

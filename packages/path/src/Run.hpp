@@ -68,17 +68,21 @@ class Run {
   void chooseOrder();
   bool end(EndReason reason, std::string text);
 
+  // RunSingular.cpp: where the tangent is singular.
+  void startAside(const PathError& cause);
+  void stepOverSingularity(const PathError& cause, int attempt);
+
   // RunStart.cpp: how a step begins.
   void equilibrate();
   Series nextSeries(StepReport& report);
   Series smoothSeries(StepReport& report);
-  void stepOverSingularity(const PathError& cause, int attempt);
-  std::string nullVectorText();
   bool directionAgrees(const Series& series, const PathTangent& previous) const;
   bool retreat();
   EndTangent closeEnd();
 
   // RunCritical.cpp: what the step passed.
+  std::optional<double> progressionPole(const Series& series) const;
+  bool sharpenState(const Series& series);
   void clean(Series& series);
   void explainStability(StepReport& report, const EndTangent& end);
   std::vector<Mode> modesHere(const PathTangent& along, double weight);
@@ -125,6 +129,7 @@ class Run {
   double lastLength_ = 0;  ///< of the last accepted step; 0 before the first
   double lastEnd_ = 0;     ///< where the state is on the last series; > lastLength_ after a singularity
   int order_ = 0;          ///< of the next series
+  int seriesOrders_ = 0, seriesBuilt_ = 0;  ///< orders of the accepted series in all; how many
   std::optional<double> weight_;
   std::optional<Series> last_;          ///< the last accepted series
   std::optional<StepReport> pending_;   ///< its step, not yet seen by the observer
@@ -133,6 +138,7 @@ class Run {
   std::vector<int> due_;      ///< event functions that fell to zero at the state and are not applied yet
   std::vector<int> applied_;  ///< applied at the state: their functions start at zero
   bool turned_ = false;       ///< lambda goes the other way after the events
+  std::string mechanism_;     ///< the null vector of a singular start that was left aside
   int standing_ = 0;          ///< events in a row without a step of sensible length
   int padeFailures_ = 0;      ///< steps in a row that the rational form did not lengthen
   int padeWait_ = 0;          ///< steps until it is tried again

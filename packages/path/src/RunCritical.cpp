@@ -6,25 +6,87 @@
 
 #include "Critical.hpp"
 #include "GeometricProgression.hpp"
+#include "Newton.hpp"
 #include "Run.hpp"
 
 namespace atrapos::path {
 
-/// Next to a bifurcation point the residual of the start, an imperfection of the size of the bound, turns the
-/// path away from its branch: the late terms are a geometric progression and the steps shrink towards the
-/// point. The progression is taken out by the small force that makes the opposite one; what is left passes
-/// the point. The residual, which that force enters, decides about its length as about any other.
-void Run::clean(Series& series) {
-  if (!options_.criticalPoints || !last_ || series.eventCount() > 0) return;
-  const double radius = series.radius(options_.delta);
-  constexpr double shrinks = 0.6, ratioBound = 1e-3, perpBound = 0.3, gains = 1.5;
-  if (!(radius < shrinks * lastLength_)) return;
+/// Whether the series may be that of a path turned away by its residual: the steps shrink and the late terms
+/// are a geometric progression; its pole, ahead or behind.
+std::optional<double> Run::progressionPole(const Series& series) const {
+  if (!options_.criticalPoints || !last_ || series.eventCount() > 0) return std::nullopt;
+  constexpr double shrinks = 0.6, ratioBound = 1e-3, perpBound = 0.3;
+  if (!(series.radius(options_.delta) < shrinks * lastLength_)) return std::nullopt;
+  return geometricProgression(calls_.problem(), series, ratioBound, perpBound);
+}
+
+/// Next to a bifurcation point the residual of the state, an imperfection of the size of the bound, displaces
+/// it by e = r / mu along the null vector, mu the eigenvalue that is about to vanish, which goes on as
+/// e / (1 - a/a_c). Newton iterations with the factorization that the solver holds take it away. False where
+/// the progression is another one or they do not help: all stays as it is. True: the state has moved a
+/// little, and its series wants a factorization of its own, which counts as that of a correction.
+bool Run::sharpenState(const Series& series) {
+  if (!pending_ || !due_.empty() || !applied_.empty()) return false;
+  const auto pole = progressionPole(series);
+  if (!pole) return false;
   const auto& problem = calls_.problem();
-  if (!geometricProgression(problem, series, ratioBound, perpBound)) return;
+  const Border border = holdPathParameter(problem, series.weight(), *tangent_);
+  auto F = calls_.newVector(), x1 = calls_.newVector(), x2 = calls_.newVector();
+  State state{copy(*outcome_.final.u), outcome_.final.lambda};
+  auto r = copy(*r_);
+  double residual = residual_;
+  constexpr int maxIterations = 5;
+  try {
+    calls_.tangent(state, *F);
+    calls_.solve(*F, *x2);
+    for (int i = 0; i < maxIterations; ++i) {
+      calls_.solve(*r, *x1);
+      const double dLambda = border.c(x1) / (border.c(x2) + border.cLambda);
+      x1->update(dLambda, *x2, -1);
+      if (i == 0) {
+        // Order N of e / (1 - a/a_c) is e / a_c^N: a good part of what is seen, or its cause is another.
+        constexpr double share = 0.1;
+        const Increment e{x1, std::vector<double>(problem.internalCount(), 0.0)};
+        const double seen = series.norm(series.order()) * std::pow(std::abs(*pole), series.order());
+        if (!(std::sqrt(problem.inner(e, e)) > share * seen)) return false;
+      }
+      State trial{copy(*state.u), state.lambda + dLambda};
+      trial.u->update(1, *x1, 1);
+      auto left = calls_.newVector();
+      const double now = calls_.residual(trial, *left).relative();
+      constexpr double falls = 0.1;  // less is rounding, or the tangent's own change
+      if (!(now < falls * residual)) break;
+      state = trial;
+      r = left;
+      residual = now;
+    }
+  } catch (const PathError&) {
+    return false;
+  }
+  constexpr double useful = 0.1;  // the displacement falls as the residual does
+  if (!(residual < useful * residual_)) return false;
+  outcome_.final = pending_->end = state;
+  pending_->lambdaEnd = state.lambda;
+  residual_ = pending_->residual = residual;
+  r_ = r;
+  ++pending_->corrections;
+  ++outcome_.corrections;
+  return true;
+}
+
+/// What a residual that cannot be corrected away does to the late terms is taken out by the small force that
+/// makes the opposite progression; what is left passes the point. The residual, which that force enters,
+/// decides about its length as about any other.
+void Run::clean(Series& series) {
+  if (!progressionPole(series)) return;
+  constexpr double gains = 1.5;
+  const double radius = series.radius(options_.delta);
+  const auto& problem = calls_.problem();
   const int N = series.order();
   std::optional<Series> made;
   try {
-    made = pathResponse(calls_, outcome_.final, *tangent_, series.weight(), N);
+    // Excited by the least force that does it, in the shape of the late terms, i.e. the null vector.
+    made = pathResponse(calls_, outcome_.final, *tangent_, series.weight(), N, series.coefficient(N).u.get());
   } catch (const PathError&) {
     return;  // so near the point that the response is beyond numbers: the series stays as it is
   }

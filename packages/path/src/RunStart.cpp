@@ -3,7 +3,6 @@
 
 #include <Tpetra_Vector.hpp>
 
-#include "Augmented.hpp"
 #include "Newton.hpp"
 #include "Run.hpp"
 
@@ -25,62 +24,6 @@ void Run::equilibrate() {
                          " (relative residual ", result.residual, ')'));
   residual_ = result.residual;
   outcome_.final = state;
-}
-
-/// The largest entries of the null vector at the state, for a message: by inverse iteration with the tangent
-/// of a state very near, which can be factored. Empty where that cannot be either.
-std::string Run::nullVectorText() {
-  State near{copy(*outcome_.final.u), outcome_.final.lambda};
-  auto F = calls_.newVector(), x = calls_.newVector(), y = calls_.newVector();
-  fillUnsymmetric(*x, 1);
-  constexpr double aside = 1e-6;
-  near.u->update(aside * std::max(1.0, near.u->normInf()), *x, 1);
-  try {
-    ++outcome_.restarts;
-    calls_.factor(near, *F);
-    for (int i = 0; i < 3; ++i) {
-      calls_.solve(*x, *y);
-      x->update(1 / y->norm2(), *y, 0);
-    }
-  } catch (const PathError&) {
-    return "";
-  }
-  const auto data = x->getData();
-  std::vector<int> order(data.size());
-  for (int i = 0; i < data.size(); ++i) order[i] = i;
-  const int count = std::min<int>(3, data.size());
-  std::partial_sort(order.begin(), order.begin() + count, order.end(),
-                    [&](int i, int j) { return std::abs(data[i]) > std::abs(data[j]); });
-  std::string text = "; largest entries of its null vector: ";
-  for (int i = 0; i < count; ++i)
-    text += line(i > 0 ? ", " : "", "unknown ", x->getMap()->getGlobalElement(order[i]), " (", data[order[i]],
-                 ')');
-  return text;
-}
-
-/// The tangent is singular at the state: go on a little along the last series and start there.
-void Run::stepOverSingularity(const PathError& cause, int attempt) {
-  const auto giveUp = [&](const std::string& why) {
-    throw PathError(cause.reason(),
-                    line("at lambda = ", outcome_.final.lambda, ": ", cause.what(), "; ", why));
-  };
-  if (!last_) giveUp("the path cannot start here" + nullVectorText());
-  constexpr int maxAttempts = 3;
-  if (attempt > maxAttempts) giveUp("stepping over it along the previous series did not help");
-  // Small against the step, so that the residual, which grows like a^(K+1), hardly changes.
-  const double shift = std::min(1e-3 * std::pow(4.0, attempt - 1) * lastLength_,
-                                0.5 * (stops_.pathLength - outcome_.pathLength));
-  Trial trial;
-  trial.a = lastEnd_ + shift;
-  evaluate(*last_, trial);
-  if (!(trial.residual <= bound())) giveUp("the previous series does not reach past it");
-  ++outcome_.restarts;
-  lastEnd_ = trial.a;
-  outcome_.pathLength += shift;
-  outcome_.final = trial.state;
-  residual_ = trial.residual;
-  r_ = trial.r;
-  tangent_ = last_->tangent(lastEnd_);
 }
 
 /// The direction at a step's end, once by the derivative of the series that led there and once by the tangent

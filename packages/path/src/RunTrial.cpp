@@ -7,6 +7,7 @@
 #include "Newton.hpp"
 #include "PadeFit.hpp"
 #include "Run.hpp"
+#include "atrapos/linear/Dot.hpp"
 
 namespace atrapos::path {
 
@@ -102,9 +103,13 @@ std::optional<Run::Trial> Run::padeTrial(Series& series, StepReport& report) {
   if (near.stop || !near.events.empty()) return std::nullopt;
   PadeFit fit = fitPade(calls_.problem(), series, options_.delta, longestLength());
   // Where an eigenvalue of the tangent is about to vanish, or just has, other branches may be near, and a
-  // long step would see nothing of them: there the polynomial, which its radius bounds, goes.
-  constexpr double shortOf = 0.9, behind = -0.2;
+  // long step would see nothing of them: there the polynomial, which its radius bounds, goes. Not at limit
+  // points, where the null vector is the path's direction. A step that ends short of the point leaves the
+  // next one room to pass it.
+  constexpr double shortOf = 0.75, behind = -0.2, alongPath = 0.7;
+  const auto& direction = *series.coefficient(1).u;
   for (const Mode& mode : modes_) {
+    if (std::abs(linear::dot(*mode.x, direction)) > alongPath * direction.norm2()) continue;
     const double zero = -mode.mu / mode.rate;  // no bound where the rate is not known
     if (zero > behind * polynomial && shortOf * zero < fit.range) fit.range = std::max(0.0, shortOf * zero);
   }

@@ -44,12 +44,56 @@ Stops load(double value) {
   return stops;
 }
 
-TEST(Failures, SingularStart) {
-  // The tangent of u^2 = lambda is exactly zero at 0.
+/// Straight along u_0 = lambda, left by u_1^2 = 1 - lambda at lambda = 1.
+struct Crossed : Linear {
+  int size() const { return 2; }
+  template <class S>
+  std::vector<S> residual(const std::vector<S>& u, const S& lambda) const {
+    return {u[0] - lambda, u[1] * (1 - lambda) - u[1] * u[1] * u[1]};
+  }
+};
+
+/// Nothing holds u_1.
+struct Mechanism : Linear {
+  int size() const { return 2; }
+  template <class S>
+  std::vector<S> residual(const std::vector<S>& u, const S& lambda) const {
+    return {u[0] - lambda, 0 * u[1]};
+  }
+};
+
+TEST(Failures, StartsAtALimitPoint) {
+  // The tangent of u^2 = lambda is exactly zero at 0. One factorization of it, one of the shifted one.
   Followed<Fold> f(Fold{}, {0}, 0, Options{}, load(1));
+  ASSERT_EQ(f.outcome.reason, EndReason::stopReached) << f.outcome.text;
+  // On one of the two halves, as exact as the residual bound is with the slope 2.
+  EXPECT_NEAR(std::abs(f.outcome.final.u->getData()[0]), 1, 1e-6);
+  EXPECT_EQ(f.outcome.restarts, 2);
+  EXPECT_EQ(f.outcome.factorizations, f.outcome.steps + f.outcome.startIterations +
+                                          f.outcome.corrections + f.outcome.restarts + f.outcome.retreats);
+  Options falling;
+  falling.direction = -1;
+  Followed<Fold> none(Fold{}, {0}, 0, falling, load(-1));
+  EXPECT_EQ(none.outcome.reason, EndReason::singularTangent);
+  EXPECT_NE(none.outcome.text.find("grows on both sides"), std::string::npos) << none.outcome.text;
+}
+
+TEST(Failures, StartsAtABifurcationPoint) {
+  for (const double direction : {1.0, -1.0}) {
+    Options options;
+    options.direction = direction;
+    Followed<Crossed> f(Crossed{}, {1, 0}, 1, options, load(1 + direction));
+    ASSERT_EQ(f.outcome.reason, EndReason::stopReached) << f.outcome.text;
+    EXPECT_NEAR(f.outcome.final.u->getData()[0], 1 + direction, 1e-12);  // linear
+    EXPECT_NEAR(f.outcome.final.u->getData()[1], 0, 1e-6);  // the residual bound; the other branch has 0 or 1
+  }
+}
+
+TEST(Failures, MechanismNamesItsMotion) {
+  Followed<Mechanism> f(Mechanism{}, {0, 0}, 0, Options{}, load(1));
   EXPECT_EQ(f.outcome.reason, EndReason::singularTangent);
-  EXPECT_NE(f.outcome.text.find("cannot start here"), std::string::npos) << f.outcome.text;
-  EXPECT_NE(f.outcome.text.find("null vector: unknown 0"), std::string::npos) << f.outcome.text;
+  EXPECT_NE(f.outcome.text.find("cannot start here, nor next to it"), std::string::npos) << f.outcome.text;
+  EXPECT_NE(f.outcome.text.find("null vector: unknown 1"), std::string::npos) << f.outcome.text;
   EXPECT_EQ(f.outcome.steps, 0);
 }
 

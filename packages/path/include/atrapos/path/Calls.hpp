@@ -20,6 +20,8 @@ class Calls {
   /// Factors K_T(state) and fills F. Throws PathError: singularTangent or solverFailed, with the solver's
   /// message.
   void factor(const State& state, Vector& F);
+  /// Factors a matrix with the graph of the tangent.
+  void factor(const RCP<const CrsMatrix>& K);
 
   /// x = K_T^-1 b with the last factorization.
   void solve(const Vector& b, Vector& x);

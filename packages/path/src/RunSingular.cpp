@@ -1,0 +1,156 @@
+#include <algorithm>
+#include <cmath>
+
+#include <Tpetra_CrsMatrix.hpp>
+#include <Tpetra_Vector.hpp>
+
+#include "Augmented.hpp"
+#include "Newton.hpp"
+#include "Run.hpp"
+#include "atrapos/linear/Dot.hpp"
+
+namespace atrapos::path {
+
+namespace {
+
+/// K with a diagonal so much larger that it can be factored, and so little that its null vectors stay.
+RCP<const CrsMatrix> shifted(const CrsMatrix& K) {
+  auto moved = Teuchos::rcp(new CrsMatrix(K, Teuchos::Copy));
+  const double rows = static_cast<double>(K.getGlobalNumRows());
+  constexpr double part = 1e-8;
+  const double size = K.getFrobeniusNorm() / std::sqrt(rows), shift = part * (size > 0 ? size : 1);
+  moved->resumeFill();
+  const auto& map = *K.getRowMap();
+  for (std::size_t i = 0; i < K.getNodeNumRows(); ++i) {
+    const auto row = map.getGlobalElement(static_cast<int>(i));
+    moved->sumIntoGlobalValues(row, Teuchos::tuple(row), Teuchos::tuple(shift));
+  }
+  moved->fillComplete(K.getDomainMap(), K.getRangeMap());
+  return moved;
+}
+
+void inverseIterations(Calls& calls, Vector& x, bool transposed) {
+  auto y = calls.newVector();
+  x.scale(1 / x.norm2());
+  constexpr int iterations = 4;
+  for (int i = 0; i < iterations; ++i) {
+    transposed ? calls.solveTransposed(x, *y) : calls.solve(x, *y);
+    x.update(1 / y->norm2(), *y, 0);
+  }
+}
+
+/// The largest entries of a null vector, for a message.
+std::string largestEntries(const Vector& x) {
+  const auto data = x.getData();
+  std::vector<int> order(data.size());
+  for (int i = 0; i < data.size(); ++i) order[i] = i;
+  const int count = std::min<int>(3, data.size());
+  std::partial_sort(order.begin(), order.begin() + count, order.end(),
+                    [&](int i, int j) { return std::abs(data[i]) > std::abs(data[j]); });
+  std::string text = "largest entries of its null vector: ";
+  for (int i = 0; i < count; ++i)
+    text += line(i > 0 ? ", " : "", "unknown ", x.getMap()->getGlobalElement(order[i]), " (", data[order[i]],
+                 ')');
+  return text;
+}
+
+}  // namespace
+
+/// The tangent of the state where the path starts is singular: the path starts a little further along what the
+/// null vector phi and the load say of it.
+///
+/// F with a part along the left null vector psi: a limit point, U = U_0 + s phi, lambda = lambda_0 + c s^2,
+/// c = psi . D^2R(phi, phi) / (2 psi . F). Without: a bifurcation point, which the path passes along
+/// K Uhat = F, phi . Uhat = 0. Where that state's tangent is singular too, a mechanism.
+void Run::startAside(const PathError& cause) {
+  const auto giveUp = [&](const std::string& why) {
+    throw PathError(cause.reason(), line("at lambda = ", outcome_.final.lambda, ": ", cause.what(),
+                                         "; the path cannot start here", why));
+  };
+  if (!mechanism_.empty()) giveUp(", nor next to it: " + mechanism_);
+  State state{copy(*outcome_.final.u), outcome_.final.lambda};
+  auto F = calls_.newVector(), phi = calls_.newVector();
+  const auto K = calls_.tangent(state, *F);
+  fillUnsymmetric(*phi, 1);
+  auto psi = copy(*phi);
+  try {
+    ++outcome_.restarts;
+    calls_.factor(shifted(*K));
+    inverseIterations(calls_, *phi, false);
+    if (calls_.problem().symmetric())
+      psi = phi;
+    else
+      inverseIterations(calls_, *psi, true);
+  } catch (const PathError&) {
+    giveUp("");
+  }
+  if (!std::isfinite(phi->norm2())) giveUp("");
+  mechanism_ = largestEntries(*phi);
+
+  const double load = linear::dot(*psi, *F), unit = std::max(1.0, std::abs(state.lambda));
+  constexpr double none = 1e-6, aside = 1e-4;  // of the load; of the load factor
+  Border border;
+  if (std::abs(load) > none * F->norm2()) {
+    const double bend = SecondOrder(calls_, state, psi)({phi, 0}) / (2 * load);
+    if (!std::isfinite(bend) || bend == 0) giveUp(": " + mechanism_);
+    if (!tangent_ && bend * options_.direction < 0)
+      giveUp(line(": the load factor ", bend < 0 ? "falls" : "grows", " on both sides of it; ", mechanism_));
+    const double along = tangent_ ? linear::dot(*tangent_->x.u, *phi) : phi->meanValue();
+    const double s = std::copysign(std::sqrt(aside * unit / std::abs(bend)), along);
+    state.u->update(s, *phi, 1);
+    state.lambda += bend * s * s;
+    border = holdFunctional(phi);
+  } else {
+    // One border only: the second unknown is zero.
+    Bordered system;
+    system.K = K;
+    system.columns = {psi, calls_.newVector()};
+    system.rows = {phi, calls_.newVector()};
+    system.d[1][1] = 1;
+    const auto Uhat = system.solve(calls_, F, {0, 0});
+    if (!Uhat.good) giveUp(": " + mechanism_);
+    const double sense = tangent_ ? std::copysign(1.0, tangent_->lambda) : options_.direction;
+    state.u->update(sense * aside * unit, *Uhat.x, 1);
+    state.lambda += sense * aside * unit;
+    border = holdLoad();
+  }
+  constexpr int maxHalvings = 0;
+  const auto found =
+      newton(calls_, state, *r_, border, correctAbove(), options_.maxStartIterations, maxHalvings);
+  outcome_.startIterations += found.iterations;
+  if (!found.converged) giveUp(", and no equilibrium is found next to it; " + mechanism_);
+  ++outcome_.restarts;  // the factorization that failed
+  outcome_.final = state;
+  residual_ = found.residual;
+}
+
+/// The tangent is singular at the state: go on a little along the last series and start there.
+void Run::stepOverSingularity(const PathError& cause, int attempt) {
+  const auto giveUp = [&](const std::string& why) {
+    throw PathError(cause.reason(),
+                    line("at lambda = ", outcome_.final.lambda, ": ", cause.what(), "; ", why));
+  };
+  if (!last_) {
+    startAside(cause);
+    return;
+  }
+  constexpr int maxAttempts = 3;
+  if (attempt > maxAttempts) giveUp("stepping over it along the previous series did not help");
+  // Small against the step, so that the residual, which grows like a^(K+1), hardly changes.
+  const double shift = std::min(1e-3 * std::pow(4.0, attempt - 1) * lastLength_,
+                                0.5 * (stops_.pathLength - outcome_.pathLength));
+  Trial trial;
+  trial.a = lastEnd_ + shift;
+  evaluate(*last_, trial);
+  if (!(trial.residual <= bound())) giveUp("the previous series does not reach past it");
+  ++outcome_.restarts;
+  lastEnd_ = trial.a;
+  outcome_.pathLength += shift;
+  outcome_.final = trial.state;
+  residual_ = trial.residual;
+  r_ = trial.r;
+  tangent_ = last_->tangent(lastEnd_);
+}
+
+
+}  // namespace atrapos::path
