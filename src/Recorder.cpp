@@ -39,7 +39,8 @@ Recorder::Recorder(PathCase& pathCase, std::string directory, std::ostream* prog
   if (settings.restart && settings.branches == path::Follow::none)
     restart_.emplace(file("restart.bin") + beside);
   fields_ = case_.makeFieldFile(file(fieldsName(0)) + beside);
-  watch_ = case_.makeWatch(file("events.csv") + beside);
+  // Between the ends of Newton steps nothing is known for sure.
+  if (settings.series()) watch_ = case_.makeWatch(file("events.csv") + beside);
   if (continued) try {
       goOn(*continued);
     } catch (...) {
@@ -193,8 +194,9 @@ void Recorder::writePoints(const path::StepReport& report, const path::Series& s
 void Recorder::printHead() const {
   if (progress_)
     *progress_ << fmt::format("{:>5} {:>5} {:>10} {:>13} {:>10} {:>10} {:>4} {:>4} {:>8} {:>8}  {}\n", "step",
-                              "order", "radius", "load factor", "length", "residual", "cut", "corr",
-                              "contacts", "time s", "events");
+                              case_.deck().path.series() ? "order" : "",
+                              case_.deck().path.series() ? "radius" : "tried", "load factor", "length",
+                              "residual", "cut", "corr", "contacts", "time s", "events");
 }
 
 void Recorder::printStep(const path::StepReport& r) const {
@@ -211,7 +213,8 @@ void Recorder::printStep(const path::StepReport& r) const {
   if (!events.empty()) events.resize(events.size() - 2);
   *progress_ << fmt::format(
                     "{:>5} {:>5} {:>10.3e} {:>13.6g} {:>10.3e} {:>10.2e} {:>4} {:>4} {:>8} {:>8.2f}  {}",
-                    r.step, r.order, r.radius, r.lambdaEnd, r.length, r.residual, r.cutBacks, r.corrections,
+                    r.step, case_.deck().path.series() ? fmt::format("{}", r.order) : "", r.radius,
+                    r.lambdaEnd, r.length, r.residual, r.cutBacks, r.corrections,
                     case_.activeContacts(*r.end.u, r.end.lambda), seconds(), events)
              << std::endl;
 }

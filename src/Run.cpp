@@ -27,7 +27,8 @@ class Single final : public path::Observer {
       : case_(pathCase), recorder_(recorder), diagram_(diagram) {}
 
   /// Follows the path; where the problem has become another one on a step, again from the step's start.
-  path::Outcome follow(path::PathFollower& follower, const path::Start& start) {
+  template <class Follower>
+  path::Outcome follow(Follower& follower, const path::Start& start) {
     next_ = start;
     path::Outcome total;
     do {
@@ -154,8 +155,14 @@ RunResult runPath(PathCase& pathCase, const RunOptions& options) {
     diagram.branches[0].start = continued ? continued->from.state : start;
     path::Start from;
     from.state = start;
+    if (continued) from = continued->from;
     Single single(pathCase, recorder, diagram);
-    diagram.branches[0].outcome = single.follow(follower, continued ? continued->from : from);
+    if (deck.path.series()) {
+      diagram.branches[0].outcome = single.follow(follower, from);
+    } else {
+      path::NewtonFollower newton(problem, *solver, newtonOptions(pathCase), stops);
+      diagram.branches[0].outcome = single.follow(newton, from);
+    }
   } else {
     diagram = tree.run(start, recorder);
   }

@@ -20,6 +20,19 @@ path::Options pathOptions(const PathCase& pathCase) {
   return options;
 }
 
+path::NewtonOptions newtonOptions(const PathCase& pathCase) {
+  const deck::Path& path = pathCase.deck().path;
+  path::NewtonOptions options;
+  options.kind =
+      path.method == deck::Path::Method::Newton ? path::NewtonKind::full : path::NewtonKind::modified;
+  options.residualBound = path.residual;
+  if (path.cubicAccuracy) options.accuracy = *path.cubicAccuracy;
+  options.direction = path.direction * pathCase.direction();
+  options.weight = path.weight;
+  options.maxSteps = path.stop.steps;
+  return options;
+}
+
 std::unique_ptr<linear::TangentSolver> tangentSolver(PathCase& pathCase) {
   linear::TangentSolverOptions options;
   options.type = pathCase.deck().solver.spec();

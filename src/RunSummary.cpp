@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "Version.hpp"
+#include "deck/DeckTables.hpp"
 
 namespace atrapos {
 namespace {
@@ -90,9 +91,10 @@ nlohmann::ordered_json runSummary(const PathCase& pathCase, const path::BranchDi
   json["path_length"] = first.pathLength;
   json["path_weight"] = first.weight;
   json["steps"] = sum(diagram, &Outcome::steps);
+  json["method"] = deck::wordOf(deck.path.method, deck::methods());
   if (deck.path.autoOrder)
     json["order"] = "auto";
-  else
+  else if (deck.path.series())
     json["order"] = deck.path.order;
   json["orders_computed"] = sum(diagram, &Outcome::orders);
   json["factorizations"] = sum(diagram, &Outcome::factorizations) + diagram.switchFactorizations;
@@ -117,7 +119,7 @@ nlohmann::ordered_json runSummary(const PathCase& pathCase, const path::BranchDi
   json["branches"] = branchesOf(diagram, imperfections);
   json["branches_complete"] = diagram.complete;
   for (const auto& [name, size] : pathCase.sizes()) json[name] = size;
-  json["contact_events"] = recorder.contactEvents();
+  if (deck.path.series()) json["contact_events"] = recorder.contactEvents();
   pathCase.summarize(json);
   json["solver"] = solver.name();
   json["execution_space"] = Kokkos::DefaultExecutionSpace::name();

@@ -302,15 +302,25 @@ struct Stop {
 };
 
 struct Path {
+  /// How the path is followed.
+  enum class Method {
+    Series,         ///< one Taylor series a step
+    Newton,         ///< arc-length steps by Newton's method, the tangent factored at every iteration
+    ModifiedNewton  ///< the same, factored once a step
+  };
   /// Which bifurcation points are looked for.
   enum class Critical {
     Off,
     Automatic,  ///< those that the number of negative eigenvalues tells of
     EveryStep   ///< all
   };
-  int order = 20;                ///< K, 1..60
-  bool autoOrder = false;        ///< K is chosen while running; `order` is that of the first step
-  double accuracy = 1e-6;        ///< delta of eq. (36)
+  Method method = Method::Series;
+  int order = 20;          ///< K, 1..60
+  bool autoOrder = false;  ///< K is chosen while running; `order` is that of the first step
+  double accuracy = 1e-6;  ///< delta of eq. (36)
+  /// Newton steps: largest distance of the path from the cubic between their ends; empty: only the ends are
+  /// wanted.
+  std::optional<double> cubicAccuracy;
   double residual = 1e-6;        ///< bound of the relative residual
   int direction = 1;             ///< sign of the load factor's first change
   std::optional<double> weight;  ///< w of the path parameter, > 0; empty = by the first step
@@ -326,6 +336,7 @@ struct Path {
   /// In (0, 1): at the path's end eta of all contacts falls by this factor; empty: does not.
   std::optional<double> sharpen;
   Stop stop;
+  bool series() const { return method == Method::Series; }
 };
 
 struct Solver {

@@ -130,6 +130,7 @@ Deck readDeckText(const std::string& text, const std::string& file) {
   if (root.has("problem")) {
     read(problemDeckTable(), root, deck);
     checkBranches(root, deck);
+    checkMethod(root, deck);
     if (deck.title.empty()) {
       deck.title = path.stem().string();
     }
@@ -143,6 +144,7 @@ Deck readDeckText(const std::string& text, const std::string& file) {
     }
   }
   checkReferences(root, deck);
+  checkMethod(root, deck);
 
   readToolFiles(root, path.parent_path(), deck);
   if (deck.title.empty()) {

@@ -140,6 +140,25 @@ void checkBranches(const Value& root, const Deck& deck) {
   }
 }
 
+void checkMethod(const Value& root, Deck& deck) {
+  if (deck.path.series()) {
+    return;
+  }
+  const std::string has = fmt::format("the deck has path/method: {}", wordOf(deck.path.method, methods()));
+  for (const auto& contact : deck.contacts) {
+    if (contact.law == Contact::Law::Hard) {
+      const Value at = root.at("contact").at(contact.name);
+      (at.has("law") ? at.at("law") : at).fail("hard contact needs path/method: series, " + has);
+    }
+  }
+  if (root.has("output") && root.at("output").has("points_per_step") && deck.output.pointsPerStep != 1) {
+    root.at("output")
+        .at("points_per_step")
+        .fail("Newton steps have points at their ends only; expected 1, or path/method: series, " + has);
+  }
+  deck.output.pointsPerStep = 1;
+}
+
 void checkReferences(const Value& root, const Deck& deck) {
   checkMaterials(root.at("materials"), deck);
   checkSections(root, deck);

@@ -41,6 +41,9 @@ Field<Deck> solverField();
 /// Where in a shell's thickness, with their words.
 const Choices<ShellPlace>& shellPlaces();
 
+/// How paths are followed, with their words.
+const Choices<Path::Method>& methods();
+
 /// Uses of Pade forms, with their words.
 const Choices<path::PadeUse>& padeUses();
 

@@ -133,6 +133,40 @@ Field<Path> keepsRestart() {
           }};
 }
 
+Field<Path> accuracyOfMethod() {
+  return {"accuracy",
+          false,
+          fmt::format("a number, {}", check::fraction.words),
+          "delta of eq. (36), sets the length of a step; Newton steps: largest distance of the path from the "
+          "cubic between their ends, without it only the ends are wanted",
+          [](const Value& v, Path& s) {
+            const double accuracy = v.real(check::fraction);
+            if (s.series()) {
+              s.accuracy = accuracy;
+            } else {
+              s.cubicAccuracy = accuracy;
+            }
+          },
+          [](const Path& s) {
+            if (s.series()) {
+              return Node{yaml(s.accuracy), {}};
+            }
+            return s.cubicAccuracy ? Node{yaml(*s.cubicAccuracy), {}} : Node{};
+          }};
+}
+
+/// A key that Newton steps do not know; the key `method` is read before.
+Field<Path> ofSeries(Field<Path> field) {
+  field.read = [inner = field.read](const Value& v, Path& s) {
+    if (!s.series()) {
+      v.fail(fmt::format("needs method: series, the deck has method: {}", wordOf(s.method, methods())));
+    }
+    inner(v, s);
+  };
+  field.print = [inner = field.print](const Path& s) { return s.series() ? inner(s) : Node{}; };
+  return field;
+}
+
 Table<Stop> stopKeys(Field<Stop> monitors) {
   return {stopLoadFactor(),
           integer("steps", optional, &Stop::steps, check::count, "largest number of steps of a branch"),
@@ -154,31 +188,40 @@ Table<Path> pathKeys(const Table<Stop>& stops, Need needStop) {
     }
   };
   return {
-      orderOrAuto(),
-      real("accuracy", optional, &Path::accuracy, check::fraction,
-           "delta of eq. (36), sets the length of a step"),
+      choice("method", optional, &Path::method, methods(),
+             "how the path is followed: Taylor series, or arc-length steps by full or modified Newton"),
+      ofSeries(orderOrAuto()),
+      accuracyOfMethod(),
       real("residual", optional, &Path::residual, check::fraction, "bound of the relative residual"),
       integer("direction", optional, &Path::direction, check::direction,
               "1: the load factor first grows, -1: falls; of model problems: its own sense, or the other"),
       real("weight", &Path::weight, check::positive,
            "w of the path parameter: of displacements against the load factor"),
-      choice("pade", optional, &Path::pade, padeUses(), "where rational series stand in for polynomials"),
-      choice("critical_points", optional, &Path::criticalPoints, searches,
-             "which bifurcation points are looked for"),
-      choice("branches", optional, &Path::branches, follows,
-             "which branches are followed at bifurcation points"),
-      integer("branch_depth", optional, &Path::branchDepth, check::natural,
-              "most bifurcations between the first path and a branch"),
-      integer("branch_count", optional, &Path::branchCount, check::natural,
-              "most branches followed besides the first path"),
-      imperfections(),
+      ofSeries(choice("pade", optional, &Path::pade, padeUses(),
+                      "where rational series stand in for polynomials")),
+      ofSeries(choice("critical_points", optional, &Path::criticalPoints, searches,
+                      "which bifurcation points are looked for")),
+      ofSeries(choice("branches", optional, &Path::branches, follows,
+                      "which branches are followed at bifurcation points")),
+      ofSeries(integer("branch_depth", optional, &Path::branchDepth, check::natural,
+                       "most bifurcations between the first path and a branch")),
+      ofSeries(integer("branch_count", optional, &Path::branchCount, check::natural,
+                       "most branches followed besides the first path")),
+      ofSeries(imperfections()),
       keepsRestart(),
-      real("sharpen", &Path::sharpen, check::fraction,
-           "at the path's end eta of all contacts falls by this factor, towards hard contact"),
+      ofSeries(real("sharpen", &Path::sharpen, check::fraction,
+                    "at the path's end eta of all contacts falls by this factor, towards hard contact")),
       stop};
 }
 
 }  // namespace
+
+const Choices<Path::Method>& methods() {
+  static const Choices<Path::Method> choices{{"series", Path::Method::Series},
+                                             {"newton", Path::Method::Newton},
+                                             {"modified_newton", Path::Method::ModifiedNewton}};
+  return choices;
+}
 
 const Choices<path::PadeUse>& padeUses() {
   static const Choices<path::PadeUse> choices{

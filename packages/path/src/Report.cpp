@@ -18,6 +18,8 @@ const char* toString(CriticalKind kind) {
 }
 
 std::optional<long long> StepReport::negativeAt(double a) const {
+  // Newton steps that go on with a path know the count at their end first.
+  if (!inertia && inertiaEnd && a >= length) return inertiaEnd->negative;
   if (!inertia) return std::nullopt;
   // Where it changes: bifurcation points, whose change is known, and limit points, one each of unknown sign.
   struct Mark {

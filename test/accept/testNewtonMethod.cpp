@@ -1,0 +1,69 @@
+// `method: newton` and `method: modified_newton` go along the curve that the series have, in points.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "support/ExampleRun.hpp"
+
+namespace atrapos::test {
+namespace {
+
+struct Curve {
+  std::vector<double> x, y;
+};
+
+/// The largest distance of b's points from the curve a, along y.
+double distance(const Curve& a, const Curve& b) {
+  double worst = 0;
+  for (std::size_t i = 0; i < b.x.size(); ++i)
+    worst = std::max(worst, std::abs(interpolate(a.x, a.y, b.x[i]) - b.y[i]));
+  return worst;
+}
+
+class NewtonMethod : public testing::TestWithParam<const char*> {
+ protected:
+  /// Of the series, whose points are interpolated: an error far below the tolerances.
+  static constexpr const char* kPoints = "points_per_step: 30";
+  std::string method() const { return std::string("path:\n  method: ") + GetParam(); }
+};
+
+/// Through both limit points of the load: it is a function of the deflection.
+TEST_P(NewtonMethod, HingedRoof) {
+  const std::string name = "shells/hinged_roof_12.7.yaml";
+  const ExampleRun series(name, {{"output:", std::string("output:\n  ") + kPoints}});
+  const ExampleRun newton(name, {{"path:", method()}});
+  const auto curve = [](const ExampleRun& run) {
+    Curve c{run.column("centre_uz"), run.column("load_factor")};
+    for (double& x : c.x) x = -x;
+    return c;
+  };
+  EXPECT_EQ(newton.summary.at("limit_points"), 2);
+  // Residual bounds of 1e-6, and some room: 6e-8 and 3e-7 as measured, of loads up to 1.2.
+  EXPECT_LT(distance(curve(series), curve(newton)), 2e-5);
+}
+
+/// With contact that opens and closes: all monitors are functions of the load.
+TEST_P(NewtonMethod, StripOnRoll) {
+  const std::string name = "strip_roll/shell.yaml";
+  // Output is most of the work, and not the subject.
+  const Edits fewer{{"load_factor: 2", "load_factor: 0.5"}, {"stress, nodal_stress, ", ""}};
+  Edits dense = fewer, steps = fewer;
+  dense.push_back({"points_per_step: 10", kPoints});
+  steps.push_back({"points_per_step: 10", "points_per_step: 1"});
+  steps.push_back({"path:", method()});
+  const ExampleRun series(name, dense), newton(name, steps);
+  EXPECT_GE(newton.summary.at("steps"), 20);
+  const auto load = series.column("load_factor"), at = newton.column("load_factor");
+  for (const char* monitor : {"tip_ux", "tip_uz", "force_right"}) {
+    // mm and N, of 150 mm and 40 N: where contact moves between two stations the strip is soft, and the bound
+    // of the residual, 1e-6, leaves up to 9e-4 mm open (modified Newton, whose points are near that bound).
+    EXPECT_LT(distance({load, series.column(monitor)}, {at, newton.column(monitor)}), 3e-3) << monitor;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, NewtonMethod, testing::Values("newton", "modified_newton"),
+                         [](const auto& info) { return std::string(info.param); });
+
+}  // namespace
+}  // namespace atrapos::test
