@@ -4,7 +4,6 @@
 
 #include "atrapos/fem/LawTerm.hpp"
 #include "atrapos/solid/SaintVenantKirchhoff.hpp"
-#include "atrapos/solid/ShellPoints.hpp"
 
 namespace atrapos::registry {
 namespace {
@@ -25,11 +24,16 @@ std::unique_ptr<fem::Term> materialTerm(const deck::Material& material, const fe
       material.law);
 }
 
-std::unique_ptr<fem::Term> shellTerm(const deck::Material& material, const fem::EnhancedPoints& points) {
+std::unique_ptr<fem::Term> shellTerm(const deck::Material& material, const solid::ShellElements& elements,
+                                     deck::Shear shear) {
   return std::visit(
       [&](const auto& entry) -> std::unique_ptr<fem::Term> {
         using Law = decltype(law(entry));
-        return std::make_unique<solid::ShellTerm<Law>>(solid::ShellLaw<Law>{law(entry)}, points);
+        if (shear == deck::Shear::Assumed)
+          return std::make_unique<solid::AssumedShearTerm<Law>>(solid::AssumedShearLaw<Law>{law(entry)},
+                                                                solid::assumedShearPoints(elements));
+        return std::make_unique<solid::ShellTerm<Law>>(solid::ShellLaw<Law>{law(entry)},
+                                                       solid::shellPoints(elements));
       },
       material.law);
 }

@@ -2,9 +2,9 @@
 
 #include <memory>
 
-#include "atrapos/fem/EnhancedTerm.hpp"
 #include "atrapos/fem/PointSet.hpp"
 #include "atrapos/fem/Term.hpp"
+#include "atrapos/solid/ShellPoints.hpp"
 #include "deck/Deck.hpp"
 
 /// The materials that decks can name. A new one is one struct in its package and one line in Registry.cpp.
@@ -13,7 +13,9 @@ namespace atrapos::registry {
 /// The term of a material at volume points.
 std::unique_ptr<fem::Term> materialTerm(const deck::Material& material, const fem::PointSet& points);
 
-/// The term of a material in shells, at their points.
-std::unique_ptr<fem::Term> shellTerm(const deck::Material& material, const fem::EnhancedPoints& points);
+/// The term of a material in shells. Throws std::runtime_error where an element cannot be
+/// (solid::shellPoints).
+std::unique_ptr<fem::Term> shellTerm(const deck::Material& material, const solid::ShellElements& elements,
+                                     deck::Shear shear);
 
 }  // namespace atrapos::registry

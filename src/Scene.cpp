@@ -69,7 +69,7 @@ void Scene::addMaterials(fem::FeModel& model) {
 
 BodyBlock Scene::addShell(const deck::Material& material, int shells, fem::FeModel& model) const {
   BodyBlock body{static_cast<int>(model.terms.size()), shells, solid::shellPointsToNodes({})};
-  model.terms.push_back(registry::shellTerm(material, solid::shellPoints(shells_.elements[shells])));
+  model.terms.push_back(registry::shellTerm(material, shells_.elements[shells], shells_.shear[shells]));
   return body;
 }
 

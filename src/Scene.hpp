@@ -92,9 +92,9 @@ class Scene {
   std::vector<path::Monitor> functionals() const;
 
   ContactState contactState(const ContactPoints& contact, const path::Vector& u, double lambda) const;
-  /// Normal force of a contact's point that is nearest to a place of the reference configuration.
-  double contactForceNear(const ContactPoints& contact, const deck::Vector3& place, const path::Vector& u,
-                          double lambda) const;
+  /// Sum of the normal forces over a contact's points with other weights than their own: [term][point].
+  double contactForce(const ContactPoints& contact, const std::vector<std::vector<double>>& weights,
+                      const path::Vector& u, double lambda) const;
   /// Total force of a contact on the body.
   std::array<double, 3> contactResultant(const ContactPoints& contact, const path::Vector& u,
                                          double lambda) const;
@@ -154,6 +154,8 @@ class Scene {
   std::vector<ContactPoints> contacts_;
   /// [monitor] weights of a displacement monitor over the unknowns; null for the others
   std::vector<linear::RCP<path::Vector>> displacementWeights_;
+  /// [monitor][term][point] of the contact that a monitor with `near` watches; empty for the others
+  std::vector<std::vector<std::vector<double>>> contactWeights_;
 };
 
 }  // namespace atrapos

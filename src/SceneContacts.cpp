@@ -16,9 +16,14 @@ namespace atrapos {
 std::vector<fem::PointSet> Scene::pointsOf(const deck::Contact& contact) const {
   const double zeta = zetaOf(contact.at);
   try {
-    if (contact.points == deck::Contact::Points::Nodes)
-      return {zeta == 0 ? fem::nodePoints(mesh_, nodesOf(contact.set))
-                        : fem::shellNodePoints(mesh_, shells_.geometry, nodesOf(contact.set), zeta)};
+    if (contact.points == deck::Contact::Points::Nodes) {
+      fem::PointSet points = zeta == 0
+                                 ? fem::nodePoints(mesh_, nodesOf(contact.set))
+                                 : fem::shellNodePoints(mesh_, shells_.geometry, nodesOf(contact.set), zeta);
+      if (contact.shares == deck::Contact::Shares::DistributionFactors)
+        points.weights = mesh_.nodeSets[fem::findNodeSet(mesh_, contact.set)].factors;
+      return {std::move(points)};
+    }
     const auto& set = mesh_.sideSets.at(fem::findSideSet(mesh_, contact.set));
     return zeta == 0 ? fem::facePoints(mesh_, set, contact.quadratureDegree)
                      : fem::shellFacePoints(mesh_, shells_.geometry, set, zeta, contact.quadratureDegree);
@@ -120,7 +125,7 @@ void Scene::choosePressure(const deck::Contact& contact, BodySize body, ContactP
       if (d > 1e-3 * body.thickness) smallest = std::min(smallest, d);
   body.smallestGap = std::isfinite(smallest) ? smallest : 1e-3 * body.thickness;
   if (contact.points == deck::Contact::Points::Nodes)
-    body.areaPerPoint /= entry.count;
+    body.areaPerPoint /= std::accumulate(entry.points[0].weights.begin(), entry.points[0].weights.end(), 0.0);
   else
     body.areaPerPoint = 1;
   const std::string key = "contact/" + contact.name;

@@ -22,6 +22,45 @@ int nearestNode(const fem::Mesh& mesh, const std::vector<int>& nodes, const deck
                            [&](int a, int b) { return distance(a) < distance(b); });
 }
 
+/// Calls f(term of the contact, point, position) for all points.
+template <class F>
+void forEachPosition(const ContactPoints& contact, const F& f) {
+  for (std::size_t t = 0; t < contact.points.size(); ++t)
+    for (int p = 0; p < contact.points[t].numPoints(); ++p)
+      f(t, p, &contact.points[t].positions[3 * static_cast<std::size_t>(p)]);
+}
+
+/// [term][point] of a contact: the weights of the points that a monitor adds up, zero of all others.
+std::vector<std::vector<double>> weightsNear(const ContactPoints& contact,
+                                             const deck::ContactForceMonitor& monitor) {
+  const deck::Vector3& place = *monitor.near;
+  double nearest = std::numeric_limits<double>::infinity();
+  deck::Vector3 origin{};
+  forEachPosition(contact, [&](std::size_t, int, const double* x) {
+    const double distance = std::hypot(x[0] - place[0], x[1] - place[1], x[2] - place[2]);
+    if (!(distance < nearest)) return;
+    nearest = distance;
+    origin = {x[0], x[1], x[2]};
+  });
+  const deck::Vector3 a = monitor.along.value_or(deck::Vector3{});
+  const double length = std::hypot(a[0], a[1], a[2]);
+  std::vector<std::vector<double>> weights;
+  for (const fem::PointSet& points : contact.points) weights.emplace_back(points.numPoints(), 0.0);
+  bool found = false;
+  forEachPosition(contact, [&](std::size_t t, int p, const double* x) {
+    const double d[3] = {x[0] - origin[0], x[1] - origin[1], x[2] - origin[2]};
+    const double distance = std::hypot(d[0], d[1], d[2]);
+    if (!monitor.along && (distance > 0 || found)) return;  // one point, even where two are at a place
+    // Coordinates in a mesh file are exact to rounding, or to the six digits of a text that they came from.
+    if (monitor.along && std::hypot(a[1] * d[2] - a[2] * d[1], a[2] * d[0] - a[0] * d[2],
+                                    a[0] * d[1] - a[1] * d[0]) > 1e-5 * length * distance)
+      return;
+    weights[t][p] = contact.points[t].weights[p];
+    found = true;
+  });
+  return weights;
+}
+
 }  // namespace
 
 void Scene::addMonitors() {
@@ -35,6 +74,11 @@ void Scene::addMonitors() {
       for (int n : nodes) weights->sumIntoLocalValue(3 * n + componentIndex(m->component), each);
     }
     displacementWeights_.push_back(weights);
+    std::vector<std::vector<double>> points;
+    if (const auto* m = std::get_if<deck::ContactForceMonitor>(&monitor.quantity); m && m->near)
+      for (const ContactPoints& contact : contacts_)
+        if (contact.name == m->contact) points = weightsNear(contact, *m);
+    contactWeights_.push_back(std::move(points));
   }
 }
 
@@ -84,15 +128,11 @@ ContactState Scene::contactState(const ContactPoints& contact, const path::Vecto
   return state;
 }
 
-double Scene::contactForceNear(const ContactPoints& contact, const deck::Vector3& place,
-                               const path::Vector& u, double lambda) const {
-  double nearest = std::numeric_limits<double>::infinity(), force = 0;
+double Scene::contactForce(const ContactPoints& contact, const std::vector<std::vector<double>>& weights,
+                           const path::Vector& u, double lambda) const {
+  double force = 0;
   forEachContactPoint(contact, u, lambda, [&](std::size_t t, int p, const double* gapAndPressure) {
-    const double* x = &contact.points[t].positions[3 * static_cast<std::size_t>(p)];
-    const double distance = std::hypot(x[0] - place[0], x[1] - place[1], x[2] - place[2]);
-    if (!(distance < nearest)) return;
-    nearest = distance;
-    force = contact.points[t].weights[p] * gapAndPressure[1];
+    if (weights[t][p] != 0) force += weights[t][p] * gapAndPressure[1];
   });
   return force;
 }
@@ -115,11 +155,12 @@ std::vector<double> Scene::monitors(const path::Vector& u, double lambda) const 
     const path::Vector& u;
     double lambda;
     const path::Vector* weights;
+    const std::vector<std::vector<double>>& contactWeights;
     double operator()(const deck::DisplacementMonitor&) const { return linear::dot(*weights, u); }
     double operator()(const deck::ContactForceMonitor& m) const {
       for (const ContactPoints& contact : scene.contacts_)
         if (contact.name == m.contact)
-          return m.near ? scene.contactForceNear(contact, *m.near, u, lambda)
+          return m.near ? scene.contactForce(contact, contactWeights, u, lambda)
                  : m.component == deck::Component::Normal
                      ? scene.contactState(contact, u, lambda).normalForce
                      : scene.contactResultant(contact, u, lambda)[componentIndex(m.component)];
@@ -136,8 +177,9 @@ std::vector<double> Scene::monitors(const path::Vector& u, double lambda) const 
     }
   };
   for (std::size_t i = 0; i < deck_.output.monitors.size(); ++i)
-    result.push_back(std::visit(Evaluator{*this, u, lambda, displacementWeights_[i].get()},
-                                deck_.output.monitors[i].quantity));
+    result.push_back(
+        std::visit(Evaluator{*this, u, lambda, displacementWeights_[i].get(), contactWeights_[i]},
+                   deck_.output.monitors[i].quantity));
   return result;
 }
 

@@ -20,6 +20,13 @@ std::vector<fem::ShellSection> sectionsOf(const deck::Deck& deck, const fem::Mes
   return sections;
 }
 
+deck::Shear shearOf(const deck::Deck& deck, const fem::Mesh& mesh, int block) {
+  for (const deck::ShellSection& section : deck.shells.sections)
+    for (const std::string& name : section.blocks)
+      if (section.shear && fem::findBlock(mesh, name) == block) return *section.shear;
+  return deck.shells.shear;
+}
+
 fem::ShellGeometry geometryOf(const deck::Deck& deck, const fem::Mesh& mesh) {
   fem::ShellGeometryOptions options;
   options.foldAngle = deck.shells.foldAngle;
@@ -46,8 +53,10 @@ SceneShells sceneShells(const deck::Deck& deck, const fem::Mesh& mesh) {
           deck.file, block.name, fem::topologyName(block.topology)));
   SceneShells shells;
   shells.geometry = geometryOf(deck, mesh);
-  for (const fem::ShellBlock& b : shells.geometry.blocks)
+  for (const fem::ShellBlock& b : shells.geometry.blocks) {
     shells.elements.push_back({b.nodes, b.midsurface, b.directors, b.directorScale});
+    shells.shear.push_back(shearOf(deck, mesh, b.block));
+  }
   return shells;
 }
 

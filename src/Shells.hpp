@@ -11,6 +11,7 @@ namespace atrapos {
 struct SceneShells {
   fem::ShellGeometry geometry;
   std::vector<solid::ShellElements> elements;  ///< [position in geometry.blocks]
+  std::vector<deck::Shear> shear;              ///< the same
 
   bool empty() const { return elements.empty(); }
   /// Position of a block of the mesh in geometry.blocks; -1: it has no shells.

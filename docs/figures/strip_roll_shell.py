@@ -41,11 +41,11 @@ def main(shell, nu0):
     figure, (forces, tip) = plt.subplots(1, 2, figsize=(11, 4.4))
     for station, colour in ((200, "#1f5fa8"), (210, "#e08214"), (220, "#c0392b")):
         run = runs["nu = 0.3"]
-        forces.plot(run["load_factor"], 2 * run[f"half_{station}"], color=colour, lw=1.3, label=f"s = {station} mm")
+        forces.plot(run["load_factor"], run[f"force_{station}"], color=colour, lw=1.3, label=f"s = {station} mm")
         forces.plot(stations["lambda"], stations[f"R_s{station}"], "o", color=colour, ms=3, mfc="none")
         run = runs["nu = 0"]
         inside = (stations["lambda"] > 0) & (stations["lambda"] <= 2)
-        difference = 2 * np.interp(stations["lambda"], run["load_factor"], run[f"half_{station}"]) - stations[f"R_s{station}"]
+        difference = np.interp(stations["lambda"], run["load_factor"], run[f"force_{station}"]) - stations[f"R_s{station}"]
         relative = abs(difference[inside]) / stations["R_sum_signed"][inside]
         print(f"station {station}: off by {100 * relative.max():.2f} % of the sum of forces at most (nu = 0)")
     forces.set_xlim(0, 0.25)

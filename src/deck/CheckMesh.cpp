@@ -155,9 +155,30 @@ class MeshCheck {
       return;
     }
     nodes(path + "/set", contact.set);
+    if (contact.shares == Contact::Shares::DistributionFactors) {
+      distributionFactors(path + "/shares", contact.set);
+    }
     if (contact.at != ShellPlace::Middle && !hasShells(contact.set)) {
       fail(path + "/at",
            fmt::format("no node of '{}' belongs to shells, which have a top and a bottom", contact.set));
+    }
+  }
+
+  void distributionFactors(const std::string& path, const std::string& set) const {
+    const int found = fem::findNodeSet(mesh_, set);
+    if (found < 0) {
+      fail(path, fmt::format("'{}' is a side set; distribution factors are those of a node set", set));
+    }
+    const fem::NodeSet& nodeSet = mesh_.nodeSets[static_cast<std::size_t>(found)];
+    if (nodeSet.factors.empty()) {
+      fail(path, fmt::format("the mesh has no distribution factors for the node set '{}'", set));
+    }
+    for (std::size_t i = 0; i < nodeSet.factors.size(); ++i) {
+      if (!(nodeSet.factors[i] > 0)) {
+        fail(path, fmt::format(
+                       "the distribution factor of node {} in the node set '{}' is {:.6g}, must be positive",
+                       nodeSet.nodes[i] + 1, set, nodeSet.factors[i]));
+      }
     }
   }
 

@@ -51,15 +51,23 @@ struct Material {
   std::vector<std::string> blocks;  ///< names or ids
 };
 
+/// The transverse shear strains of shells.
+enum class Shear {
+  Compatible,  ///< those of the displacements: the paper's element
+  Assumed      ///< tied along lines of the element, which frees thin plates of locking
+};
+
 /// The thickness of the shells of some blocks; those without an entry have it in their attributes.
 struct ShellSection {
   std::string name;
   std::vector<std::string> blocks;  ///< names or ids
   std::optional<double> thickness;  ///< length, > 0; empty = the attributes of the blocks
+  std::optional<Shear> shear;       ///< empty = as Shells has it
 };
 
 struct Shells {
   double foldAngle = 20;  ///< degrees, in (0, 180): beyond it faces at a node have directors of their own
+  Shear shear = Shear::Compatible;  ///< of blocks without an entry, and of entries without their own
   std::vector<ShellSection> sections;
 };
 
@@ -261,6 +269,11 @@ struct Contact {
     Penalty,      ///< alpha max(-h, 0), its corner smoothed over l
     Hard          ///< h >= 0, R >= 0, h R = 0: the set of active points changes at events; nodes only
   };
+  /// What part of R, eta and alpha a node has.
+  enum class Shares {
+    Equal,               ///< 1 each
+    DistributionFactors  ///< those of the node set
+  };
   /// Which points have the law.
   enum class Carried {
     Near,  ///< those that come near the tool, found along the path
@@ -275,6 +288,7 @@ struct Contact {
   std::string tool;
   std::string set;  ///< side set; with nodes: node set, else side set
   Points points = Points::Quadrature;
+  Shares shares = Shares::Equal;       ///< with nodes; not with the hard law
   ShellPlace at = ShellPlace::Middle;  ///< of shells
   int quadratureDegree = 4;            ///< polynomial degree integrated exactly; unused with nodes
   Law law = Law::Hyperbola;
@@ -368,11 +382,13 @@ struct DisplacementMonitor {
 
 /// Total contact force on the tool's side of a contact: the sum of the normal forces, or a component of the
 /// resultant that acts on the body. With `near` the normal force (of faces: the pressure times the cubature
-/// weight) of the one point that is nearest to a place in the reference configuration.
+/// weight) of the one point that is nearest to a place in the reference configuration; with `along` besides,
+/// of all points on the line through that point.
 struct ContactForceMonitor {
   std::string contact;
   Component component = Component::Normal;
   std::optional<Vector3> near;
+  std::optional<Vector3> along;  ///< direction, not zero, any length
 };
 
 /// Total force with which a support holds the body.

@@ -271,6 +271,21 @@ const Table<Contact>& contactTable() {
         v.fail("hard contact acts at nodes; expected points: nodes beside it");
       }
     };
+    auto shares =
+        choice("shares", optional, &Contact::shares,
+               Choices<Contact::Shares>{{"equal", Contact::Shares::Equal},
+                                        {"distribution_factors", Contact::Shares::DistributionFactors}},
+               "with points: nodes, what part of R, eta and alpha a node has: 1, or its "
+               "distribution factor in the node set");
+    shares.read = [inner = shares.read](const Value& v, Contact& s) {
+      inner(v, s);
+      if (s.shares != Contact::Shares::Equal && s.points != Contact::Points::Nodes) {
+        v.fail("distribution factors are those of nodes; expected points: nodes beside it");
+      }
+    };
+    shares.print = [inner = shares.print](const Contact& s) {
+      return s.points == Contact::Points::Nodes ? inner(s) : Node{};
+    };
     using Law = ContactLaw;
     using Unknown = Contact::Unknown;
     auto carried =
@@ -293,6 +308,7 @@ const Table<Contact>& contactTable() {
         choice("at", optional, &Contact::at, shellPlaces(), "where in the thickness of shells"),
         degree,
         law,
+        ofLaws(shares, withDelta),
         ofLaws(contactStiffness(), {Law::Hyperbola, Law::Power, Law::Penalty}),
         ofLaws(positiveOr("regularisation", &Contact::regularisation, "auto",
                           "eta: a pressure, with points: nodes a force"),

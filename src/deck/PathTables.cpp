@@ -45,6 +45,26 @@ Field<ContactForceMonitor> nearestContactPoint() {
   return field;
 }
 
+Field<ContactForceMonitor> lineOfPoints() {
+  return {"along",
+          false,
+          "a list of 3 numbers",
+          "with near: all points on the line through that point in this direction",
+          [](const Value& v, ContactForceMonitor& s) {
+            if (!s.near) {
+              v.fail("needs near beside it");
+            }
+            const auto x = v.reals(3);
+            if (x[0] == 0 && x[1] == 0 && x[2] == 0) {
+              v.fail("must not be the zero vector");
+            }
+            s.along = Vector3{x[0], x[1], x[2]};
+          },
+          [](const ContactForceMonitor& s) {
+            return s.along ? Node{yamlList(*s.along), {}} : Node{};
+          }};
+}
+
 /// One number, or a list of them.
 std::vector<double> oneOrMore(const Value& v, const Check& check) {
   if (!v.isList()) {
@@ -295,7 +315,7 @@ const Variants<Monitor, decltype(Monitor::quantity)>& monitorVariants() {
            {name("contact", required, &ContactForceMonitor::contact, "the name of a contact", "whose force"),
             choice("component", optional, &ContactForceMonitor::component, allComponents(),
                    "normal: sum of the normal forces; x, y, z: of their resultant on the body"),
-            nearestContactPoint()}),
+            nearestContactPoint(), lineOfPoints()}),
        alternative<V, ReactionMonitor>(
            "reaction", {name("support", required, &ReactionMonitor::support, "the name of a support",
                              "whose force on the body"),

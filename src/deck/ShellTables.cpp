@@ -10,6 +10,33 @@ const Choices<ShellPlace>& shellPlaces() {
   return choices;
 }
 
+namespace {
+
+const Choices<Shear>& shears() {
+  static const Choices<Shear> choices{{"compatible", Shear::Compatible}, {"assumed", Shear::Assumed}};
+  return choices;
+}
+
+/// A section's own choice, where it has one.
+Field<ShellSection> sectionShear() {
+  const std::string accepts = "one of " + joined(wordsOf(shears()));
+  return {"shear",
+          false,
+          accepts,
+          "transverse shear strains of these blocks",
+          [=](const Value& v, ShellSection& s) {
+            if (!v.isText()) {
+              v.fail(fmt::format("expected {}, got {}", accepts, v.shown()));
+            }
+            s.shear = choose(v, v.text(), shears());
+          },
+          [](const ShellSection& s) {
+            return s.shear ? Node{wordOf(*s.shear, shears()), {}} : Node{};
+          }};
+}
+
+}  // namespace
+
 const Table<ShellSection>& shellSectionTable() {
   static const Table<ShellSection> table{
       names("blocks", required, &ShellSection::blocks, "blocks of the mesh with shells"),
@@ -26,7 +53,8 @@ const Table<ShellSection>& shellSectionTable() {
        },
        [](const ShellSection& s) {
          return Node{s.thickness ? yaml(*s.thickness) : "attribute", {}};
-       }}};
+       }},
+      sectionShear()};
   return table;
 }
 
@@ -40,8 +68,12 @@ const Table<Shells>& shellsTable() {
         v.fail(fmt::format("must be below 180 degrees, got {}", v.shown()));
       }
     };
-    return Table<Shells>{angle, entries("sections", optional, &Shells::sections, shellSectionTable(),
-                                        "each with blocks, thickness", "thickness of the shells")};
+    return Table<Shells>{angle,
+                         choice("shear", optional, &Shells::shear, shears(),
+                                "transverse shear strains; assumed: for thin plates with clamped edges or "
+                                "skew corners"),
+                         entries("sections", optional, &Shells::sections, shellSectionTable(),
+                                 "each with blocks, thickness, shear", "thickness of the shells")};
   }();
   return table;
 }

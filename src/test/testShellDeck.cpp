@@ -84,6 +84,8 @@ TEST(ShellDeck, goodDeckGivesItsValues) {
   EXPECT_EQ(deck.shells.sections[0].name, "skin");
   EXPECT_EQ(deck.shells.sections[0].blocks, std::vector<std::string>{"plate"});
   EXPECT_EQ(*deck.shells.sections[0].thickness, 0.25);
+  EXPECT_EQ(deck.shells.shear, Shear::Compatible);
+  EXPECT_FALSE(deck.shells.sections[0].shear);
 
   const auto& line = std::get<EdgeLoad>(deck.loads[0].load);
   EXPECT_EQ(line.kind, EdgeLoad::Kind::Force);
@@ -243,12 +245,15 @@ TEST(ShellDeck, whatIsWrittenOfShells) {
   shells: body
   monitors:
     middle: {type: contact_force, contact: points, near: [5, 1, 0]}
+    across: {type: contact_force, contact: points, near: [5, 1, 0], along: [0, 2, 0]}
     total: {type: contact_force, contact: points}
 )";
   const Deck deck = readDeckText(text, "shell.yaml");
   EXPECT_EQ(deck.output.shells, Output::Shells::Body);
   EXPECT_EQ(*std::get<ContactForceMonitor>(deck.output.monitors[0].quantity).near, (Vector3{5, 1, 0}));
-  EXPECT_FALSE(std::get<ContactForceMonitor>(deck.output.monitors[1].quantity).near);
+  EXPECT_FALSE(std::get<ContactForceMonitor>(deck.output.monitors[0].quantity).along);
+  EXPECT_EQ(*std::get<ContactForceMonitor>(deck.output.monitors[1].quantity).along, (Vector3{0, 2, 0}));
+  EXPECT_FALSE(std::get<ContactForceMonitor>(deck.output.monitors[2].quantity).near);
   std::ostringstream first, second;
   describe(deck, first);
   describe(readDeckText(first.str(), "shell.yaml"), second);
@@ -256,8 +261,54 @@ TEST(ShellDeck, whatIsWrittenOfShells) {
   EXPECT_EQ(readDeckText(goodDeck, "shell.yaml").output.shells, Output::Shells::Surface);
   EXPECT_EQ(errorOf(changed("points, near: [5, 1, 0]}", "points, component: x, near: [5, 1, 0]}", text)),
             "shell.yaml: output/monitors/middle/near: has a meaning with component: normal only (line 31)");
+  EXPECT_EQ(errorOf(changed("near: [5, 1, 0], along: [0, 2, 0]", "along: [0, 2, 0]", text)),
+            "shell.yaml: output/monitors/across/along: needs near beside it (line 32)");
+  EXPECT_EQ(errorOf(changed("along: [0, 2, 0]", "along: [0, 0, 0]", text)),
+            "shell.yaml: output/monitors/across/along: must not be the zero vector (line 32)");
   EXPECT_NE(errorOf(changed("shells: body", "shells: solid", text)).find("output/shells: 'solid' is not a"),
             std::string::npos);
+}
+
+TEST(ShellDeck, shearOfAllOrOfSomeBlocks) {
+  const Deck all = readDeckText(changed("fold_angle: 30", "shear: assumed"), "s.yaml");
+  EXPECT_EQ(all.shells.shear, Shear::Assumed);
+  const Deck some = readDeckText(changed("thickness: 0.25}", "thickness: 0.25, shear: assumed}"), "s.yaml");
+  EXPECT_EQ(some.shells.shear, Shear::Compatible);
+  EXPECT_EQ(*some.shells.sections[0].shear, Shear::Assumed);
+  std::ostringstream printed;
+  describe(some, printed);
+  EXPECT_EQ(*readDeckText(printed.str(), "s.yaml").shells.sections[0].shear, Shear::Assumed);
+  expectError("fold_angle: 30", "shear: tied", "shells/shear: 'tied' is not a choice here");
+  expectError("thickness: 0.25}", "thickness: 0.25, shear: tied}",
+              "shells/sections/skin/shear: 'tied' is not a choice here");
+}
+
+TEST(ShellDeck, sharesOfNodes) {
+  const std::string shares = "set: y_lines, points: nodes, shares: distribution_factors";
+  const Deck deck = readDeckText(changed("set: x_mid, points: nodes", shares), "s.yaml");
+  EXPECT_EQ(deck.contacts[0].shares, Contact::Shares::Equal);
+  EXPECT_EQ(deck.contacts[1].shares, Contact::Shares::DistributionFactors);
+  std::ostringstream printed;
+  describe(deck, printed);
+  EXPECT_EQ(readDeckText(printed.str(), "s.yaml").contacts[1].shares, Contact::Shares::DistributionFactors);
+  fem::Mesh mesh = plateMesh();
+  EXPECT_EQ(errorOf(changed("set: x_mid, points: nodes", shares), &mesh), "no error");
+  expectError("at: bottom, stiffness", "at: bottom, shares: distribution_factors, stiffness",
+              "contact/below/shares: distribution factors are those of nodes; expected points: nodes");
+  expectError("set: x_mid, points: nodes, stiffness: 1000, regularisation: 0.1",
+              "set: x_mid, points: nodes, law: hard, shares: distribution_factors",
+              "contact/points/shares: has no meaning with law: hard");
+  expectError("set: x_mid, points: nodes", "set: x_mid, points: nodes, shares: distribution_factors",
+              "contact/points/shares: the mesh has no distribution factors for the node set 'x_mid'", &mesh);
+  expectError("set: x_mid, points: nodes", "set: bottom, points: nodes, shares: distribution_factors",
+              "contact/points/shares: 'bottom' is a side set; distribution factors are those of a node set",
+              &mesh);
+  fem::NodeSet& set = mesh.nodeSets.at(static_cast<std::size_t>(fem::findNodeSet(mesh, "y_lines")));
+  set.factors[2] = 0;
+  expectError("set: x_mid, points: nodes", shares,
+              "contact/points/shares: the distribution factor of node " + std::to_string(set.nodes[2] + 1) +
+                  " in the node set 'y_lines' is 0, must be positive",
+              &mesh);
 }
 
 TEST(ShellDeck, platesCanBeGraded) {

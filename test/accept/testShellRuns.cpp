@@ -193,6 +193,23 @@ TEST(ShellRuns, ForceAlongTheDirector) {
   EXPECT_NEAR(z, -2 * dz / std::hypot(dx, dz), 1e-3);
 }
 
+// An end that is moved, or turned by its director, in proportion to the load factor, without any load: 3 E I
+// /L^3 of force for the one, half the length times the turn for the other. E I = 100.
+TEST(ShellRuns, DrivenEnds) {
+  const auto deck = [](const std::string& support) {
+    return edited(edited(kStrip, "loads:\n  turn: {type: edge, set: x_max, follower_moment: -20}\n", ""),
+                  "path:\n", "  end: {set: x_max, " + support + "}\npath:\n");
+  };
+  const DeckRun moved(deck("z: {value: 0, per_load_factor: 0.012}") +
+                      "    force: {type: reaction, support: end, component: z}\n");
+  EXPECT_NEAR(moved.last("tip_uz"), 0.012, 1e-12);  // prescribed
+  const double force = 3 * 100 * 0.012 / (12 * 12 * 12);
+  EXPECT_NEAR(moved.last("force"), force, 1e-3 * force);  // shear, second-order terms: below 1e-4
+  const double turn = 0.01;
+  const DeckRun turned(deck("director_x: {value: 0, per_load_factor: -0.0005}"));  // of half the thickness
+  EXPECT_NEAR(turned.last("tip_uz"), turn * 12 / 2, 1e-3 * turn * 12 / 2);
+}
+
 // A block that is pressed at one end while its faces are free to spread: homogeneous, and the reaction is the
 // pressure times the end's area as deformed.
 TEST(ShellRuns, PressureThatFollowsASolid) {
@@ -236,15 +253,66 @@ TEST(ShellRuns, ContactOfTheBottom) {
            "    force: {type: contact_force, contact: below}\n"
            "    force_z: {type: contact_force, contact: below, component: z}\n";
   };
-  for (const char* points : {"points: nodes", "points: quadrature"}) {
-    SCOPED_TRACE(points);
-    const DeckRun bottom(deck("bottom", "-0.25", points)), middle(deck("middle", "-0.2", points));
+  for (const auto& [points, shear] :
+       {std::make_pair("points: nodes", "compatible"), std::make_pair("points: quadrature", "compatible"),
+        std::make_pair("points: quadrature", "assumed")}) {
+    SCOPED_TRACE(std::string(points) + ", " + shear);
+    const auto run = [&, p = std::string(points), s = std::string(shear)](const char* place,
+                                                                          const char* floor) {
+      return DeckRun(edited(deck(place, floor, p), "shells:\n", "shells:\n  shear: " + s + "\n"));
+    };
+    const DeckRun bottom = run("bottom", "-0.25"), middle = run("middle", "-0.2");
     EXPECT_GT(bottom.last("force"), 0.5);  // of the load of 1
     EXPECT_LT(bottom.last("force"), 1.2);
     // Turned by 0.03 at most: the bottom is 5e-4 of 0.05 higher.
     EXPECT_NEAR(bottom.last("force"), middle.last("force"), 1e-3);
     EXPECT_NEAR(bottom.last("force_z"), bottom.last("force"), 1e-6);
     EXPECT_NEAR(bottom.last("tip_uz"), middle.last("tip_uz"), 1e-3);
+  }
+}
+
+// One strip of two blocks, 0.1 thick and 0.05 thick, each with the strains that its section names: where it
+// curls across (nu = 0.3) the elements differ a little, each block on its own.
+TEST(ShellRuns, SectionsChooseTheirShear) {
+  fem::ShellPlateOptions options;
+  options.length = 12;
+  options.divisions = {12, 1};
+  options.blockName = "strip";
+  fem::Mesh mesh = fem::shellPlateMesh(options);
+  fem::Block& first = mesh.blocks[0];
+  fem::Block second = first;
+  second.name = "thin";
+  second.id = 2;
+  first.nodes.resize(6 * 8);
+  second.nodes.erase(second.nodes.begin(), second.nodes.begin() + 6 * 8);
+  mesh.blocks.push_back(second);
+  const auto deck = [&](const std::string& thick, const std::string& thin) {
+    std::string text = edited(kStrip, "file: strip.exo\n", "file: mesh.exo\n");
+    text = edited(text, "blocks: [strip]}\nshells", "blocks: [strip, thin]}\nshells");
+    text = edited(text, "thickness: 0.1}\n",
+                  "thickness: 0.1" + thick + "}\n    thin: {blocks: [thin], thickness: 0.05" + thin + "}\n");
+    text = edited(text, "poissons_ratio: 0,", "poissons_ratio: 0.3,");
+    return edited(edited(text, "follower_moment: -20", "follower_moment: -4"), "output:\n",
+                  "output:\n  fields: [displacement, stress, nodal_stress, reaction]\n");
+  };
+  const std::string assumed = ", shear: assumed";
+  const DeckRun plain(deck("", ""), &mesh);
+  const double uz = plain.last("tip_uz");
+  EXPECT_GT(uz, 4);
+  std::vector<double> others{uz};
+  for (const auto& [thick, thin] :
+       {std::make_pair(assumed, std::string()), std::make_pair(std::string(), assumed),
+        std::make_pair(assumed, assumed)}) {
+    SCOPED_TRACE(thick + " and " + thin);
+    const DeckRun run(deck(thick, thin), &mesh);
+    EXPECT_NEAR(run.last("tip_uz"), uz, 0.01 * uz);
+    for (double other : others) EXPECT_GT(std::abs(run.last("tip_uz") - other), 1e-8 * uz);  // not rounding
+    others.push_back(run.last("tip_uz"));
+    // A moment is the same all along, up to what the meeting of the halves disturbs.
+    const auto results = run.results();
+    const int step = results.numSteps() - 1;
+    const auto m = results.element(step, "m_11");
+    for (int e : {2, 9}) EXPECT_NEAR(m.at(e), -4, 0.01 * 4) << e;
   }
 }
 
@@ -308,9 +376,11 @@ TEST(ShellRuns, ShellsBesideSolids) {
   shell.divisions = {10, 1};
   shell.blockName = "shell";
   const fem::Mesh mesh = together(fem::stripMesh(solid), fem::shellPlateMesh(shell));
-  for (const char* shells : {"surface", "body"}) {
+  for (const auto& [shells, shear] :
+       {std::make_pair("surface", "compatible"), std::make_pair("body", "assumed")}) {
     SCOPED_TRACE(shells);
-    const DeckRun run(edited(kBoth, "output:\n", std::string("output:\n  shells: ") + shells + "\n"), &mesh);
+    const std::string deck = edited(kBoth, "shells:\n", std::string("shells:\n  shear: ") + shear + "\n");
+    const DeckRun run(edited(deck, "output:\n", std::string("output:\n  shells: ") + shells + "\n"), &mesh);
     EXPECT_NEAR(run.last("solid_fz"), 1, 1e-4);
     EXPECT_NEAR(run.last("shell_fz"), 1, 1e-4);
     // Deflections of a tenth of the length; a clamped solid end is held a little differently.

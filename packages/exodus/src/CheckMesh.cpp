@@ -29,7 +29,11 @@ class Checker {
             "a node has a coordinate that is not a finite number");
     for (const fem::Block& block : mesh_.blocks) checkBlock(block);
     require(!sidesOfElement_.empty(), "the mesh has no elements");
-    for (const fem::NodeSet& set : mesh_.nodeSets) checkNodes(set.nodes, describe("node set", set));
+    for (const fem::NodeSet& set : mesh_.nodeSets) {
+      checkNodes(set.nodes, describe("node set", set));
+      require(set.factors.empty() || set.factors.size() == set.nodes.size(),
+              describe("node set", set) + " has not as many distribution factors as nodes");
+    }
     for (const fem::SideSet& set : mesh_.sideSets) checkSides(set);
     checkNamesAndIds(mesh_.blocks, "block");
     checkNamesAndIds(mesh_.nodeSets, "node set");

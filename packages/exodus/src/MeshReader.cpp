@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <limits>
 #include <utility>
 
@@ -126,27 +127,38 @@ class MeshReader {
                 "reading the attributes of " + owner);
   }
 
-  std::size_t setLength(ex_entity_type type, int64_t id, const std::string& owner) const {
+  struct SetLength {
+    std::size_t entries, factors;
+  };
+  SetLength setLength(ex_entity_type type, int64_t id, const std::string& owner) const {
     int64_t entries = 0, factors = 0;
     file_.check(ex_get_set_param(file_.id(), type, id, &entries, &factors), "reading the length of " + owner);
     require(entries >= 0 && entries < std::numeric_limits<int>::max(), owner + " is too large");
-    return static_cast<std::size_t>(entries);
+    return {static_cast<std::size_t>(entries), static_cast<std::size_t>(std::max<int64_t>(factors, 0))};
   }
 
   void readNodeSets() {
     for (const auto& [id, name] : idsAndNames(EX_NODE_SET, init_.num_node_sets, "node sets")) {
       const std::string owner = "node set '" + name + "' (id " + std::to_string(id) + ")";
-      std::vector<int64_t> nodes(setLength(EX_NODE_SET, id, owner));
+      const SetLength length = setLength(EX_NODE_SET, id, owner);
+      std::vector<int64_t> nodes(length.entries);
       if (!nodes.empty())
         file_.check(ex_get_set(file_.id(), EX_NODE_SET, id, nodes.data(), nullptr), "reading " + owner);
-      mesh_.nodeSets.push_back({name, id, zeroBased(nodes, init_.num_nodes, owner, "node")});
+      require(length.factors == 0 || length.factors == length.entries,
+              owner + " has not as many distribution factors as nodes");
+      std::vector<double> factors(length.factors);
+      if (!factors.empty())
+        file_.check(ex_get_set_dist_fact(file_.id(), EX_NODE_SET, id, factors.data()),
+                    "reading the distribution factors of " + owner);
+      mesh_.nodeSets.push_back(
+          {name, id, zeroBased(nodes, init_.num_nodes, owner, "node"), std::move(factors)});
     }
   }
 
   void readSideSets() {
     for (const auto& [id, name] : idsAndNames(EX_SIDE_SET, init_.num_side_sets, "side sets")) {
       const std::string owner = "side set '" + name + "' (id " + std::to_string(id) + ")";
-      std::vector<int64_t> elements(setLength(EX_SIDE_SET, id, owner)), ordinals(elements.size());
+      std::vector<int64_t> elements(setLength(EX_SIDE_SET, id, owner).entries), ordinals(elements.size());
       if (!elements.empty())
         file_.check(ex_get_set(file_.id(), EX_SIDE_SET, id, elements.data(), ordinals.data()),
                     "reading " + owner);

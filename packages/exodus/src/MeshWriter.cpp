@@ -127,8 +127,10 @@ class MeshWriter {
     lists.reserve(mesh_.nodeSets.size() + 2 * mesh_.sideSets.size());  // the sets point into it
     for (const fem::NodeSet& set : mesh_.nodeSets) {
       lists.push_back(oneBased(set.nodes));
-      sets.push_back({set.id, EX_NODE_SET, static_cast<int64_t>(set.nodes.size()), 0, lists.back().data(),
-                      nullptr, nullptr});
+      // The library writes factors where there is a pointer to some; it does not change them.
+      void* factors = set.factors.empty() ? nullptr : const_cast<double*>(set.factors.data());
+      sets.push_back({set.id, EX_NODE_SET, static_cast<int64_t>(set.nodes.size()),
+                      static_cast<int64_t>(set.factors.size()), lists.back().data(), nullptr, factors});
     }
     for (const fem::SideSet& set : mesh_.sideSets) {
       std::vector<int64_t> elements, sides;

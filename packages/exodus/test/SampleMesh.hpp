@@ -26,6 +26,8 @@ inline atrapos::fem::Mesh sampleMesh(atrapos::fem::Topology topology) {
     second.attributes.push_back(0.1 * static_cast<double>(i) - 1.0 / 3);
   mesh.blocks.push_back(second);
   mesh.nodeSets.push_back({"nobody", 1000, {}});
+  for (std::size_t i = 0; i < mesh.nodeSets[1].nodes.size(); ++i)
+    mesh.nodeSets[1].factors.push_back(1.0 / (1.0 + static_cast<double>(i)));
   mesh.sideSets[2].id = 2147483647;
   mesh.sideSets[3].name = "";
   for (int i = 0; i < mesh.numNodes(); ++i) mesh.nodeIds.push_back(1000000 - 3 * i);

@@ -40,6 +40,7 @@ void expectEqual(const Mesh& a, const Mesh& b) {
     EXPECT_EQ(a.nodeSets[i].name, b.nodeSets[i].name);
     EXPECT_EQ(a.nodeSets[i].id, b.nodeSets[i].id);
     EXPECT_EQ(a.nodeSets[i].nodes, b.nodeSets[i].nodes);
+    EXPECT_EQ(a.nodeSets[i].factors, b.nodeSets[i].factors);
   }
   ASSERT_EQ(a.sideSets.size(), b.sideSets.size());
   for (std::size_t i = 0; i < a.sideSets.size(); ++i) {

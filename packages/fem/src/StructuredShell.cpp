@@ -40,6 +40,7 @@ class SurfaceMesher {
     numberNodes();
     addBlock();
     addNodeSets();
+    addLineSets();
     addSideSets();
     return std::move(mesh_);
   }
@@ -121,6 +122,54 @@ class SurfaceMesher {
       if (set.nodes.empty()) continue;  // no nodes halfway, or no such edge
       set.id = static_cast<long long>(mesh_.nodeSets.size()) + 1;
       mesh_.nodeSets.push_back(std::move(set));
+    }
+  }
+
+  /// For each direction the nodes on the lines along it: those that edges of elements form, and all. The
+  /// factors are the integrals of a line's shape functions over its length: a force on each of them is a
+  /// uniform force along the line.
+  void addLineSets() {
+    for (const bool edgesOnly : {false, true})
+      for (int along = 0; along < 2; ++along) {
+        NodeSet set;
+        const std::string middle = surface_.names[along][2];  // "x_mid"
+        set.name = middle.substr(0, middle.size() - 4) + (edgesOnly ? "_edges" : "_lines");
+        Lattice p{};
+        for (p[1 - along] = 0; p[1 - along] < size_[1 - along]; ++p[1 - along])
+          if (!edgesOnly || p[1 - along] % 2 == 0) addLine(p, along, set);
+        set.id = static_cast<long long>(mesh_.nodeSets.size()) + 1;
+        mesh_.nodeSets.push_back(std::move(set));
+      }
+  }
+
+  /// The line through the lattice point p, where it has nodes.
+  void addLine(Lattice p, int along, NodeSet& set) {
+    const int cells = surface_.divisions[along];
+    const auto node = [&](int at) {
+      p[along] = at;
+      return nodeAt(p);
+    };
+    if (node(0) < 0) return;
+    const bool threeNodes = node(1) >= 0;
+    std::vector<double> lengths, shares(2 * static_cast<std::size_t>(cells) + 1, 0.0);
+    double whole = 0;
+    for (int c = 0; c < cells; ++c) {
+      const double* x = &mesh_.coordinates[3 * static_cast<std::size_t>(node(2 * c))];
+      const double* y = &mesh_.coordinates[3 * static_cast<std::size_t>(node(2 * c + 2))];
+      lengths.push_back(std::hypot(y[0] - x[0], y[1] - x[1], y[2] - x[2]));
+      whole += lengths.back();
+    }
+    for (int c = 0; c < cells; ++c) {
+      const double length = lengths[c] / whole;
+      shares[2 * c] += length * (threeNodes ? 1.0 / 6 : 0.5);
+      shares[2 * c + 1] += length * (threeNodes ? 2.0 / 3 : 0.0);
+      shares[2 * c + 2] += length * (threeNodes ? 1.0 / 6 : 0.5);
+    }
+    if (surface_.closed[along]) shares.front() += shares.back();
+    for (int at = 0; at < size_[along]; ++at) {
+      if (node(at) < 0) continue;
+      set.nodes.push_back(node(at));
+      set.factors.push_back(shares[at]);
     }
   }
 

@@ -222,7 +222,7 @@ TEST(StructuredShell, SetsLieWhereTheirNamesSay) {
   EXPECT_EQ(nodesOfSet(mesh, "x_max").size(), 5u);
   EXPECT_EQ(nodesOfSet(mesh, "y_min").size(), 9u);
   EXPECT_EQ(nodesOfSet(mesh, "y_mid").size(), 9u);
-  EXPECT_EQ(mesh.nodeSets.size(), 15u);
+  EXPECT_EQ(mesh.nodeSets.size(), 19u);
   EXPECT_EQ(mesh.sideSets.size(), 6u);
   for (int d = 0; d < 4; ++d) EXPECT_EQ(mesh.sideSets[d].id, mesh.nodeSets[d].id);
   std::set<std::string> names;
@@ -231,13 +231,60 @@ TEST(StructuredShell, SetsLieWhereTheirNamesSay) {
     names.insert(set.name);
     ids.insert(set.id);
   }
-  EXPECT_EQ(names.size(), 15u);
-  EXPECT_EQ(ids.size(), 15u);
+  EXPECT_EQ(names.size(), 19u);
+  EXPECT_EQ(ids.size(), 19u);
 
   o.divisions = {3, 1};  // SHELL8 has mid-edge nodes halfway, but none in the middle of a cell
   const Mesh odd = shellPlateMesh(o);
   EXPECT_EQ(findNodeSet(odd, "x_mid_y_mid"), -1);
   EXPECT_EQ(nodesOfSet(odd, "y_mid").size(), 4u);
+}
+
+// A force on each node by its factor has the resultant and the moment of a uniform one along the lines, also
+// where elements differ in length; and does the work of one on the nodes' quadratics where there are middle
+// nodes, on the linear functions where there are none.
+TEST(StructuredShell, LinesHaveTheirNodesShares) {
+  for (const Topology cell : shells) {
+    SCOPED_TRACE(topologyName(cell));
+    ShellPlateOptions o;
+    o.width = 2;
+    o.grading = 2;
+    o.divisions = {3, 4};
+    o.topology = cell;
+    const Mesh mesh = shellPlateMesh(o);
+    for (const char* name : {"y_lines", "y_edges"}) {
+      const NodeSet& set = mesh.nodeSets.at(findNodeSet(mesh, name));
+      ASSERT_EQ(set.factors.size(), set.nodes.size());
+      std::map<double, std::array<double, 4>> lines;  // by x: count, integrals of 1, y, y^2
+      for (std::size_t i = 0; i < set.nodes.size(); ++i) {
+        const double* x = &mesh.coordinates[3 * set.nodes[i]];
+        auto& line = lines[std::round(1e9 * x[0])];
+        line[0] += 1;
+        for (int power = 0; power < 3; ++power) line[1 + power] += set.factors[i] * std::pow(x[1], power);
+      }
+      const bool all = std::string(name) == "y_lines";
+      EXPECT_EQ(lines.size(), all && cell != Topology::Shell4 ? 7u : 4u) << name;
+      for (const auto& [x, line] : lines) {
+        // Rounding of sums of a few numbers of size 1.
+        EXPECT_NEAR(line[1], 1, 1e-14);
+        EXPECT_NEAR(line[2], 1, 1e-14);
+        if (line[0] == 9)
+          EXPECT_NEAR(line[3], 4.0 / 3, 1e-14);
+        else
+          EXPECT_EQ(line[0], 5);
+      }
+    }
+  }
+  // Around a closed cylinder every node has the same neighbours.
+  ShellCylinderOptions o = cylinder();
+  o.thetaMin = 0;
+  o.thetaMax = 360;
+  o.divisions = {8, 1};
+  const Mesh tube = shellCylinderMesh(o);
+  const NodeSet& rings = tube.nodeSets.at(findNodeSet(tube, "theta_edges"));
+  ASSERT_EQ(rings.nodes.size(), 32u);
+  for (double factor : rings.factors)
+    EXPECT_NEAR(std::min(std::abs(factor - 1.0 / 24), std::abs(factor - 1.0 / 12)), 0, 1e-15);
 }
 
 TEST(StructuredShell, SlitsStayOpenAndRingsClose) {

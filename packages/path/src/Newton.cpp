@@ -31,12 +31,28 @@ NewtonResult newton(Calls& calls, State& state, Vector& residual, const Border& 
   result.residual = calls.residual(state, residual).relative();
   auto F = calls.newVector(), x1 = calls.newVector(), x2 = calls.newVector(), r = calls.newVector();
   State trial{calls.newVector(), 0};
+  // The state before a whole step that raised the residual, which the next one has to make good; none: null.
+  State before{linear::RCP<Vector>(), 0};
+  double toBeat = 0;
+  bool mayRise = maxHalvings > 0;
+  const auto goBack = [&] {
+    std::swap(state, before);
+    before.u = linear::RCP<Vector>();
+    result.residual = calls.residual(state, residual).relative();
+    mayRise = false;
+  };
+  const auto accept = [&](double value) {
+    std::swap(state, trial);
+    Tpetra::deep_copy(residual, *r);
+    result.residual = value;
+  };
   while (!(result.residual <= tolerance)) {
     if (!std::isfinite(result.residual)) {
       result.trouble = "the residual is not finite";
       return result;
     }
     if (result.iterations == maxIterations) {
+      if (!before.u.is_null()) goBack();
       result.trouble = "not converged after " + std::to_string(maxIterations) + " iterations";
       return result;
     }
@@ -47,33 +63,48 @@ NewtonResult newton(Calls& calls, State& state, Vector& residual, const Border& 
       calls.solve(residual, *x1);
       calls.solve(*F, *x2);
     } catch (const PathError& error) {
+      if (!before.u.is_null() && error.reason() != EndReason::solverFailed) {
+        goBack();
+        continue;
+      }
       result.trouble = error.what();
       return result;
     }
     // dU = -x1 + dlambda x2.
     dLambda = border.c(x1) / (border.c(x2) + border.cLambda);
-
-    double scale = 1, best = result.residual;
-    bool improved = false;
-    for (int h = 0; h <= maxHalvings && !improved; ++h, scale *= 0.5) {
+    const auto tryStep = [&](double scale) {
       trial.u->update(1, *state.u, -scale, *x1, 0);
       trial.u->update(scale * dLambda, *x2, 1);
       trial.lambda = state.lambda + scale * dLambda;
-      const double value = calls.residual(trial, *r).relative();
-      if (value < best) {
-        best = value;
-        improved = true;
+      return calls.residual(trial, *r).relative();
+    };
+
+    double value = tryStep(1);
+    if (!before.u.is_null()) {
+      if (value < toBeat) {
+        before.u = linear::RCP<Vector>();
+        accept(value);
+      } else {
+        goBack();
       }
+      continue;
     }
-    if (!improved) {
+    if (!(value < result.residual) && mayRise && std::isfinite(value)) {
+      before = {linear::rcp(new Vector(*state.u, Teuchos::Copy)), state.lambda};
+      toBeat = result.residual;
+      accept(value);
+      continue;
+    }
+    double scale = 1;
+    for (int h = 0; h < maxHalvings && !(value < result.residual); ++h) value = tryStep(scale *= 0.5);
+    if (!(value < result.residual)) {
       result.trouble = "an iteration does not reduce the residual";
       return result;
     }
-    const bool slow = maxHalvings == 0 && best > 0.5 * result.residual;
-    std::swap(state, trial);
-    Tpetra::deep_copy(residual, *r);
-    result.residual = best;
-    if (slow && best > tolerance) {
+    if (scale == 1) mayRise = maxHalvings > 0;
+    const bool slow = maxHalvings == 0 && value > 0.5 * result.residual;
+    accept(value);
+    if (slow && value > tolerance) {
       result.trouble = "an iteration hardly reduces the residual";
       return result;
     }

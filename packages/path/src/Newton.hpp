@@ -28,8 +28,9 @@ struct NewtonResult {
 
 /// Newton iterations on R(U, lambda) = 0 with a border, until the relative residual is <= tolerance:
 /// K_T dU - F dlambda = -R, c(dU) + cLambda dlambda = 0, by block elimination. A step that does not reduce
-/// the residual is halved up to `maxHalvings` times. `state` holds the best state found, `residual` is R
-/// there.
+/// the residual is halved up to `maxHalvings` times; where that is allowed at all, a whole step that raises
+/// the residual is first given a second one to make it good: in thin bodies a right rotation stretches them
+/// until the next iteration. `state` holds the best state found, `residual` is R there.
 NewtonResult newton(Calls& calls, State& state, Vector& residual, const Border& border, double tolerance,
                     int maxIterations, int maxHalvings);
 

@@ -274,4 +274,26 @@ TEST(Path, WeightIsFixedAlongThePathAndCanBeGiven) {
   for (const auto& s : g.record.series) EXPECT_EQ(s.weight(), g.outcome.weight);
 }
 
+/// A stiff bar of length 1 that may turn about (0, 0), with a spring across, loaded along y at its end.
+struct StiffBar : Linear {
+  int size() const { return 2; }
+  template <class S>
+  std::vector<S> residual(const std::vector<S>& u, const S& lambda) const {
+    const S x = u[0] + 1, tension = 5000 * (x * x + u[1] * u[1] - 1);
+    return {tension * x, tension * u[1] + u[1] - lambda};
+  }
+};
+
+// Newton's first iteration turns the bar by lambda and stretches it, which is 150 times the first residual;
+// the second makes that good. Halved until none raises the residual, iterations would be 4e-3 of what is
+// needed.
+TEST(Path, AStartMayRaiseTheResidualOnce) {
+  Stops stops;
+  stops.loadFactors = {0.1};
+  Followed<StiffBar> f(StiffBar{}, {0, 0}, 0.03, Options{}, stops);
+  EXPECT_EQ(f.outcome.reason, EndReason::stopReached) << f.outcome.text;
+  EXPECT_LE(f.outcome.startIterations, 6);
+  EXPECT_NEAR(f.outcome.final.u->getData()[1], 0.1, 1e-6);  // the bound of the residual
+}
+
 }  // namespace

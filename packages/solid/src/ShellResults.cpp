@@ -41,6 +41,16 @@ std::array<double, 2> inPlane(const detail::Base& G, Vec3 axis) {
   return {(b1 * a22 - b2 * a12) / det, (b2 * a11 - b1 * a12) / det};
 }
 
+/// Area, times its normal, of the strip dzeta at zeta of the section that has the unit normal e on the
+/// mid-surface, per length of the section on the mid-surface: (e . g_1 G^1 + e . g_2 G^2) j/j_0 times half
+/// the thickness, g the mid-surface's base, G^a and j those at zeta.
+Vec3 sectionArea(const Vec3& e, const detail::Base& g, double half, const detail::Base& at) {
+  const double scale = half / g.jacobian(), n1 = scale * detail::dot(e, g.g1),
+               n2 = scale * detail::dot(e, g.g2);
+  const Vec3 c1 = detail::cross(at.g2, at.g3), c2 = detail::cross(at.g3, at.g1);
+  return {n1 * c1[0] + n2 * c2[0], n1 * c1[1] + n2 * c2[1], n1 * c1[2] + n2 * c2[2]};
+}
+
 /// e_a . s e_b
 double component(const double* s, const Vec3& a, const Vec3& b) {
   return a[0] * (s[0] * b[0] + s[3] * b[1] + s[5] * b[2]) + a[1] * (s[3] * b[0] + s[1] * b[1] + s[4] * b[2]) +
@@ -102,15 +112,17 @@ ShellResultants shellResultants(const ShellElements& elements, const fem::PointV
       const Vec3 e1 =
           unit({c1 * g.g1[0] + c2 * g.g2[0], c1 * g.g1[1] + c2 * g.g2[1], c1 * g.g1[2] + c2 * g.g2[2]});
       const Vec3 e2 = detail::cross(e3, e1);
-      const double half = detail::dot(g.g3, e3), j0 = g.jacobian();
+      const double half = detail::dot(g.g3, e3);
       double sums[8] = {};
       for (int z = 0; z < Z; ++z) {
         const double* s = &stress.values[6 * ((static_cast<std::size_t>(e) * Q + q) * Z + z)];
-        const double mu = detail::baseAt(plane.table, q, through.x[z], r, d).jacobian() / j0,
-                     w = through.w[z] * half * mu, arm = through.x[z] * half;
-        const double s11 = component(s, e1, e1), s22 = component(s, e2, e2), s12 = component(s, e1, e2);
+        const detail::Base at = detail::baseAt(plane.table, q, through.x[z], r, d);
+        const double w = through.w[z], arm = through.x[z] * half;
+        const Vec3 a1 = sectionArea(e1, g, half, at), a2 = sectionArea(e2, g, half, at);
+        const double s11 = component(s, e1, a1), s22 = component(s, e2, a2),
+                     s12 = 0.5 * (component(s, e2, a1) + component(s, e1, a2));
         const double add[8] = {
-            s11, s22, s12, arm * s11, arm * s22, arm * s12, component(s, e1, e3), component(s, e2, e3)};
+            s11, s22, s12, arm * s11, arm * s22, arm * s12, component(s, e3, a1), component(s, e3, a2)};
         for (int m = 0; m < 8; ++m) sums[m] += w * add[m];
       }
       result.values.insert(result.values.end(), sums, sums + 8);

@@ -12,8 +12,8 @@ namespace atrapos::exodus {
 /// Element types are told by the beginning of their name (HEX, TET, WEDGE or PENTA, SHELL or QUAD; any case)
 /// and their node count; quadrilaterals are shells, and their attributes the thickness (fem::shellThickness).
 /// Ids, names, attributes and title are kept; sides become 0-based. Blocks without elements are left out.
-/// Edge and face blocks, edge, face and element sets, and distribution factors are not read, nor are results
-/// (see ResultReader).
+/// Node sets have their distribution factors where the file has some. Edge and face blocks, edge, face and
+/// element sets, and distribution factors of sides are not read, nor are results (see ResultReader).
 ///
 /// Throws Error where the file is missing, not Exodus, cut short, without nodes or elements, not
 /// three-dimensional, of an unsupported element type, or refers to nodes, elements or sides that it does not
@@ -21,8 +21,7 @@ namespace atrapos::exodus {
 fem::Mesh readMesh(const std::string& file);
 
 /// Writes a mesh as an Exodus II file (NetCDF 64-bit offset; shells as SHELL4, SHELL8, SHELL9), whole or not
-/// at all: a file with that name is replaced only once the new one is complete. No distribution factors are
-/// written.
+/// at all: a file with that name is replaced only once the new one is complete.
 ///
 /// Throws Error where the file cannot be written or the mesh not be held by it: ids that are not
 /// positive, not unique or over 2^31 - 1; a title over 80 characters; a name over 255; lists that do not fit.

@@ -29,6 +29,8 @@ struct NodeSet {
   std::string name;
   long long id = 0;
   std::vector<int> nodes;  ///< 0-based
+  /// Exodus' distribution factors, [position in nodes]; empty: none.
+  std::vector<double> factors{};
 };
 
 /// One face of one cell.

@@ -27,10 +27,12 @@ std::vector<double> surfaceStress(const fem::PointValues& stress, const ShellCub
 /// polynomial through the points (bilinear with 2 x 2).
 std::vector<double> shellPointsToNodes(const ShellCubature& cubature);
 
-/// Stress resultants per deformed length at the in-plane points:
-///     n_ab = int s_ab mu dz,   m_ab = int z s_ab mu dz,   q_a = int s_a3 mu dz,
-/// s the Cauchy stress in the local axes, z the distance from the mid-surface, mu dz dA the volume. Moments
-/// m_11 stretch the side z > 0 along 1.
+/// Stress resultants per deformed length at the in-plane points: forces and moments on the section whose
+/// normal on the mid-surface is e_a,
+///     n_ab = int e_b.s A_a dz,   m_ab = int z e_b.s A_a dz,   q_a = int e_3.s A_a dz,
+/// s the Cauchy stress, e the local axes, z the distance from the mid-surface, A_a dz the section's area
+/// there times its normal, per length on the mid-surface. n_12 and m_12 are means of 12 and 21, which differ
+/// where the shell is curved. Moments m_11 stretch the side z > 0 along 1.
 struct ShellResultants {
   static std::vector<std::string> names();  ///< n_11 n_22 n_12 m_11 m_22 m_12 q_1 q_2
   std::vector<double> values;               ///< [element][point][name]
