@@ -118,5 +118,5 @@ def draw_shape(folder, load=40, scale=40):
 if __name__ == "__main__":
     if len(sys.argv) < 2:
         raise SystemExit(__doc__)
-    draw_profiles(sys.argv[1], [tuple(a.split("=", 1)) for a in sys.argv[2:]])
+    draw_profiles(sys.argv[1], [tuple(a.rsplit("=", 1)) for a in sys.argv[2:]])
     draw_shape(sys.argv[1])
