@@ -37,7 +37,8 @@ class Forward final : public path::Observer {
 }  // namespace
 
 void followImperfect(PathCase& pathCase, linear::TangentSolver& solver, const path::Options& settings,
-                     Recorder& recorder, path::BranchDiagram& diagram, std::vector<double>& sizes) {
+                     const std::vector<int>& conditions, Recorder& recorder, path::BranchDiagram& diagram,
+                     std::vector<double>& sizes) {
   sizes.assign(diagram.branches.size(), 0.0);
   const auto& asked = pathCase.deck().path.imperfections;
   if (asked.empty() || Interrupt::came()) return;
@@ -47,6 +48,7 @@ void followImperfect(PathCase& pathCase, linear::TangentSolver& solver, const pa
   const auto shape = shapeOf(*diagram.points[0].point.nullVectors[0]);
   for (const double size : asked) {
     const path::State start = pathCase.start();
+    if (!conditions.empty()) pathCase.problem().setConditions(conditions);
     auto deflection = Teuchos::rcp(new path::Vector(*shape, Teuchos::Copy));
     deflection->scale(size);
     path::ImperfectProblem imperfect(pathCase.problem(),

@@ -137,6 +137,7 @@ RunResult runPath(PathCase& pathCase, const RunOptions& options) {
   const auto solver = tangentSolver(pathCase);
   const path::Options settings = pathOptions(pathCase);
   const path::Stops stops = pathCase.stops();
+  const std::vector<int> conditions = problem.conditions();
   path::PathFollower follower(problem, *solver, settings, stops);
   path::BranchFollower tree(problem, *solver, settings, stops, branchOptions(deck.path));
   follower.watch(pathCase.functionals());
@@ -170,7 +171,7 @@ RunResult runPath(PathCase& pathCase, const RunOptions& options) {
   std::string trouble;
   std::vector<double> imperfections;
   try {
-    followImperfect(pathCase, *solver, settings, recorder, diagram, imperfections);
+    followImperfect(pathCase, *solver, settings, conditions, recorder, diagram, imperfections);
   } catch (const std::runtime_error& e) {
     trouble = e.what();  // what has been found stays
   }

@@ -162,6 +162,7 @@ void Run::explainStability(StepReport& report, const EndTangent& end) {
   report.criticalPoints = std::move(found.points);
   for (auto& point : report.criticalPoints) {
     point.stepLength = report.length;
+    point.conditions = calls_.problem().conditions();
     if (point.kind == CriticalKind::multiple)
       point.negativeChange = after.negative > before.negative ? point.nullity : -point.nullity;
   }

@@ -192,7 +192,11 @@ Series Run::seriesAfterEvents(StepReport& report) {
       }
     } catch (const PathError& error) {
       // A set of constraints that depend on each other, or a mechanism: another choice.
-      if (error.reason() != EndReason::singularTangent) throw;
+      if (error.reason() != EndReason::singularTangent) {
+        calls_.applyEvent(chosen, outcome_.final);
+        due_ = due;  // as the step left it, for who goes on from there
+        throw;
+      }
       choice.singular = true;
     }
     if (found) {
@@ -232,6 +236,7 @@ Series Run::seriesAfterEvents(StepReport& report) {
     if (allowed(chosen)) attempt(chosen);
   }
   if (found) return *found;
+  due_ = due;
   throw PathError(EndReason::noAdmissibleDirection,
                   line("at lambda = ", outcome_.final.lambda, ": no choice among the ", count,
                        " event(s) there lets the path go on"));

@@ -41,8 +41,9 @@ struct CriticalPoint {
   double a = 0;           ///< on the step's series
   double stepLength = 0;  ///< of the step: what is near and far here
   CriticalKind kind = CriticalKind::transcritical;
-  State state;          ///< corrected: exact to rounding at a simple point
-  double residual = 0;  ///< relative, at `state`
+  State state;                  ///< corrected: exact to rounding at a simple point
+  double residual = 0;          ///< relative, at `state`
+  std::vector<int> conditions;  ///< Problem::conditions() there
   /// The last correction of its location, as a part of the step's length.
   double uncertainty = 0;
   int negativeChange = 0;  ///< of the number of negative eigenvalues from before to behind it
