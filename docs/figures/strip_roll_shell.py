@@ -44,14 +44,16 @@ def main(shell, nu0):
         forces.plot(run["load_factor"], run[f"force_{station}"], color=colour, lw=1.3, label=f"s = {station} mm")
         forces.plot(stations["lambda"], stations[f"R_s{station}"], "o", color=colour, ms=3, mfc="none")
         run = runs["nu = 0"]
+        forces.plot(run["load_factor"], run[f"force_{station}"], "--", color=colour, lw=0.9)
         inside = (stations["lambda"] > 0) & (stations["lambda"] <= 2)
         difference = np.interp(stations["lambda"], run["load_factor"], run[f"force_{station}"]) - stations[f"R_s{station}"]
         relative = abs(difference[inside]) / stations["R_sum_signed"][inside]
         print(f"station {station}: off by {100 * relative.max():.2f} % of the sum of forces at most (nu = 0)")
     forces.set_xlim(0, 0.25)
+    forces.set_ylim(-1, 23)
     forces.set_xlabel("load factor")
     forces.set_ylabel("contact force, N")
-    forces.set_title("three stations (circles: elastica, nu = 0)")
+    forces.set_title("three stations (lines: nu = 0.3, dashed: nu = 0, circles: elastica)")
     inside = everywhere["lambda"] <= 2
     tip.plot(everywhere["lambda"][inside], everywhere["uz_tip"][inside], color="#c8c8c8", lw=6, label="elastica, hard contact everywhere")
     tip.plot(stations["lambda"], stations["uz_tip"], "o", color="#555555", ms=3, mfc="none", label="elastica, 41 stations")
