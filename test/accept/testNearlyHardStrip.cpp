@@ -19,8 +19,8 @@ Edits withLaw(const std::string& law) {
           {contact("left", "y_max", kLaw), contact("left", "y_max", law)}};
 }
 
-// Half the steps that displacements and load need for the same law, three times those of a soft law (1e3 N/mm and
-// 0.1 N a station) at most; the same path.
+// Half the steps that displacements and load need for the same law, three times those of a soft law (1e3 N/mm
+// and 0.1 N a station) at most; the same path.
 TEST(NearlyHardStrip, HalfTheSteps) {
   const StripRun curve("nearly_hard.yaml"),
       plain("nearly_hard.yaml", withLaw("stiffness: 5.0e5, regularisation: 5.0e-6")),

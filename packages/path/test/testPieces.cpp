@@ -1,0 +1,158 @@
+// Problems that are analytic piece by piece: a step ends at a border where the residual asks for it.
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "atrapos/path/Pieces.hpp"
+#include "problems/Record.hpp"
+
+using namespace atrapos::path;
+
+namespace {
+
+/// A spring with x + x^3 = lambda up to x = 1 (piece 0) and 2 + jump + slope (x - 1) + bend (x - 1)^2 =
+/// lambda beyond.
+struct TwoSprings {
+  double jump = 0, slope = 4, bend = 0;  // 4 and 3: the first spring to second order
+  int preferred = -1;                    ///< piece at the border; -1: none
+  int held = -1;                         ///< piece everywhere; -1: that of the place
+
+  int size() const { return 1; }
+  double scale() const { return 1; }
+  static int pieceOf(double x) { return x < 1 ? 0 : 1; }
+  int pieceAt(double x) const {
+    if (held >= 0) return held;
+    return preferred >= 0 && std::abs(x - 1) < 1e-6 ? preferred : pieceOf(x);
+  }
+  template <class S>
+  std::vector<S> residual(const std::vector<S>& u, const S& lambda) const {
+    const S x = u[0], y = x - S(1.0);
+    if (pieceAt(x[0]) == 0) return {x + x * x * x - lambda};
+    return {S(2 + jump) + S(slope) * y + S(bend) * y * y - lambda};
+  }
+  template <class S>
+  std::vector<S> internal(const std::vector<S>&, const S&) const {
+    return {};
+  }
+};
+
+class TwoSpringsProblem final : public JetProblem<TwoSprings>, public Pieces {
+ public:
+  using JetProblem::JetProblem;
+
+  Pieces* pieces() override { return this; }
+  void applyEvent(const std::vector<int>& indices, const Vector&, double) override {
+    for (const int i : indices) law_.preferred = law_.preferred == i ? -1 : i;
+  }
+  std::vector<int> conditions() const override { return {law_.preferred}; }
+  void setConditions(const std::vector<int>& conditions) override { law_.preferred = conditions.at(0); }
+
+  void beginSeries(const Vector& u, double lambda, int maxOrder) override {
+    JetProblem::beginSeries(u, lambda, maxOrder);
+    ofSeries_ = law_.pieceAt(u.getData()[0]);
+  }
+
+  ResidualNorm residualOfSeries(const Vector& u, double lambda, Vector& r) override {
+    law_.held = ofSeries_;
+    const auto result = residual(u, lambda, r);
+    law_.held = -1;
+    return result;
+  }
+  bool eventsAstray(const Vector&, double, const std::vector<int>&) const override { return false; }
+  std::vector<Break> breaks(const Series& series, double end) const override {
+    auto u = vector({});
+    const auto pieceAt = [&](double a) {
+      series.evaluate(a, *u);
+      return law_.pieceOf(u->getData()[0]);
+    };
+    if (pieceAt(end) == ofSeries_) return {};
+    double low = 0, high = end;
+    for (int i = 0; i < 100; ++i) (pieceAt((low + high) / 2) == ofSeries_ ? low : high) = (low + high) / 2;
+    return {{low, 1 - ofSeries_}};
+  }
+  bool continues(const Vector& u, double, int) const override {
+    return law_.pieceOf(u.getData()[0]) == ofSeries_;
+  }
+  std::string text(int index) const override { return "the force jumps at piece " + std::to_string(index); }
+
+ private:
+  int ofSeries_ = 0;
+};
+
+struct Moved {
+  TwoSpringsProblem problem;
+  SymmetricDenseSolver solver;
+  Record record;
+  Outcome outcome;
+
+  Moved(const TwoSprings& law, double end, const Start* from = nullptr) : problem(law) {
+    Stops stops;
+    stops.functionals = {{"x", problem.vector({1}), end}};
+    Start start;
+    start.state = {problem.vector({}), 0};
+    Options options;
+    options.maxSteps = 60;
+    outcome = PathFollower(problem, solver, options, stops).runFrom(from ? *from : start, record);
+  }
+  std::vector<StepReport> breaks() const {
+    std::vector<StepReport> all;
+    for (const auto& s : record.steps)
+      if (!s.events.empty()) all.push_back(s);
+    return all;
+  }
+};
+
+// The same slope but another curvature: the residual beyond falls with the square of the way only.
+TEST(Pieces, AJumpOfTheCurvature) {
+  const Moved f({0, 4, -1}, 1.5);
+  ASSERT_EQ(f.outcome.reason, EndReason::stopReached) << f.outcome.text;
+  ASSERT_EQ(f.breaks().size(), 1u);
+  EXPECT_NEAR(f.breaks()[0].end.u->getData()[0], 1, 1e-6);  // Newton's correction may move it
+  EXPECT_NEAR(f.breaks()[0].lambdaEnd, 2, 4e-6);
+  EXPECT_NEAR(f.outcome.final.lambda, 2 + 4 * 0.5 - 0.25, 2e-6);  // bound of the residual: 1e-6
+  EXPECT_EQ(f.outcome.events, 1);
+  EXPECT_EQ(f.outcome.eventTrials, 0);
+  EXPECT_TRUE(f.record.limitPoints().empty());
+}
+
+// Softening from the border on: the path goes on in x, so lambda turns there.
+TEST(Pieces, AKinkMayBeALimitPoint) {
+  const Moved f({0, -1, 0}, 1.5);
+  ASSERT_EQ(f.outcome.reason, EndReason::stopReached) << f.outcome.text;
+  EXPECT_NEAR(f.outcome.final.lambda, 1.5, 2e-6);
+  const auto limits = f.record.limitPoints();
+  ASSERT_EQ(limits.size(), 1u);
+  EXPECT_NEAR(limits[0].lambda, 2, 4e-6);
+  EXPECT_TRUE(limits[0].maximum);
+  EXPECT_FALSE(limits[0].smooth);
+}
+
+// Where the functions differ by less than the bound of the residual, a border ends no step.
+TEST(Pieces, ABorderThatDoesNotMatter) {
+  const Moved across({0, 4, 3}, 1.001);  // off by 1e-9
+  ASSERT_EQ(across.outcome.reason, EndReason::stopReached) << across.outcome.text;
+  EXPECT_TRUE(across.breaks().empty());
+}
+
+TEST(Pieces, AJumpOfTheForceEndsThePath) {
+  const Moved f({0.1, 4, 0}, 1.5);
+  EXPECT_EQ(f.outcome.reason, EndReason::problemFailed);
+  EXPECT_NE(f.outcome.text.find("the force jumps at piece 1"), std::string::npos) << f.outcome.text;
+  EXPECT_NEAR(f.outcome.final.lambda, 2, 4e-6);
+}
+
+TEST(Pieces, RestartsHaveTheSameBits) {
+  for (const TwoSprings& law : {TwoSprings{0, 4, -1}, TwoSprings{0, -1, 0}}) {
+    const Moved whole(law, 1.5);
+    const auto& all = whole.record.steps;
+    ASSERT_GE(all.size(), 3u);
+    for (std::size_t s = 0; s + 1 < all.size(); ++s) {
+      const Moved rest(law, 1.5, &all[s].next);
+      EXPECT_EQ(rest.outcome.steps, whole.outcome.steps);
+      EXPECT_EQ(rest.outcome.final.lambda, whole.outcome.final.lambda);
+      EXPECT_EQ(rest.outcome.final.u->getData()[0], whole.outcome.final.u->getData()[0]);
+    }
+  }
+}
+
+}  // namespace
