@@ -4,8 +4,8 @@ its middle line, over a cylinder and over a tapered roll.
 
     docs/figures/strip_roll_tapered.py CYLINDER_RESULTS TAPERED_RESULTS
 
-The first folder is of tapered.yaml with a cylinder in place of the tapered roll, the second of tapered.yaml. Dashed: solids in CalculiX,
-test/accept/data/ccx_tapered_roll.
+The first folder is of tapered.yaml with a cylinder in place of the tapered roll, the second of tapered.yaml. Dots are its
+nodes, lines are solids in CalculiX, test/accept/data/ccx_tapered_roll.
 """
 import pathlib
 import sys
@@ -112,27 +112,27 @@ def main(cylinder, tapered):
     rolls = ("cylinder", "tapered")
     shell = [profiles(cylinder), profiles(tapered)]
     solid = [reference(roll) for roll in rolls]
-    for axis, result, dashed, title in zip(axes, shell, solid, ("cylinder", "tapered roll")):
+    for axis, result, lines, title in zip(axes, shell, solid, ("cylinder", "tapered roll")):
         for color, (place, label) in zip(("C0", "C1", "C2"), LINES.items()):
-            for (x, w), style in ((result[place], "-"), (dashed[place], "--")):
+            for (x, w), style in ((result[place], "o"), (lines[place], "-")):
                 near = (x > 150) & (x < 260)
-                axis.plot(x[near], w[near], style, color=color, label=label if style == "-" else None)
+                axis.plot(x[near], w[near], style, ms=4, color=color, label=label if style == "o" else None)
         axis.set(xlabel="x (mm)", ylabel="vertical displacement (mm)", title=title)
         axis.legend(fontsize=8)
         axis.grid(True)
     for color, roll, a, b in zip(("C0", "C3"), rolls, shell, solid):
-        for result, style, name in ((a, "-", "20 shells"), (b, "--", "CalculiX")):
+        for result, style, name in ((a, "o", "20 shells"), (b, "-", "CalculiX")):
             (x, right), (_, left) = result[-10], result[10]
-            axes[2].plot(x, left - right, style, color=color, label=f"{roll}, {name}")
+            axes[2].plot(x, left - right, style, ms=3, color=color, label=f"{roll}, {name}")
     axes[2].set(xlabel="x (mm)", ylabel="difference (mm)", title="edge y = 10 less edge y = -10")
     axes[2].legend(fontsize=8)
     axes[2].grid(True)
     fig.tight_layout()
     fig.savefig(pathlib.Path(__file__).with_suffix(".png"), dpi=110)
-    for name, result, dashed in zip(rolls, shell, solid):
+    for name, result, lines in zip(rolls, shell, solid):
         for place in LINES:
             x, w = result[place]
-            xr, wr = dashed[place]
+            xr, wr = lines[place]
             e = w - np.interp(x, xr, wr)
             print(f"{name:9} y = {place:3}: w(400) = {w[-1]:.3f}, CalculiX {wr[-1]:.3f}; "
                   f"largest difference up to x = 260: {abs(e[x <= 260]).max():.3f}")

@@ -1,5 +1,5 @@
-// examples/strip_roll/tapered.yaml, and the same strip on a cylinder (paper 4.1, Figures 5 and 6), against solids on a
-// meshed roll in CalculiX: the middle surface along both edges at load factor 0.25.
+// examples/strip_roll/tapered.yaml, and the same strip on a cylinder (paper 4.1, Figures 5 and 6), against
+// solids on a meshed roll in CalculiX: the middle surface along both edges at load factor 0.25.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -62,12 +62,14 @@ void compare(const Deflection& shell, const Reference& solid) {
   for (int x = 0; x <= 400; x += 10) {
     SCOPED_TRACE(x);
     for (double y : {-10.0, 10.0}) {
-      // Over the roll, to the polygon of 20 elements there: measured 0.26 mm where the strip goes down by 40 mm. At the
-      // tip 0.87 of 157 mm: one element across is free to curl at its edges, the solids across are stiffer by nu.
+      // Over the roll, to the polygon of 20 elements there: measured 0.26 mm where the strip goes down by 40
+      // mm. At the tip 0.87 of 157 mm: one element across is free to curl at its edges, the solids across are
+      // stiffer by nu.
       const double tolerance = x <= 260 ? 0.4 : 0.4 + 0.8 * (x - 260) / 140;
       EXPECT_NEAR(shell.at(x, y), solid.at(x, y), tolerance) << y;
     }
-    // How far the taper tilts the strip: 0.42 mm at the tip, 0.05 mm of which the one element across does not see.
+    // How far the taper tilts the strip: 0.42 mm at the tip, 0.05 mm of which the one element across does not
+    // see.
     EXPECT_NEAR(shell.at(x, 10) - shell.at(x, -10), solid.at(x, 10) - solid.at(x, -10), 0.075);
   }
 }
