@@ -205,9 +205,15 @@ void Recorder::printStep(const path::StepReport& r) const {
   for (const path::LimitPoint& p : r.limitPoints)
     events +=
         fmt::format("limit point ({}) at load factor {:.8g}; ", p.maximum ? "maximum" : "minimum", p.lambda);
-  for (const path::CriticalPoint& p : r.criticalPoints)
-    events += fmt::format("bifurcation point ({}) at load factor {:.10g}; ", path::toString(p.kind),
-                          p.state.lambda);
+  const bool follows = case_.deck().path.branches != path::Follow::none;
+  for (const path::CriticalPoint& p : r.criticalPoints) {
+    events +=
+        fmt::format("bifurcation point ({}) at load factor {:.10g}", path::toString(p.kind), p.state.lambda);
+    if (p.nullity > 1) events += fmt::format(", {} null vectors", p.nullity);
+    if (follows && p.tangents.empty())
+      events += ": the directions of its branches are not known, none is followed";
+    events += "; ";
+  }
   if (r.unexplained > 0)
     events += fmt::format("{} eigenvalue(s) changed sign at a place not found; ", r.unexplained);
   if (!events.empty()) events.resize(events.size() - 2);

@@ -75,7 +75,8 @@ Bordered::Solution Bordered::solve(Calls& calls, const RCP<const Vector>& b,
   auto r = calls.newVector(), y = calls.newVector();
   // Backward errors: each residual relative to the terms that it is the difference of, where K x is taken as
   // large as it can be (x may be a null vector). The root mean square of K's rows stands for its norm.
-  const double Knorm = K->getFrobeniusNorm() / std::sqrt(static_cast<double>(K->getGlobalNumRows()));
+  const double Knorm =
+      std::max(stiffness, K->getFrobeniusNorm() / std::sqrt(static_cast<double>(K->getGlobalNumRows())));
   double before = std::numeric_limits<double>::infinity();
   constexpr int maxRefinements = 12;
   constexpr double rounding = 1e-15, accurate = 1e-9;

@@ -52,6 +52,8 @@ struct Bordered {
   bool transposed = false;
   std::array<RCP<const Vector>, 2> columns, rows;
   double d[2][2] = {{0, 0}, {0, 0}};
+  /// Least size of K's entries that rounding is measured by: all of K may vanish at once.
+  double stiffness = 0;
 
   struct Solution {
     RCP<Vector> x;

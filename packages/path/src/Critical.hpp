@@ -42,10 +42,8 @@ struct CriticalFound {
 CriticalFound findCriticalPoints(Calls& calls, const CriticalSearch& search);
 
 /// The response of the path to a small force a f, as a series seen from a state whose tangent the solver
-/// holds: difference of the path's series with the force and without. Its poles are the critical points. f
-/// has the given shape; null: one without any symmetry.
-Series pathResponse(Calls& calls, const State& from, const PathTangent& along, double weight, int order,
-                    const Vector* shape = nullptr);
+/// holds: difference of the path's series with the force and without. Its poles are the critical points.
+Series pathResponse(Calls& calls, const State& from, const PathTangent& along, double weight, int order);
 
 /// Real poles of the response to a small force, seen from a state whose tangent the solver holds: positions
 /// relative to it in [-behind, ahead], nearest first, and the response's highest order, which is dominated by

@@ -8,8 +8,7 @@
 
 namespace atrapos::path {
 
-Series pathResponse(Calls& calls, const State& from, const PathTangent& along, double weight, int order,
-                    const Vector* shape) {
+Series pathResponse(Calls& calls, const State& from, const PathTangent& along, double weight, int order) {
   SeriesRequest request;
   request.order = order;
   request.weight = weight;
@@ -18,10 +17,7 @@ Series pathResponse(Calls& calls, const State& from, const PathTangent& along, d
   const Series plain = buildSeries(calls, from, request);
 
   auto f = calls.newVector(), v = calls.newVector();
-  if (shape)
-    f->update(1, *shape, 0);
-  else
-    fillUnsymmetric(*f, 1);
+  fillUnsymmetric(*f, 1);
   calls.solve(*f, *v);
   // Small enough to be linear in (near a transcritical point the response goes with the root of it), large
   // enough to stand above rounding. The pole found is a guess, which Newton makes exact.

@@ -130,10 +130,13 @@ bool refineSimple(Calls& calls, const CriticalSearch& search, double guess, cons
     tangent.lambda = x.lambda;
     point.tangents.push_back(tangent);
   }
-  // Along one branch of a pitchfork lambda turns: its share of the unit tangent vanishes.
+  // Where lambda turns its share of the unit tangent vanishes.
   constexpr double turns = 1e-4;
-  const bool pitchfork = std::min(std::abs(tangents[0].lambda), std::abs(tangents[1].lambda)) < turns;
-  point.kind = pitchfork ? CriticalKind::pitchfork : CriticalKind::transcritical;
+  const auto turning = std::count_if(tangents.begin(), tangents.end(),
+                                     [&](const Augmented& x) { return std::abs(x.lambda) < turns; });
+  constexpr CriticalKind kinds[] = {CriticalKind::transcritical, CriticalKind::pitchfork,
+                                    CriticalKind::hilltop};
+  point.kind = kinds[turning];
   point.nullVectors = {system->phi()};
   // The eigenvalue that vanishes moves at the rate psi . D^2R(X', phi) along the path; it does not cross zero
   // on a branch that leaves a pitchfork.

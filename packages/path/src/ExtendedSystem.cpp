@@ -72,6 +72,10 @@ bool ExtendedSystem::iterate(State& state, double& moved) {
   // M = [K, -F, p; Q^T, 0] at the state, with the factorization of `enter` as preconditioner.
   Bordered M;
   M.K = calls_.tangent(state, *F_);
+  auto r = calls_.newVector();
+  const auto forces = calls_.residual(state, *r);
+  const double displaced = state.u->norm2();
+  if (displaced > 0) M.stiffness = forces.scale / displaced;
   auto minusF = Teuchos::rcp(new Vector(*F_, Teuchos::Copy));
   minusF->scale(-1);
   RCP<Vector> q[2];
@@ -84,6 +88,7 @@ bool ExtendedSystem::iterate(State& state, double& moved) {
   M.columns = {minusF, p_};
   Bordered T;
   T.K = M.K;
+  T.stiffness = M.stiffness;
   T.transposed = !calls_.problem().symmetric();
   T.columns = {q[0], q[1]};
   T.rows = {minusF, p_};
@@ -99,8 +104,6 @@ bool ExtendedSystem::iterate(State& state, double& moved) {
   psi_ = left.x;
   const double g[2] = {left.xi[0], left.xi[1]};
 
-  auto r = calls_.newVector();
-  calls_.residual(state, *r);
   r->scale(-1);
   Augmented dx;
   if (!solveM(M, r, 0, 0, dx, z_)) return false;

@@ -11,6 +11,8 @@ const char* toString(CriticalKind kind) {
       return "transcritical";
     case CriticalKind::pitchfork:
       return "pitchfork";
+    case CriticalKind::hilltop:
+      return "hilltop";
     case CriticalKind::multiple:
       return "multiple";
   }

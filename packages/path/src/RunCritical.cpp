@@ -14,7 +14,8 @@ namespace atrapos::path {
 /// Whether the series may be that of a path turned away by its residual: the steps shrink and the late terms
 /// are a geometric progression; its pole, ahead or behind.
 std::optional<double> Run::progressionPole(const Series& series) const {
-  if (!options_.criticalPoints || !last_ || series.eventCount() > 0) return std::nullopt;
+  // Nothing but what a restart knows: it has to decide the same.
+  if (!options_.criticalPoints || !tangent_ || series.eventCount() > 0) return std::nullopt;
   constexpr double shrinks = 0.6, ratioBound = 1e-3, perpBound = 0.3;
   if (!(series.radius(options_.delta) < shrinks * lastLength_)) return std::nullopt;
   return geometricProgression(calls_.problem(), series, ratioBound, perpBound);
@@ -85,8 +86,7 @@ void Run::clean(Series& series) {
   const int N = series.order();
   std::optional<Series> made;
   try {
-    // Excited by the least force that does it, in the shape of the late terms, i.e. the null vector.
-    made = pathResponse(calls_, outcome_.final, *tangent_, series.weight(), N, series.coefficient(N).u.get());
+    made = pathResponse(calls_, outcome_.final, *tangent_, series.weight(), N);
   } catch (const PathError&) {
     return;  // so near the point that the response is beyond numbers: the series stays as it is
   }

@@ -56,8 +56,8 @@ std::string largestEntries(const Vector& x) {
 
 }  // namespace
 
-/// The tangent of the state where the path starts is singular: the path starts a little further along what the
-/// null vector phi and the load say of it.
+/// The tangent of the state where the path starts is singular: the path starts a little further along what
+/// the null vector phi and the load say of it.
 ///
 /// F with a part along the left null vector psi: a limit point, U = U_0 + s phi, lambda = lambda_0 + c s^2,
 /// c = psi . D^2R(phi, phi) / (2 psi . F). Without: a bifurcation point, which the path passes along
@@ -151,6 +151,5 @@ void Run::stepOverSingularity(const PathError& cause, int attempt) {
   r_ = trial.r;
   tangent_ = last_->tangent(lastEnd_);
 }
-
 
 }  // namespace atrapos::path

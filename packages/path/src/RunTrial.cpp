@@ -101,7 +101,9 @@ std::optional<Run::Trial> Run::padeTrial(Series& series, StepReport& report) {
   near.a = polynomial;
   limit(series, near);
   if (near.stop || !near.events.empty()) return std::nullopt;
-  PadeFit fit = fitPade(calls_.problem(), series, options_.delta, longestLength());
+  // Where two fractions differ by more than that neither is believed, however loose the accuracy asked for.
+  constexpr double loosest = 1e-3;
+  PadeFit fit = fitPade(calls_.problem(), series, std::min(options_.delta, loosest), longestLength());
   // Where an eigenvalue of the tangent is about to vanish, or just has, other branches may be near, and a
   // long step would see nothing of them: there the polynomial, which its radius bounds, goes. Not at limit
   // points, where the null vector is the path's direction. A step that ends short of the point leaves the

@@ -41,8 +41,9 @@ void expectSound(const F& f) {
   for (const auto& p : criticalPoints(f.record)) EXPECT_LE(p.uncertainty, 1e-8);
 }
 
-TEST(Critical, SwayOfTheTrussOnBothSidesOfItsLimitPoint) {
-  for (const double b : {0.5, 0.65})  // before and after the limit point
+TEST(Critical, SwayOfTheTrussBeforeAtAndBehindItsLimitPoint) {
+  const double together = std::sqrt(1.0 / 3);  // both eigenvalues of the tangent vanish at one state
+  for (const double b : {0.5, together, 0.65})
     for (const auto use : {PadeUse::off, PadeUse::automatic}) {
       Options options;
       options.pade = use;
@@ -59,7 +60,7 @@ TEST(Critical, SwayOfTheTrussOnBothSidesOfItsLimitPoint) {
         // Newton converges on the extended system itself: the residual bound of the path does not count.
         EXPECT_NEAR(at(points[i].state, 0), x, 1e-12);
         EXPECT_NEAR(points[i].state.lambda, x * (1 - x) * (2 - x), 1e-12);
-        EXPECT_EQ(points[i].kind, CriticalKind::pitchfork);
+        EXPECT_EQ(points[i].kind, b == together ? CriticalKind::hilltop : CriticalKind::pitchfork);
         ASSERT_EQ(points[i].tangents.size(), 2u);
         // The path goes on in x, the other branch starts in y.
         EXPECT_NEAR(points[i].tangents[0].x.u->getData()[1], 0, 1e-9);

@@ -69,8 +69,8 @@ TEST(Failures, StartsAtALimitPoint) {
   // On one of the two halves, as exact as the residual bound is with the slope 2.
   EXPECT_NEAR(std::abs(f.outcome.final.u->getData()[0]), 1, 1e-6);
   EXPECT_EQ(f.outcome.restarts, 2);
-  EXPECT_EQ(f.outcome.factorizations, f.outcome.steps + f.outcome.startIterations +
-                                          f.outcome.corrections + f.outcome.restarts + f.outcome.retreats);
+  EXPECT_EQ(f.outcome.factorizations, f.outcome.steps + f.outcome.startIterations + f.outcome.corrections +
+                                          f.outcome.restarts + f.outcome.retreats);
   Options falling;
   falling.direction = -1;
   Followed<Fold> none(Fold{}, {0}, 0, falling, load(-1));

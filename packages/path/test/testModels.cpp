@@ -24,10 +24,9 @@ TEST(Models, AllRunToTheirEndWithDefaultSettings) {
     EXPECT_LE(f.worstInside(), 1.01e-6) << name;  // 1 %: samples inside, the bound is kept at the ends
     EXPECT_FALSE(f.setup.monitors.empty()) << name;
     EXPECT_FALSE(f.setup.about.empty()) << name;
-    // Two bars bifurcate at their very limit point, which is counted and not located.
     int unexplained = 0;
     for (const auto& s : f.record.steps) unexplained += s.unexplained;
-    EXPECT_EQ(unexplained, name == "bars_in_series" ? 1 : 0) << name;
+    EXPECT_EQ(unexplained, 0) << name;
     RecordProperty(name, f.outcome.steps);
   }
 }

@@ -27,7 +27,7 @@ struct Options {
   /// value so large that |lambda_1| < 1e-8 reads as a singular tangent.
   std::optional<double> weight;
 
-  PadeUse pade = PadeUse::off;  ///< saves a third of the steps; see docs/theory/path.md for where it jumps
+  PadeUse pade = PadeUse::off;  ///< saves a third of the steps (docs/failure_map.md)
 
   double residualBound = 1e-6;  ///< largest relative residual accepted at the end of a step
 

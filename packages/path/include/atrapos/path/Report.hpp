@@ -30,7 +30,8 @@ struct Extremum {
 enum class CriticalKind {
   transcritical,  ///< two branches cross, lambda goes on along both
   pitchfork,      ///< lambda turns along one of the two branches
-  multiple        ///< at least two eigenvalues of the tangent vanish together: more than two branches
+  multiple,       ///< at least two eigenvalues of the tangent vanish together: more than two branches
+  hilltop         ///< lambda turns along both branches: limit point and bifurcation point in one
 };
 
 /// "transcritical" and so on.
