@@ -4,7 +4,10 @@
 
 #include <ostream>
 
+#include "Memory.hpp"
 #include "MeshCommand.hpp"
+#include "RunSettings.hpp"
+#include "SceneCase.hpp"
 
 namespace atrapos {
 namespace {
@@ -42,9 +45,12 @@ void printCheck(Scene& scene, std::ostream& out) {
           "does not\n",
           contact.name, contact.attracted);
   }
-  out << fmt::format("# memory    {:.1f} MB for the histories of order {}\n",
-                     1e-6 * static_cast<double>(problem.historyBytes(scene.deck().path.order)),
-                     scene.deck().path.order);
+  SceneCase pathCase(scene);
+  const auto solver = tangentSolver(pathCase);
+  const MemoryEstimate memory =
+      estimateMemory(problem, pathCase.start(), scene.deck().path, *solver,
+                     static_cast<double>(problem.historyBytes(historyOrder(scene.deck().path))));
+  for (const std::string& line : describe(memory, machineMemory())) out << "# " << line << '\n';
 }
 
 void printCheck(const ModelCase& model, std::ostream& out) {

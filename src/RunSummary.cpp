@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "Memory.hpp"
 #include "Version.hpp"
 #include "deck/DeckTables.hpp"
 
@@ -122,6 +123,10 @@ nlohmann::ordered_json runSummary(const PathCase& pathCase, const path::BranchDi
   if (deck.path.series()) json["contact_events"] = recorder.contactEvents();
   pathCase.summarize(json);
   json["solver"] = solver.name();
+  nlohmann::ordered_json memory;
+  if (const auto factor = linear::spent(solver)) memory["factor"] = factor->bytes;
+  memory["peak"] = residentMemory().peak;
+  json["memory_bytes"] = memory;
   json["execution_space"] = Kokkos::DefaultExecutionSpace::name();
   json["threads"] = Kokkos::DefaultExecutionSpace::concurrency();
   json["seconds"] = {{"tangent", seconds(diagram, &path::Timings::tangent)},

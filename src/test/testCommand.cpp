@@ -102,7 +102,10 @@ TEST_F(CommandTest, CheckPrintsTheWholeDeckAndWritesNothing) {
   writeFile(folder_ / "printed.yaml", r.out);
   const CommandResult again = runAtrapos({"check", "printed.yaml"}, folder_.path());
   EXPECT_EQ(again.exitCode, 0) << again.err;
-  EXPECT_EQ(again.out, r.out);
+  // What the process has in memory is measured.
+  const auto upToMemory = [](const std::string& text) { return text.substr(0, text.find("# memory")); };
+  EXPECT_LT(upToMemory(r.out).size(), r.out.size());
+  EXPECT_EQ(upToMemory(again.out), upToMemory(r.out));
 }
 
 TEST_F(CommandTest, RunReportsEveryStepOnStdout) {

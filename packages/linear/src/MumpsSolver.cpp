@@ -53,6 +53,8 @@ void MumpsSolver::analyze(const RCP<const CrsMatrix>& K) {
   const double start = MPI_Wtime();
   factored_ = false;
   inertia_.reset();
+  estimate_.reset();
+  spent_.reset();
   graph_.reset();
   mumps_.reset();
 
@@ -104,6 +106,7 @@ void MumpsSolver::analyze(const RCP<const CrsMatrix>& K) {
   data.perm_in = ordering.data();
   if (mumps->run(1) < 0) mumps->fail("analysis");
   data.perm_in = nullptr;
+  estimate_ = FactorCost{mumps->count(20), 1e6 * mumps->infog(17) + ownBytes(), mumps->rinfog(1)};
 
   graph_ = std::move(graph);
   mumps_ = std::move(mumps);
@@ -131,6 +134,15 @@ std::vector<MUMPS_INT> MumpsSolver::orderingOnRoot(int n) const {
   return ordering;
 }
 
+double MumpsSolver::ownBytes() const {
+  const double local =
+      static_cast<double>((rows_.size() + columns_.size()) * sizeof(MUMPS_INT) +
+                          positions_.size() * sizeof(std::size_t) + values_.size() * sizeof(double));
+  double all = 0;
+  MPI_Allreduce(&local, &all, 1, MPI_DOUBLE, MPI_SUM, comm_);
+  return all;
+}
+
 void MumpsSolver::factor(const RCP<const CrsMatrix>& K) {
   if (!graph_) throw SolverError("MUMPS: factor comes after analyze");
   const double start = MPI_Wtime();
@@ -156,6 +168,7 @@ void MumpsSolver::factor(const RCP<const CrsMatrix>& K) {
   data.a_loc = nullptr;
   if (mumps_->infog(1) < 0) mumps_->fail("factorization");
 
+  spent_ = FactorCost{mumps_->count(29), 1e6 * mumps_->infog(19) + ownBytes(), mumps_->rinfog(3)};
   const int nullPivots = mumps_->infog(28);
   if (options_.symmetric) inertia_ = Inertia{mumps_->infog(12), nullPivots};
   ++counters_.factorizations;

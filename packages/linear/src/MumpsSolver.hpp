@@ -6,6 +6,7 @@
 
 #include "AnalysedGraph.hpp"
 #include "MumpsInstance.hpp"
+#include "atrapos/linear/FactorCost.hpp"
 #include "atrapos/linear/TangentSolver.hpp"
 
 namespace atrapos::linear {
@@ -25,7 +26,7 @@ struct MumpsOptions {
 ///
 /// Construction needs a running MPI, and destruction is collective: the owner destroys solvers before
 /// MPI_Finalize (later, MUMPS' memory cannot be freed and stays with the process).
-class MumpsSolver final : public TangentSolver {
+class MumpsSolver final : public TangentSolver, public TellsCost {
  public:
   explicit MumpsSolver(const MumpsOptions& options = {});
   ~MumpsSolver() override;
@@ -35,6 +36,8 @@ class MumpsSolver final : public TangentSolver {
   void solve(const MultiVector& b, MultiVector& x) const override { solveWith(b, x, false); }
   void solveTransposed(const MultiVector& b, MultiVector& x) const override { solveWith(b, x, true); }
   std::optional<Inertia> inertia() const override { return inertia_; }
+  std::optional<FactorCost> estimate() const override { return estimate_; }
+  std::optional<FactorCost> spent() const override { return spent_; }
   std::string name() const override;
   const Counters& counters() const override { return counters_; }
 
@@ -44,6 +47,7 @@ class MumpsSolver final : public TangentSolver {
  private:
   std::vector<MUMPS_INT> orderingOnRoot(int n) const;
   void solveWith(const MultiVector& b, MultiVector& x, bool transposed) const;
+  double ownBytes() const;  ///< lists of K's entries, all ranks
 
   MumpsOptions options_;
   std::unique_ptr<AnalysedGraph> graph_;
@@ -53,6 +57,7 @@ class MumpsSolver final : public TangentSolver {
   bool factored_ = false;
   int memoryRetries_ = 0;
   std::optional<Inertia> inertia_;
+  std::optional<FactorCost> estimate_, spent_;
   mutable Counters counters_;
 
   std::vector<MUMPS_INT> rows_, columns_;  // of the entries passed, from 1

@@ -20,6 +20,31 @@ Inertia inertiaOf(const RCP<CrsMatrix>& K) {
   return solver.inertia().value_or(Inertia{-1, -1});
 }
 
+/// The analysis foresees what the factorization takes: no pivoting is needed here.
+TEST(Mumps, ForeseesTheFactor) {
+  const std::array<int, 3> points{24, 24, 24};
+  const auto K = makeMatrix(24 * 24 * 24, laplacian3d(points, 0));
+  for (const bool symmetric : {true, false}) {
+    MumpsOptions options;
+    options.symmetric = symmetric;
+    MumpsSolver solver(options);
+    EXPECT_FALSE(solver.estimate());
+    solver.analyze(K);
+    ASSERT_TRUE(solver.estimate());
+    EXPECT_FALSE(solver.spent());
+    solver.factor(K);
+    ASSERT_TRUE(solver.spent());
+    const FactorCost foreseen = *solver.estimate(), spent = *solver.spent();
+    EXPECT_NEAR(spent.entries, foreseen.entries, 0.01 * foreseen.entries);
+    EXPECT_NEAR(spent.operations, foreseen.operations, 0.05 * foreseen.operations);
+    // At most the relaxation of the work space by 30 %, its default, and the rounding to whole MB.
+    EXPECT_LE(spent.bytes, foreseen.bytes + 1e6);
+    EXPECT_GE(spent.bytes, 0.6 * foreseen.bytes);
+    // At least the factors themselves.
+    EXPECT_GE(spent.bytes, 8 * spent.entries);
+  }
+}
+
 TEST(Mumps, InertiaOfChains) {
   const int n = 211;
   for (double diag : {1.0, -0.5, -2.0, -3.3, -4.5}) {

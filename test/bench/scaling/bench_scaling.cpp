@@ -1,0 +1,217 @@
+// Time and memory of a step over the size of the problem, by part: shells and solids, each size in a process
+// of its own. docs/bench/scaling.md says what the columns mean.
+//
+//     bench_scaling --csv scaling.csv
+//     bench_scaling --families shell --sizes 5000 15000 --threads 1 --csv small.csv
+
+#include <fmt/format.h>
+#include <sys/wait.h>
+
+#include <CLI/CLI.hpp>
+#include <Kokkos_Core.hpp>
+#include <Tpetra_Core.hpp>
+#include <Tpetra_Vector.hpp>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "Families.hpp"
+#include "Memory.hpp"
+#include "MeshCommand.hpp"
+#include "Run.hpp"
+#include "RunSettings.hpp"
+#include "SceneCase.hpp"
+#include "atrapos/linear/BlasThreads.hpp"
+
+namespace {
+
+using namespace atrapos;
+
+struct Options {
+  std::vector<std::string> families = bench::families();
+  std::vector<double> sizes{5000, 15000, 50000, 150000, 500000};
+  std::vector<int> threads{1, 2};
+  int steps = 2;
+  double longest = 1800;
+  std::string csv, folder;
+  bool row = false;  ///< this process makes one row
+};
+
+constexpr const char* header =
+    "family,asked,unknowns,threads,elements,contact_points,steps,factorizations,solves,orders,setup_s,"
+    "tangent_s,"
+    "factor_s,solve_s,order_s,contact_s,residual_s,output_s,total_s,matrix_bytes,factor_bytes,factor_entries,"
+    "factor_operations,history_bytes,foreseen_bytes,peak_bytes,end";
+
+using Clock = std::chrono::steady_clock;
+double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+/// Seconds of the contact terms in the orders of one series: their share of the sums, on their own.
+double contactSeconds(Scene& scene, int order) {
+  const auto u = scene.problem().initialState(0.0);
+  const fem::Field force("force", u->getLocalLength()), coefficient("coefficient", u->getLocalLength());
+  // Any coefficients do: the work does not depend on them.
+  Kokkos::deep_copy(coefficient, 1e-6);
+  Kokkos::fence();
+  const auto start = Clock::now();
+  for (const ContactPoints& contact : scene.contacts())
+    for (const int t : contact.terms) {
+      fem::Term& term = *scene.problem().model().terms[t];
+      term.beginSeries(fem::field(*u), 0, order);
+      for (int k = 1; k <= order; ++k) term.addOrder(k, coefficient, 0, force);
+    }
+  Kokkos::fence();
+  return since(start);
+}
+
+/// One run, here; prints its row.
+int makeRow(const Options& options) {
+  const auto begin = Clock::now();
+  const std::string folder = options.folder;
+  const auto deck = deck::readDeckText(
+      bench::familyDeck(options.families.at(0), options.sizes.at(0), options.steps), folder + "/deck.yaml");
+  setenv("OMP_PROC_BIND", "false", 0);
+  MPI_Init(nullptr, nullptr);
+  Kokkos::InitArguments arguments;
+  arguments.disable_warnings = true;
+  arguments.num_threads = options.threads.at(0);
+  Kokkos::initialize(arguments);
+  Tpetra::initialize(nullptr, nullptr);
+  linear::setBlasThreads(1);
+  std::string line;
+  {
+    Scene scene(deck, generateMesh(deck));
+    SceneCase pathCase(scene);
+    const double setup = since(begin);
+    const int order = historyOrder(deck.path);
+    MemoryEstimate foreseen;
+    linear::FactorCost factor;
+    {
+      const auto solver = tangentSolver(pathCase);
+      foreseen = estimateMemory(scene.problem(), pathCase.start(), deck.path, *solver,
+                                static_cast<double>(scene.problem().historyBytes(order)));
+      factor = linear::estimate(*solver).value_or(linear::FactorCost{});
+    }
+    const MachineMemory machine = machineMemory();
+    const bool fits = !(machine.available > 0) || foreseen.total() < machine.available + residentMemory().now;
+    const auto format = [&](const nlohmann::json& s, double contact, const std::string& end) {
+      const auto seconds = s.value("seconds", nlohmann::json::object());
+      const auto of = [&](const char* part) { return seconds.value(part, 0.0); };
+      const auto count = [&](const char* name) { return s.value(name, 0LL); };
+      const auto memory = s.value("memory_bytes", nlohmann::json::object());
+      return fmt::format(
+          "{},{:g},{},{},{},{},{},{},{},{},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{:."
+          "4g},{:"
+          ".4g},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{}",
+          options.families[0], options.sizes[0], scene.problem().numFreeDofs(), options.threads[0],
+          scene.mesh().numElements(), scene.numContactPoints(), count("steps"), count("factorizations"),
+          count("solves"), count("orders_computed"), setup, of("tangent"), of("factorization"), of("solves"),
+          of("order_rhs"), contact * static_cast<double>(count("orders_computed")) / order, of("residual"),
+          of("output"), of("total"), foreseen.matrix, memory.value("factor", 0.0), factor.entries,
+          factor.operations, static_cast<double>(scene.problem().historyBytes(order)), foreseen.total(),
+          memory.value("peak", 0.0), end);
+    };
+    if (fits) {
+      RunOptions run;
+      run.directory = folder + "/results";
+      const RunResult result = runPath(pathCase, run);
+      std::ifstream file(run.directory + "/summary.json");
+      line = format(nlohmann::json::parse(file), contactSeconds(scene, order),
+                    result.reachedStop ? "done" : result.text);
+    } else {
+      line = format(nlohmann::json::object(), 0, "does not fit");
+    }
+  }
+  fmt::print("{}\n", line);
+  Tpetra::finalize();
+  Kokkos::finalize();
+  MPI_Finalize();
+  return 0;
+}
+
+/// A row by another process, so that its memory is its own.
+std::string rowOf(const std::string& program, const std::string& family, double size, int threads,
+                  int steps) {
+  char folder[] = "/tmp/bench_scaling_XXXXXX";
+  if (!mkdtemp(folder)) throw std::runtime_error("bench_scaling: no temporary folder");
+  const std::string command =
+      fmt::format("'{}' --row --families {} --sizes {:g} --threads {} --steps {} --folder {}", program,
+                  family, size, threads, steps, folder);
+  std::string out;
+  FILE* pipe = popen(command.c_str(), "r");
+  if (!pipe) throw std::runtime_error("bench_scaling: cannot start " + command);
+  char buffer[4096];
+  while (fgets(buffer, sizeof buffer, pipe)) out += buffer;
+  const int status = pclose(pipe);
+  std::filesystem::remove_all(folder);
+  while (!out.empty() && out.back() == '\n') out.pop_back();
+  const auto last = out.rfind('\n');
+  if (last != std::string::npos) out = out.substr(last + 1);
+  if (status == 0 && out.rfind(family + ",", 0) == 0) return out;
+  // Killed, by the memory's end perhaps.
+  return fmt::format("{},{:g},,{}{}{}", family, size, threads, std::string(22, ','),
+                     fmt::format(",ended with status {}", status));
+}
+
+int measure(const Options& options, const std::string& program) {
+  std::ofstream file;
+  if (!options.csv.empty()) {
+    file.open(options.csv);
+    file << header << std::endl;
+    if (!file) throw std::runtime_error("bench_scaling: " + options.csv + " cannot be written");
+  }
+  fmt::print("{}\n", header);
+  for (const auto& family : options.families)
+    for (const int threads : options.threads) {
+      double last = 0, before = 0;
+      for (const double size : options.sizes) {
+        // Solids grow like the square of the size at worst.
+        if (before > 0 && last * (size / before) * (size / before) > 3 * options.longest) break;
+        const auto start = Clock::now();
+        const std::string row = rowOf(program, family, size, threads, options.steps);
+        last = since(start);
+        before = size;
+        fmt::print("{}\n", row);
+        std::fflush(stdout);
+        if (file.is_open()) file << row << std::endl;
+        if (last > options.longest) break;
+      }
+    }
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Options options;
+  CLI::App app("Time and memory of a step over the size of the problem");
+  app.add_option("--families", options.families, "of shell, solid")
+      ->check(CLI::IsMember(bench::families()))
+      ->capture_default_str();
+  app.add_option("--sizes", options.sizes, "numbers of unknowns, about, ascending")
+      ->check(CLI::Range(1000.0, 1e8))
+      ->capture_default_str();
+  app.add_option("--threads", options.threads, "threads of the element loops")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
+  app.add_option("--steps", options.steps, "steps of each path")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  app.add_option("--longest", options.longest,
+                 "seconds of a run beyond which a family's larger sizes are left out")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
+  app.add_option("--csv", options.csv, "file to write");
+  app.add_flag("--row", options.row, "one row, in this process")->group("");
+  app.add_option("--folder", options.folder, "of its results")->group("");
+  CLI11_PARSE(app, argc, argv);
+  try {
+    if (options.row) return makeRow(options);
+    return measure(options, std::filesystem::canonical("/proc/self/exe").string());
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "bench_scaling: {}\n", error.what());
+    return 1;
+  }
+}

@@ -1,0 +1,66 @@
+// `bench_scaling` on its smallest sizes: every part is counted, memory is as foreseen, the parts are all of
+// it.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <map>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace {
+
+std::vector<std::map<std::string, std::string>> table(const std::string& file) {
+  std::ifstream in(file);
+  std::vector<std::string> names;
+  std::vector<std::map<std::string, std::string>> rows;
+  for (std::string line; std::getline(in, line);) {
+    std::vector<std::string> cells;
+    std::istringstream stream(line);
+    for (std::string cell; std::getline(stream, cell, ',');) cells.push_back(cell);
+    if (names.empty()) {
+      names = cells;
+      continue;
+    }
+    EXPECT_EQ(cells.size(), names.size()) << line;
+    auto& row = rows.emplace_back();
+    for (std::size_t i = 0; i < names.size() && i < cells.size(); ++i) row[names[i]] = cells[i];
+  }
+  return rows;
+}
+
+TEST(BenchScaling, WritesTheTable) {
+  const std::string csv = testing::TempDir() + "bench_scaling_test.csv";
+  std::remove(csv.c_str());
+  const std::string command = std::string(ATRAPOS_BENCH_SCALING) +
+                              " --sizes 1000 3000 --threads 1 --steps 1 --csv " + csv + " > /dev/null";
+  ASSERT_EQ(std::system(command.c_str()), 0);
+  const auto rows = table(csv);
+  ASSERT_EQ(rows.size(), 4u);
+  for (auto row : rows) {
+    const auto number = [&](const char* name) { return std::stod(row.at(name)); };
+    SCOPED_TRACE(row.at("family") + " " + row.at("asked"));
+    ASSERT_EQ(row.at("end"), "done");
+    // Whole elements, and more nodes an element in small meshes.
+    EXPECT_GT(number("unknowns"), 0.5 * number("asked"));
+    EXPECT_LT(number("unknowns"), 2 * number("asked"));
+    EXPECT_EQ(number("steps"), 1);
+    double parts = 0;
+    for (const char* part : {"tangent_s", "factor_s", "solve_s", "order_s", "residual_s", "output_s"}) {
+      EXPECT_GT(number(part), 0) << part;
+      parts += number(part);
+    }
+    EXPECT_GT(number("contact_s"), 0);
+    EXPECT_LE(parts, 1.01 * number("total_s"));  // four digits are printed
+    EXPECT_GT(number("contact_points"), 0);
+    EXPECT_GE(number("orders"), 20);
+    EXPECT_GT(number("factor_bytes"), 8 * 0.9 * number("factor_entries"));
+    // The program itself is most of it at these sizes.
+    EXPECT_GT(number("foreseen_bytes"), 0.5 * number("peak_bytes"));
+    EXPECT_LT(number("foreseen_bytes"), 1.5 * number("peak_bytes"));
+  }
+}
+
+}  // namespace
