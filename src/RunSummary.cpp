@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "Ranks.hpp"
 #include "Version.hpp"
 
 namespace atrapos {
@@ -120,6 +121,7 @@ nlohmann::ordered_json runSummary(const PathCase& pathCase, const path::BranchDi
   json["contact_events"] = recorder.contactEvents();
   pathCase.summarize(json);
   json["solver"] = solver.name();
+  json["ranks"] = ranks::count();
   json["execution_space"] = Kokkos::DefaultExecutionSpace::name();
   json["threads"] = Kokkos::DefaultExecutionSpace::concurrency();
   json["seconds"] = {{"tangent", seconds(diagram, &path::Timings::tangent)},

@@ -21,13 +21,13 @@ void exchange(const Comm& comm, const std::vector<int>& ranks, const std::vector
   for (std::size_t i = 0; i < ranks.size(); ++i)
     if (!receive[i].empty())
       requests.push_back(Teuchos::ireceive(
-          Teuchos::arcp(receive[i].data(), 0, static_cast<Teuchos::Ordinal>(receive[i].size()), false), ranks[i],
-          tag, comm));
+          Teuchos::arcp(receive[i].data(), 0, static_cast<Teuchos::Ordinal>(receive[i].size()), false),
+          ranks[i], tag, comm));
   for (std::size_t i = 0; i < ranks.size(); ++i)
     if (!send[i].empty())
       requests.push_back(
-          Teuchos::isend(Teuchos::ArrayRCP<const T>(
-                             Teuchos::arcp(send[i].data(), 0, static_cast<Teuchos::Ordinal>(send[i].size()), false)),
+          Teuchos::isend(Teuchos::ArrayRCP<const T>(Teuchos::arcp(
+                             send[i].data(), 0, static_cast<Teuchos::Ordinal>(send[i].size()), false)),
                          ranks[i], tag, comm));
   Teuchos::waitAll(comm, Teuchos::arrayViewFromVector(requests));
 }
@@ -237,7 +237,8 @@ void Distribution::collectRows(const View<std::size_t*>& rowStart, const View<do
     send.back().reserve(n.sent);
     for (const int l : n.theirs)
       for (int i = 0; i < 3; ++i)
-        send.back().insert(send.back().end(), &host(start(3 * l + i)), &host(start(3 * l + i)) + 3 * rows_[l].size());
+        send.back().insert(send.back().end(), &host(start(3 * l + i)),
+                           &host(start(3 * l + i)) + 3 * rows_[l].size());
     receive.emplace_back(9 * n.columns.size());
   }
   exchange(*comm_, ranks, send, receive);

@@ -12,11 +12,13 @@ namespace atrapos::fem::detail {
 
 using Comm = Teuchos::Comm<int>;
 
-/// What one rank of a finite-element problem holds, and how sums over ranks are made (docs/theory/parallel.md).
+/// What one rank of a finite-element problem holds, and how sums over ranks are made
+/// (docs/theory/parallel.md).
 ///
-/// The rank counts its nodes: first those whose rows it owns, then the ones that its entities share with other
-/// owners, each in the order of the whole model; behind them the nodes that occur in its columns only. Fields
-/// have three entries for each of the first two kinds. With one rank all nodes are owned and nothing is sent.
+/// The rank counts its nodes: first those whose rows it owns, then the ones that its entities share with
+/// other owners, each in the order of the whole model; behind them the nodes that occur in its columns only.
+/// Fields have three entries for each of the first two kinds. With one rank all nodes are owned and nothing
+/// is sent.
 ///
 /// All but the queries is collective.
 class Distribution {
@@ -29,11 +31,11 @@ class Distribution {
   const linear::RCP<const Comm>& comm() const { return comm_; }
 
   int numOwned() const { return numOwned_; }
-  int numLocal() const { return numLocal_; }                             ///< owned and shared
-  int numColumns() const { return static_cast<int>(nodes_.size()); }     ///< and those in columns only
-  const std::vector<int>& nodes() const { return nodes_; }               ///< [node of the rank] in the model
-  int localOf(int node) const { return localOf_[node]; }                 ///< -1: none of this rank
-  const std::vector<std::vector<int>>& rows() const { return rows_; }    ///< [local] columns, ascending
+  int numLocal() const { return numLocal_; }                           ///< owned and shared
+  int numColumns() const { return static_cast<int>(nodes_.size()); }   ///< and those in columns only
+  const std::vector<int>& nodes() const { return nodes_; }             ///< [node of the rank] in the model
+  int localOf(int node) const { return localOf_[node]; }               ///< -1: none of this rank
+  const std::vector<std::vector<int>>& rows() const { return rows_; }  ///< [local] columns, ascending
   const std::vector<std::vector<int>>& entities() const { return entities_; }  ///< [term] this rank's
   /// The couplings that this rank eliminates, with its own dofs.
   const std::vector<Coupling>& couplings() const { return couplings_; }

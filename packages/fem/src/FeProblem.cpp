@@ -45,7 +45,8 @@ std::vector<double> toHost(const ConstField& f) {
   return {mirror.data(), mirror.data() + mirror.size()};
 }
 
-/// Sum of squares of the first `count` entries, in one order: the number is the same for any number of threads.
+/// Sum of squares of the first `count` entries, in one order: the number is the same for any number of
+/// threads.
 double squares(const ConstField& f, std::size_t count) {
   auto mirror = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), f);
   double sum = 0;
@@ -69,7 +70,8 @@ std::vector<double> onAllRanks(const Map& map, const ConstField& own) {
   std::vector<double> mine(map.getGlobalNumElements(), 0.0), all(mine.size());
   const auto ids = map.getNodeElementList();
   for (long i = 0; i < ids.size(); ++i) mine[ids[i]] = part[i];
-  Teuchos::reduceAll(*map.getComm(), Teuchos::REDUCE_SUM, static_cast<int>(mine.size()), mine.data(), all.data());
+  Teuchos::reduceAll(*map.getComm(), Teuchos::REDUCE_SUM, static_cast<int>(mine.size()), mine.data(),
+                     all.data());
   return all;
 }
 
@@ -93,14 +95,14 @@ struct FeProblem::Impl {
   View<char*> fixed;
   detail::CoupledSystem coupled;
   Field value, rate, load, constantLoad;
-  Field shared;               // state of the last call with the values at shared nodes (several ranks)
-  Field sum;                  // work
-  Field last;                 // U of the order completed last
-  double lastLambda = 0;      // and its lambda
-  double diagonal = 0;        // s of the prescribed rows
-  std::vector<int> parameters;  // dofs of this rank that are parameters of laws
+  Field shared;                  // state of the last call with the values at shared nodes (several ranks)
+  Field sum;                     // work
+  Field last;                    // U of the order completed last
+  double lastLambda = 0;         // and its lambda
+  double diagonal = 0;           // s of the prescribed rows
+  std::vector<int> parameters;   // dofs of this rank that are parameters of laws
   std::vector<int> wholeCounts;  // [term] entities on all ranks (several ranks)
-  double parameterInner = 1;  // factor of a parameter's square in inner()
+  double parameterInner = 1;     // factor of a parameter's square in inner()
   double scaleFloor = 0;
   int numFree = 0;
 
@@ -326,7 +328,8 @@ struct FeProblem::Impl {
     return ranks->sum(sum);
   }
 
-  /// The smallest diagonal entry of the tangent among the free dofs of a node of the rank; 0 where there is none.
+  /// The smallest diagonal entry of the tangent among the free dofs of a node of the rank; 0 where there is
+  /// none.
   std::vector<double> nodalStiffness() const {
     const auto onHost = [](const auto& view) {
       return Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), view);

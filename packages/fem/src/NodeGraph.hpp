@@ -19,8 +19,8 @@ struct Share {
   std::vector<char> ofCouplings;          ///< [coupling]
 };
 
-/// The node graph of a model, rows sorted: all nodes that share an entity of any term, coupled nodes with their
-/// masters, each node with itself. Rows that are not wanted are empty.
+/// The node graph of a model, rows sorted: all nodes that share an entity of any term, coupled nodes with
+/// their masters, each node with itself. Rows that are not wanted are empty.
 std::vector<std::vector<int>> nodeGraph(const FeModel& model, const std::vector<Coupling>& couplings,
                                         const std::vector<Rows>& wanted, const Share& share);
 

@@ -26,17 +26,16 @@ const int* nodesOf(const FeModel& model, const Entity& e) {
 
 /// The elements of a model: entities whose nodes no other one has, with what goes with them.
 struct Elements {
-  std::vector<Entity> entity;         ///< [element]
-  std::vector<double> cost;           ///< [element] with its faces and points
-  std::vector<std::vector<int>> at;   ///< [node] elements
+  std::vector<Entity> entity;              ///< [element]
+  std::vector<double> cost;                ///< [element] with its faces and points
+  std::vector<std::vector<int>> at;        ///< [node] elements
   std::vector<std::vector<int>> ofEntity;  ///< [term][entity] element
 };
 
 /// The element that has all these nodes, or -1.
 int hostOf(const FeModel& model, const Elements& elements, const int* nodes, int count) {
-  const int* rarest = std::min_element(nodes, nodes + count, [&](int a, int b) {
-    return elements.at[a].size() < elements.at[b].size();
-  });
+  const int* rarest = std::min_element(
+      nodes, nodes + count, [&](int a, int b) { return elements.at[a].size() < elements.at[b].size(); });
   for (const int h : elements.at[*rarest]) {
     const int* own = nodesOf(model, elements.entity[h]);
     const int size = model.terms[elements.entity[h].term]->nodesPerEntity();
@@ -99,8 +98,8 @@ std::vector<int> groupsOf(const Elements& elements, const std::vector<Coupling>&
 }
 
 /// [group] rank.
-std::vector<int> cut(const FeModel& model, const Elements& elements, const std::vector<int>& group, int numGroups,
-                     int numRanks) {
+std::vector<int> cut(const FeModel& model, const Elements& elements, const std::vector<int>& group,
+                     int numGroups, int numRanks) {
   // Edges weigh as many nodes as they share.
   std::vector<std::vector<int>> neighbours(numGroups);
   for (std::size_t e = 0; e < group.size(); ++e) {
@@ -133,7 +132,8 @@ std::vector<int> cut(const FeModel& model, const Elements& elements, const std::
 
   std::vector<idx_t> rank(numGroups, 0);
   if (adjacent.empty() || numGroups < numRanks) {  // nothing for METIS to decide
-    for (int g = 0; g < numGroups; ++g) rank[g] = static_cast<idx_t>(static_cast<long long>(g) * numRanks / numGroups);
+    for (int g = 0; g < numGroups; ++g)
+      rank[g] = static_cast<idx_t>(static_cast<long long>(g) * numRanks / numGroups);
     return {rank.begin(), rank.end()};
   }
   idx_t options[METIS_NOPTIONS], vertices = numGroups, constraints = 1, parts = numRanks, edgeCut = 0;
@@ -146,7 +146,8 @@ std::vector<int> cut(const FeModel& model, const Elements& elements, const std::
                             edgeWeight.data(), &parts, nullptr, nullptr, options, &edgeCut, rank.data());
   if (status != METIS_OK)
     throw std::runtime_error("METIS: cutting " + std::to_string(numGroups) + " elements into " +
-                             std::to_string(numRanks) + " parts failed (code " + std::to_string(status) + ")");
+                             std::to_string(numRanks) + " parts failed (code " + std::to_string(status) +
+                             ")");
   return {rank.begin(), rank.end()};
 }
 

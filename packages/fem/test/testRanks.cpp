@@ -1,4 +1,5 @@
-// A problem shared out over ranks is the problem of one rank: every rank compares with a whole one of its own.
+// A problem shared out over ranks is the problem of one rank: every rank compares with a whole one of its
+// own.
 #include <gtest/gtest.h>
 #include <mpi.h>
 
@@ -89,9 +90,11 @@ void compareEverything(const std::function<FeModel()>& make) {
 FeModel manyTerms(const Mesh& mesh, double strength = 1) {
   FeModel model = busyModel(mesh);
   for (const PointSet& p : facePoints(mesh, sideSet(mesh, "x_max"), 3)) {
-    model.terms.push_back(std::make_unique<LawTerm<CentralForce, CurrentPosition>>(CentralForce{0.5 * strength}, p));
+    model.terms.push_back(
+        std::make_unique<LawTerm<CentralForce, CurrentPosition>>(CentralForce{0.5 * strength}, p));
     model.terms.push_back(std::make_unique<LawTerm<Swirl, CurrentPosition>>(Swirl{0.2 * strength}, p));
-    model.terms.push_back(std::make_unique<LawTerm<MovingPull, CurrentPosition>>(MovingPull{0.2 * strength}, p));
+    model.terms.push_back(
+        std::make_unique<LawTerm<MovingPull, CurrentPosition>>(MovingPull{0.2 * strength}, p));
   }
   model.terms.push_back(std::make_unique<LawTerm<CentralForce, CurrentPosition>>(
       CentralForce{0.7 * strength}, nodePoints(mesh, {3, 8, 50})));
@@ -144,7 +147,7 @@ TEST(Ranks, AllCellsWithSupportsAndLoads) {
   compareEverything([] { return busyModel(mixedMesh()); });
 }
 
-TEST(Ranks, FacesAndPointsAndTermsThatSeeTheLoadFactor) { 
+TEST(Ranks, FacesAndPointsAndTermsThatSeeTheLoadFactor) {
   compareEverything([] { return manyTerms(mixedMesh()); });
 }
 
@@ -215,7 +218,8 @@ TEST(Ranks, SamePath) {
   }
 }
 
-// Nothing in the problem's sums depends on when messages arrive. (MUMPS' do on several ranks; KLU2 works on one.)
+// Nothing in the problem's sums depends on when messages arrive. (MUMPS' do on several ranks; KLU2 works on
+// one.)
 TEST(Ranks, SameBitsEveryTime) {
   FeProblem one(heldTerms()), two(heldTerms());
   const Ends a = follow(one, "amesos2:klu2"), b = follow(two, "amesos2:klu2");

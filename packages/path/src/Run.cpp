@@ -1,5 +1,6 @@
 #include "Run.hpp"
 
+#include <Teuchos_CommHelpers.hpp>
 #include <algorithm>
 #include <cmath>
 
@@ -139,8 +140,11 @@ void Run::chooseOrder() {
   const Work& work = calls_.work();
   if (work.factorizations == 0 || work.orders == 0) return;
   const auto& s = work.seconds;
-  order_ = bestOrder((s.tangent + s.factor) / work.factorizations, (s.solve + s.orderRhs) / work.orders,
-                     options_.delta);
+  // Clocks differ from rank to rank; the order may not.
+  const double own[2] = {(s.tangent + s.factor) / work.factorizations, (s.solve + s.orderRhs) / work.orders};
+  double slowest[2] = {0, 0};
+  Teuchos::reduceAll(*calls_.problem().map()->getComm(), Teuchos::REDUCE_MAX, 2, own, slowest);
+  order_ = bestOrder(slowest[0], slowest[1], options_.delta);
 }
 
 void Run::finish() {

@@ -1,3 +1,4 @@
+#include <Teuchos_CommHelpers.hpp>
 #include <algorithm>
 #include <cmath>
 
@@ -45,16 +46,20 @@ std::string Run::nullVectorText() {
   } catch (const PathError&) {
     return "";
   }
-  const auto data = x->getData();
+  // All ranks say the same.
+  const auto own = x->getData();
+  std::vector<double> mine(x->getGlobalLength(), 0.0), data(mine.size());
+  for (int i = 0; i < own.size(); ++i) mine[x->getMap()->getGlobalElement(i)] = own[i];
+  Teuchos::reduceAll(*x->getMap()->getComm(), Teuchos::REDUCE_SUM, static_cast<int>(mine.size()), mine.data(),
+                     data.data());
   std::vector<int> order(data.size());
-  for (int i = 0; i < data.size(); ++i) order[i] = i;
-  const int count = std::min<int>(3, data.size());
+  for (std::size_t i = 0; i < data.size(); ++i) order[i] = static_cast<int>(i);
+  const int count = static_cast<int>(std::min<std::size_t>(3, data.size()));
   std::partial_sort(order.begin(), order.begin() + count, order.end(),
                     [&](int i, int j) { return std::abs(data[i]) > std::abs(data[j]); });
   std::string text = "; largest entries of its null vector: ";
   for (int i = 0; i < count; ++i)
-    text += line(i > 0 ? ", " : "", "unknown ", x->getMap()->getGlobalElement(order[i]), " (", data[order[i]],
-                 ')');
+    text += line(i > 0 ? ", " : "", "unknown ", order[i], " (", data[order[i]], ')');
   return text;
 }
 

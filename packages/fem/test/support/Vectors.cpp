@@ -18,7 +18,8 @@ void copyInto(const Numbers& values, path::Vector& vector) {
   auto view = vector.getLocalViewHost(Tpetra::Access::OverwriteAll);
   if (vector.getGlobalLength() != values.size()) throw std::logic_error("copyInto: wrong size");
   const auto map = vector.getMap();
-  for (std::size_t i = 0; i < view.extent(0); ++i) view(i, 0) = values[map->getGlobalElement(static_cast<int>(i))];
+  for (std::size_t i = 0; i < view.extent(0); ++i)
+    view(i, 0) = values[map->getGlobalElement(static_cast<int>(i))];
 }
 
 linear::RCP<path::Vector> vectorOf(const path::Problem& problem, const Numbers& values) {

@@ -324,7 +324,8 @@ class EnhancedTerm final : public Term {
     auto failed = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), a_.failed);
     for (int e = 0; e < a_.numEntities; ++e)
       if (failed(e) != 0)
-        return "element " + std::to_string(numberInTerm(kept_, e) + 1) + ": " + describe(static_cast<EnhancedFailure>(failed(e)));
+        return "element " + std::to_string(numberInTerm(kept_, e) + 1) + ": " +
+               describe(static_cast<EnhancedFailure>(failed(e)));
     return {};
   }
 

@@ -53,11 +53,11 @@ struct FeModel {
 /// vanish at a stressed state, and in a thin body the rounding of the displacements alone then exceeds any
 /// fraction of them.)
 ///
-/// On a communicator of several ranks every rank gives the same whole model; the problem cuts it (fem::partition)
-/// and each rank keeps its part (docs/theory/parallel.md). Whatever takes vectors is collective then, numbers of
-/// nodes and entities stay those of the whole model, and an error on one rank is thrown on all. Terms that
-/// cannot be shared out (Term::keep) throw std::invalid_argument. A program of several ranks may have one
-/// problem on each, with Teuchos::MpiComm<int>(MPI_COMM_SELF) as FeModel::comm.
+/// On a communicator of several ranks every rank gives the same whole model; the problem cuts it
+/// (fem::partition) and each rank keeps its part (docs/theory/parallel.md). Whatever takes vectors is
+/// collective then, numbers of nodes and entities stay those of the whole model, and an error on one rank is
+/// thrown on all. Terms that cannot be shared out (Term::keep) throw std::invalid_argument. A program of
+/// several ranks may have one problem on each, with Teuchos::MpiComm<int>(MPI_COMM_SELF) as FeModel::comm.
 class FeProblem final : public path::Problem {
  public:
   explicit FeProblem(FeModel model);
@@ -101,11 +101,12 @@ class FeProblem final : public path::Problem {
   /// Named values of term i at all its points, those of all ranks' entities, on every rank.
   PointValues observe(int i, const path::Vector& u, double lambda) const;
 
-  /// The state as the terms read it: with several ranks, three entries for each node of this rank. Holds until
-  /// the next call to the problem.
+  /// The state as the terms read it: with several ranks, three entries for each node of this rank. Holds
+  /// until the next call to the problem.
   ConstField onRank(const path::Vector& u) const;
 
-  /// What the problem was made of; its terms are the problem's own, with several ranks those of this rank's part.
+  /// What the problem was made of; its terms are the problem's own, with several ranks those of this rank's
+  /// part.
   const FeModel& model() const;
 
   /// A vector of the map as plain numbers [3 node + component], on every rank. Collective.

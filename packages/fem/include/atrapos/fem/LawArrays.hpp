@@ -323,7 +323,8 @@ void forEachBatch(const char* name, const Batches& batches, const View<int*>& or
   Execution().fence();
 }
 
-/// Number of an entity, from 0, in the whole term: `kept` are the entities of a part, empty where all are there.
+/// Number of an entity, from 0, in the whole term: `kept` are the entities of a part, empty where all are
+/// there.
 inline int numberInTerm(const std::vector<int>& kept, int entity) {
   return kept.empty() ? entity : kept[entity];
 }
@@ -333,10 +334,9 @@ inline void throwFirst(const View<LawFailure*>& perBatch, const std::vector<int>
   auto host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), perBatch);
   for (std::size_t b = 0; b < host.size(); ++b)
     if (host(b).entity >= 0)
-      throw taylor::DomainError(
-          host(b).operation, host(b).value,
-          "entity " + std::to_string(numberInTerm(kept, host(b).entity) + 1) + ", point " +
-              std::to_string(host(b).point + 1));
+      throw taylor::DomainError(host(b).operation, host(b).value,
+                                "entity " + std::to_string(numberInTerm(kept, host(b).entity) + 1) +
+                                    ", point " + std::to_string(host(b).point + 1));
 }
 
 /// The sum over all batches, in one order for any number of threads.

@@ -35,8 +35,9 @@ struct TermPart {
   std::vector<int> nodes;     ///< [entity of the part][node] as the rank counts them
 };
 
-/// One contribution F(u, lambda) to the residual: a law acting at the points of a set of entities, sum over points of
-/// B^T law(B u, lambda). Virtual once per loop, never inside it. Fields have 3 entries a node of the mesh.
+/// One contribution F(u, lambda) to the residual: a law acting at the points of a set of entities, sum over
+/// points of B^T law(B u, lambda). Virtual once per loop, never inside it. Fields have 3 entries a node of
+/// the mesh.
 class Term {
  public:
   virtual ~Term() = default;
@@ -47,10 +48,10 @@ class Term {
   virtual bool symmetric() const = 0;
   virtual bool seesLoadFactor() const = 0;  ///< false: F depends on u alone
 
-  /// Drops all entities but these; called at most once, before anything else, where a problem has several ranks.
-  /// From then on the term is that of the part: fields, numbers of entities and sums over them. What it says
-  /// about an entity names it by its number in the whole. Throws std::invalid_argument where the term cannot
-  /// be shared out.
+  /// Drops all entities but these; called at most once, before anything else, where a problem has several
+  /// ranks. From then on the term is that of the part: fields, numbers of entities and sums over them. What
+  /// it says about an entity names it by its number in the whole. Throws std::invalid_argument where the term
+  /// cannot be shared out.
   virtual void keep(const TermPart& /*part*/) {
     throw std::invalid_argument("one of the problem's terms works on one rank only: start without mpirun");
   }
@@ -59,15 +60,15 @@ class Term {
   /// [entity][a][b], in units of entries.
   virtual void setPositions(const std::vector<int>& positions) = 0;
 
-  /// f += F(u, lambda). Returns the sum of squares of the entities' own nodal forces, before they are summed at
-  /// nodes: what equilibrium is the cancellation of.
+  /// f += F(u, lambda). Returns the sum of squares of the entities' own nodal forces, before they are summed
+  /// at nodes: what equilibrium is the cancellation of.
   virtual double addResidual(const ConstField& u, double lambda, const Field& f) const = 0;
 
   /// K += dF/du, load direction -= dF/dlambda.
   virtual void addTangent(const ConstField& u, double lambda, const TangentSink& sink) const = 0;
 
-  /// Order 0 of the series at (u, lambda); histories for orders up to maxOrder. Throws taylor::DomainError, naming the
-  /// point, where the law has no series.
+  /// Order 0 of the series at (u, lambda); histories for orders up to maxOrder. Throws taylor::DomainError,
+  /// naming the point, where the law has no series.
   virtual void beginSeries(const ConstField& u, double lambda, int maxOrder) = 0;
 
   /// Makes order k - 1, (`last`, `lastLambda`), known (k > 1; unused for k = 1), then f += order k of
