@@ -33,13 +33,14 @@ function(atrapos_package name)
   set_property(GLOBAL APPEND PROPERTY ATRAPOS_INSTALLED_HEADERS ${CMAKE_CURRENT_SOURCE_DIR}/include/)
 endfunction()
 
-# atrapos_test(<name> SOURCES ... DEPENDS ... [LABELS unit] [RANKS n] [ENVIRONMENT ...])
-# One GoogleTest executable and one ctest entry. Its main starts MPI and Kokkos, once.
+# atrapos_test(<name> SOURCES ... DEPENDS ... [LABELS unit] [RANKS n...] [ENVIRONMENT ...])
+# One GoogleTest executable and one ctest entry, with several numbers of ranks one each: <name>_np<n>. Its main
+# starts MPI and Kokkos, once.
 function(atrapos_test name)
   if(NOT BUILD_TESTING)
     return()
   endif()
-  cmake_parse_arguments(arg "" "RANKS;TIMEOUT" "SOURCES;DEPENDS;LABELS;ENVIRONMENT" ${ARGN})
+  cmake_parse_arguments(arg "" "TIMEOUT" "SOURCES;DEPENDS;LABELS;RANKS;ENVIRONMENT" ${ARGN})
   atrapos_find_gtest()
   add_executable(${name} ${arg_SOURCES} ${PROJECT_SOURCE_DIR}/test/support/main.cpp)
   target_link_libraries(${name} PRIVATE atrapos_gtest ${arg_DEPENDS} Trilinos::Kokkos MPI::MPI_CXX
@@ -51,14 +52,23 @@ function(atrapos_test name)
     set(arg_TIMEOUT 300)
   endif()
   if(arg_RANKS)
-    add_test(NAME ${name} COMMAND ${MPIEXEC_EXECUTABLE} --oversubscribe ${MPIEXEC_NUMPROC_FLAG} ${arg_RANKS}
-      $<TARGET_FILE:${name}>)
     list(APPEND arg_LABELS mpi)
-    set_tests_properties(${name} PROPERTIES PROCESSORS ${arg_RANKS})
+    list(LENGTH arg_RANKS numbers)
+    foreach(ranks IN LISTS arg_RANKS)
+      set(test ${name})
+      if(numbers GREATER 1)
+        set(test ${name}_np${ranks})
+      endif()
+      add_test(NAME ${test} COMMAND ${MPIEXEC_EXECUTABLE} --oversubscribe ${MPIEXEC_NUMPROC_FLAG} ${ranks}
+        $<TARGET_FILE:${name}>)
+      set_tests_properties(${test} PROPERTIES PROCESSORS ${ranks})
+      list(APPEND tests ${test})
+    endforeach()
   else()
     add_test(NAME ${name} COMMAND ${name})
+    set(tests ${name})
   endif()
-  set_tests_properties(${name} PROPERTIES LABELS "${arg_LABELS}" TIMEOUT ${arg_TIMEOUT}
+  set_tests_properties(${tests} PROPERTIES LABELS "${arg_LABELS}" TIMEOUT ${arg_TIMEOUT}
     ENVIRONMENT "OMPI_ALLOW_RUN_AS_ROOT=1;OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1;OMP_PROC_BIND=false;${arg_ENVIRONMENT}")
 endfunction()
 

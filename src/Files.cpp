@@ -10,9 +10,12 @@
 #include <fstream>
 #include <stdexcept>
 
+#include "Ranks.hpp"
+
 namespace atrapos {
 
 void replaceFile(const std::string& file, const std::string& content) {
+  if (!ranks::isFirst()) return;
   const std::string beside = file + ".new";
   {
     std::ofstream out(beside, std::ios::binary | std::ios::trunc);
@@ -25,6 +28,7 @@ void replaceFile(const std::string& file, const std::string& content) {
 }
 
 void prepareFolder(const std::string& folder, const std::vector<std::string>& files) {
+  if (!ranks::isFirst()) return;
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error)

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "Interrupt.hpp"
+#include "atrapos/fem/FeProblem.hpp"
 #include "atrapos/path/Imperfect.hpp"
 #include "atrapos/path/PathFollower.hpp"
 
@@ -14,9 +15,8 @@ namespace {
 /// The null vector with 1 as its largest entry: its own sign means nothing.
 path::RCP<path::Vector> shapeOf(const path::Vector& nullVector) {
   auto shape = Teuchos::rcp(new path::Vector(nullVector, Teuchos::Copy));
-  const auto data = nullVector.getData();
   double largest = 0;
-  for (const double x : data)
+  for (const double x : fem::FeProblem::values(nullVector))
     if (std::abs(x) > std::abs(largest)) largest = x;
   shape->scale(1 / largest);
   return shape;

@@ -3,16 +3,19 @@
 #include <atomic>
 #include <csignal>
 
+#include "Ranks.hpp"
+
 namespace atrapos {
 namespace {
 
 std::atomic<bool> noted{false};
+bool agreed = false;
 void onSignal(int) { noted = true; }
 
 }  // namespace
 
 Interrupt::Interrupt() {
-  noted = false;
+  noted = agreed = false;
   interrupt_ = std::signal(SIGINT, onSignal);
   terminate_ = std::signal(SIGTERM, onSignal);
 }
@@ -22,6 +25,8 @@ Interrupt::~Interrupt() {
   std::signal(SIGTERM, terminate_);
 }
 
-bool Interrupt::came() { return noted; }
+bool Interrupt::agree() { return agreed = ranks::any(noted); }
+
+bool Interrupt::came() { return agreed; }
 
 }  // namespace atrapos

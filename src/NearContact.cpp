@@ -26,6 +26,34 @@ int NearContact::numCarried() const {
   return points_.pointsPerEntity * static_cast<int>(std::count(carried_.begin(), carried_.end(), 1));
 }
 
+void NearContact::keep(const fem::TermPart& part) {
+  const std::size_t Q = points_.pointsPerEntity;
+  std::vector<double> gaps;
+  for (const int e : part.entities) appendRows(referenceGaps_, e, Q, gaps);
+  points_ = pointsOf(part.entities);
+  points_.nodes = part.nodes;
+  referenceGaps_ = std::move(gaps);
+  carried_.assign(part.entities.size(), 0);
+  all_->keep(part);
+}
+
+fem::PointSet NearContact::pointsOf(const std::vector<int>& entities) const {
+  const std::size_t N = points_.nodesPerEntity, Q = points_.pointsPerEntity;
+  fem::PointSet part;
+  part.numEntities = static_cast<int>(entities.size());
+  part.nodesPerEntity = points_.nodesPerEntity;
+  part.pointsPerEntity = points_.pointsPerEntity;
+  part.shapeComponents = points_.shapeComponents;
+  for (const int e : entities) {
+    appendRows(points_.nodes, e, N, part.nodes);
+    appendRows(points_.shape, e, Q * N, part.shape);
+    appendRows(points_.weights, e, Q, part.weights);
+    appendRows(points_.positions, e, 3 * Q, part.positions);
+    appendRows(points_.normals, e, 3 * Q, part.normals);
+  }
+  return part;
+}
+
 void NearContact::setPositions(const std::vector<int>& positions) {
   all_->setPositions(positions);
   positions_ = positions;
@@ -36,25 +64,17 @@ void NearContact::setPositions(const std::vector<int>& positions) {
 void NearContact::make() {
   near_.reset();
   const std::size_t N = points_.nodesPerEntity, Q = points_.pointsPerEntity;
-  fem::PointSet part;
-  part.nodesPerEntity = points_.nodesPerEntity;
-  part.pointsPerEntity = points_.pointsPerEntity;
-  part.shapeComponents = points_.shapeComponents;
+  std::vector<int> carried;
   std::vector<double> gaps;
   std::vector<int> positions;
   for (std::size_t e = 0; e < carried_.size(); ++e) {
     if (!carried_[e]) continue;
-    ++part.numEntities;
-    appendRows(points_.nodes, e, N, part.nodes);
-    appendRows(points_.shape, e, Q * N, part.shape);
-    appendRows(points_.weights, e, Q, part.weights);
-    appendRows(points_.positions, e, 3 * Q, part.positions);
-    appendRows(points_.normals, e, 3 * Q, part.normals);
+    carried.push_back(static_cast<int>(e));
     appendRows(referenceGaps_, e, Q, gaps);
     appendRows(positions_, e, N * N, positions);
   }
-  if (part.numEntities == 0) return;
-  near_ = tool_.term(pressure_, part, gaps);
+  if (carried.empty()) return;
+  near_ = tool_.term(pressure_, pointsOf(carried), gaps);
   if (!positions_.empty()) near_->setPositions(positions);
 }
 

@@ -20,7 +20,7 @@ class NearContact final : public fem::Term {
   NearContact(const RigidTool& tool, const contact::AnyPressure& pressure, const fem::PointSet& points,
               const std::vector<double>& referenceGaps);
 
-  /// Points that carry the law.
+  /// Points of this rank that carry the law.
   int numCarried() const;
 
   /// Whether an entity that carries no law is near in the state (u, lambda).
@@ -33,6 +33,7 @@ class NearContact final : public fem::Term {
   const std::vector<int>& nodes() const override { return all_->nodes(); }
   bool symmetric() const override { return all_->symmetric(); }
   bool seesLoadFactor() const override { return all_->seesLoadFactor(); }
+  void keep(const fem::TermPart& part) override;
   void setPositions(const std::vector<int>& positions) override;
   double addResidual(const fem::ConstField& u, double lambda, const fem::Field& f) const override;
   void addTangent(const fem::ConstField& u, double lambda, const fem::TangentSink& sink) const override;
@@ -45,6 +46,7 @@ class NearContact final : public fem::Term {
  private:
   bool search(const fem::ConstField& u, double lambda, std::vector<char>* joining) const;
   void make();
+  fem::PointSet pointsOf(const std::vector<int>& entities) const;
 
   const RigidTool& tool_;
   contact::AnyPressure pressure_;

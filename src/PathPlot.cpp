@@ -8,6 +8,7 @@
 #include <cstdlib>
 
 #include "Files.hpp"
+#include "Ranks.hpp"
 
 namespace atrapos {
 namespace {
@@ -50,6 +51,7 @@ std::string panel(const std::string& name, int column, int pointColumn, int stab
 
 std::string plotPath(const std::string& directory, const std::string& title,
                      const std::vector<std::string>& monitors, int branches) {
+  if (!ranks::isFirst()) return "";
   const int plots = std::max<int>(1, static_cast<int>(monitors.size()));
   const int columns = static_cast<int>(std::ceil(std::sqrt(static_cast<double>(plots))));
   const int rows = (plots + columns - 1) / columns;

@@ -5,20 +5,25 @@
 #include <cstdlib>
 #include <stdexcept>
 
+#include "Ranks.hpp"
+
 namespace atrapos {
 
 Table::Table(const std::string& file, const std::string& header)
-    : file_(file), header_(header), out_(file, std::ios::trunc) {
+    : file_(file), header_(header), writes_(ranks::isFirst()) {
+  if (writes_) out_.open(file, std::ios::trunc);
   append(header);
 }
 
 void Table::append(const std::string& row) {
+  if (!writes_) return;
   out_ << row << '\n';
   out_.flush();
   if (!out_) throw std::runtime_error(fmt::format("{}: cannot be written (disk full?)", file_));
 }
 
 void Table::copyFrom(const std::string& file, int column, int last) {
+  if (!writes_) return;
   std::ifstream in(file);
   std::string line;
   if (!std::getline(in, line)) throw std::invalid_argument(fmt::format("{}: cannot be read", file));

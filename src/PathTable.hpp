@@ -8,7 +8,8 @@
 
 namespace atrapos {
 
-/// A table of comma-separated values that grows by rows; each is on disk when append returns.
+/// A table of comma-separated values that grows by rows; each is on disk when append returns. On several
+/// ranks the first one writes, the others' calls do nothing.
 class Table {
  public:
   /// Throws std::runtime_error where the file cannot be written.
@@ -22,6 +23,7 @@ class Table {
 
  private:
   std::string file_, header_;
+  bool writes_;
   std::ofstream out_;
 };
 

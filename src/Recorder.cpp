@@ -9,6 +9,7 @@
 #include <ostream>
 
 #include "Interrupt.hpp"
+#include "Ranks.hpp"
 
 namespace atrapos {
 namespace {
@@ -63,6 +64,8 @@ void Recorder::goOn(const Continued& continued) {
   if (fields_) fields_->copyFrom(old(fieldsName(0)), last + 1);
   if (watch_) watch_->copyFrom(old("events.csv"), last);
   if (restart_) restart_->copyFrom(old("restart.bin"), last);
+  started_ = true;
+  if (!ranks::isFirst()) return;
   // The restart file first: whatever ends this in the middle, the others hold at least what it names.
   const auto replace = [&](const std::string& name) {
     std::filesystem::rename(file(name) + kBeside, file(name));
@@ -72,7 +75,6 @@ void Recorder::goOn(const Continued& continued) {
   if (watch_) replace("events.csv");
   replace("path.csv");
   replace("points.csv");
-  started_ = true;
 }
 
 double Recorder::seconds() const {
@@ -132,7 +134,7 @@ bool Recorder::onStep(int branch, const path::StepReport& report, const path::Se
   printStep(report);
   changeBack();
   outputSeconds_ += seconds() - before;
-  return !Interrupt::came();
+  return !Interrupt::agree();
 }
 
 void Recorder::finish(const path::State& start) {
@@ -200,6 +202,8 @@ void Recorder::printHead() const {
 }
 
 void Recorder::printStep(const path::StepReport& r) const {
+  const int active =
+      progress_ || ranks::count() > 1 ? case_.activeContacts(*r.end.u, r.end.lambda) : 0;  // collective
   if (!progress_) return;
   std::string events;
   for (const path::LimitPoint& p : r.limitPoints)
@@ -221,7 +225,7 @@ void Recorder::printStep(const path::StepReport& r) const {
                     "{:>5} {:>5} {:>10.3e} {:>13.6g} {:>10.3e} {:>10.2e} {:>4} {:>4} {:>8} {:>8.2f}  {}",
                     r.step, case_.deck().path.series() ? fmt::format("{}", r.order) : "", r.radius,
                     r.lambdaEnd, r.length, r.residual, r.cutBacks, r.corrections,
-                    case_.activeContacts(*r.end.u, r.end.lambda), seconds(), events)
+                    active, seconds(), events)
              << std::endl;
 }
 

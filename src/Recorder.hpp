@@ -21,7 +21,7 @@ struct Continued {
 
 /// Writes what a run finds, step by step: path.csv, points.csv, events.csv, restart.bin, results.exo and
 /// results_branch<n>.exo; one line a step for the user. Every finished step is on disk before the next one
-/// begins, its restart record last.
+/// begins, its restart record last. On several ranks all call it and the first one writes.
 class Recorder final : public path::BranchObserver {
  public:
   /// `progress` may be null. Throws std::invalid_argument where the continued run does not fit the deck.

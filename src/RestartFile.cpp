@@ -9,6 +9,9 @@
 #include <functional>
 #include <stdexcept>
 
+#include "Ranks.hpp"
+#include "atrapos/fem/FeProblem.hpp"
+
 namespace atrapos {
 namespace {
 
@@ -36,10 +39,7 @@ class Packer {
     put(static_cast<std::uint64_t>(values.size()));
     bytes_.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
   }
-  void put(const path::Vector& u) {
-    const auto data = u.getData();
-    put(std::vector<double>(data.begin(), data.end()));
-  }
+  void put(const path::Vector& u) { put(fem::FeProblem::values(u)); }
   const std::string& bytes() const { return bytes_; }
 
  private:
@@ -99,12 +99,12 @@ int stepOf(const std::string& record) { return Unpacker(record).get<std::int32_t
 path::Start unpacked(const std::string& record, const std::string& file,
                      const path::RCP<const path::Map>& map) {
   const auto vector = [&](const std::vector<double>& values) {
-    if (values.size() != map->getNodeNumElements())
+    if (values.size() != map->getGlobalNumElements())
       throw std::invalid_argument(fmt::format("{}: its states have {} unknowns, the deck's problem has {}",
-                                              file, values.size(), map->getNodeNumElements()));
+                                              file, values.size(), map->getGlobalNumElements()));
     auto v = Teuchos::rcp(new path::Vector(map));
     const auto data = v->getDataNonConst();
-    std::copy(values.begin(), values.end(), data.begin());
+    for (int i = 0; i < data.size(); ++i) data[i] = values[map->getGlobalElement(i)];
     return v;
   };
   Unpacker u(record);
@@ -156,8 +156,9 @@ void forEachRecord(const std::string& file, const std::function<bool(const std::
 
 }  // namespace
 
-RestartFile::RestartFile(const std::string& file)
-    : file_(file), out_(file, std::ios::binary | std::ios::trunc) {
+RestartFile::RestartFile(const std::string& file) : file_(file), writes_(ranks::isFirst()) {
+  if (!writes_) return;
+  out_.open(file, std::ios::binary | std::ios::trunc);
   const Head head;
   out_.write(reinterpret_cast<const char*>(&head), sizeof head);
   out_.flush();
@@ -165,6 +166,7 @@ RestartFile::RestartFile(const std::string& file)
 }
 
 void RestartFile::copyFrom(const std::string& file, int lastStep) {
+  if (!writes_) return;
   forEachRecord(file, [&](const std::string& record) {
     if (stepOf(record) > lastStep) return false;
     put(record);
@@ -175,6 +177,7 @@ void RestartFile::copyFrom(const std::string& file, int lastStep) {
 void RestartFile::append(const path::Start& next) { put(packed(next)); }
 
 void RestartFile::put(const std::string& record) {
+  if (!writes_) return;
   const std::uint64_t length = record.size(), sum = checkSum(record);
   out_.write(reinterpret_cast<const char*>(&length), sizeof length);
   out_.write(reinterpret_cast<const char*>(&sum), sizeof sum);

@@ -19,12 +19,14 @@ class RestartFile {
   /// Takes over the records of an earlier file up to this step.
   void copyFrom(const std::string& file, int lastStep);
 
+  /// Collective.
   void append(const path::Start& next);
 
  private:
   void put(const std::string& record);
 
   std::string file_;
+  bool writes_;  ///< on several ranks the first one
   std::ofstream out_;
 };
 

@@ -11,6 +11,7 @@
 #include "Imperfections.hpp"
 #include "Interrupt.hpp"
 #include "PathPlot.hpp"
+#include "Ranks.hpp"
 #include "Recorder.hpp"
 #include "RestartFile.hpp"
 #include "RunSettings.hpp"
@@ -85,6 +86,7 @@ bool isBranchFile(const std::string& name) {
 
 /// A run that is killed must not leave an earlier run's files beside its own.
 void removeStale(const std::string& directory) {
+  if (!ranks::isFirst()) return;
   for (const char* old : {"summary.json", "branches.csv", "path.png", "sharpen.csv"})
     std::filesystem::remove(directory + "/" + old);
   std::vector<std::filesystem::path> branches;
@@ -143,6 +145,7 @@ RunResult runPath(PathCase& pathCase, const RunOptions& options) {
   follower.watch(pathCase.functionals());
   tree.watch(pathCase.functionals());
   const auto continued = continuedRun(pathCase, options);
+  ranks::wait();  // all have read what the first one is going to replace
 
   prepareFolder(options.directory, {"path.csv", "points.csv", "events.csv", "branches.csv", "results.exo",
                                     "restart.bin", "sharpen.csv", "summary.json", "path.png"});

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "Memory.hpp"
+#include "Ranks.hpp"
 #include "Version.hpp"
 #include "deck/DeckTables.hpp"
 
@@ -127,6 +128,7 @@ nlohmann::ordered_json runSummary(const PathCase& pathCase, const path::BranchDi
   if (const auto factor = linear::spent(solver)) memory["factor"] = factor->bytes;
   memory["peak"] = residentMemory().peak;
   json["memory_bytes"] = memory;
+  json["ranks"] = ranks::count();
   json["execution_space"] = Kokkos::DefaultExecutionSpace::name();
   json["threads"] = Kokkos::DefaultExecutionSpace::concurrency();
   json["seconds"] = {{"tangent", seconds(diagram, &path::Timings::tangent)},

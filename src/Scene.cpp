@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "FollowerLoads.hpp"
+#include "Ranks.hpp"
 #include "Registry.hpp"
 #include "Sets.hpp"
 #include "atrapos/fem/ReferenceCell.hpp"
@@ -18,6 +19,7 @@ namespace atrapos {
 
 Scene::Scene(const deck::Deck& deck, fem::Mesh mesh) : deck_(deck), mesh_(std::move(mesh)) {
   deck::checkAgainstMesh(deck_, mesh_);
+  requireRanks();
   shells_ = sceneShells(deck_, mesh_);
   if (deck_.output.shells == deck::Output::Shells::Body) {
     if (shells_.empty()) fail("output/shells", "the mesh has no shells, which alone have a body to write");
@@ -108,6 +110,20 @@ void Scene::requireSupport(const fem::Supports& supports) const {
          fmt::format("the body with block '{}' can still move freely in {} rigid motion{}: prescribe more "
                      "displacements",
                      body.block, body.motions, body.motions == 1 ? "" : "s"));
+}
+
+void Scene::requireRanks() const {
+  if (ranks::count() == 1) return;
+  if (deck_.path.sharpen) fail("path/sharpen", "works on one rank only: start without mpirun");
+  for (const deck::Contact& contact : deck_.contacts) {
+    if (contact.law == deck::Contact::Law::Hard)
+      fail("contact/" + contact.name + "/law",
+           "hard works on one rank only: start without mpirun, or take another law");
+    for (const deck::Tool& tool : deck_.tools)
+      if (tool.name == contact.tool && std::holds_alternative<deck::PatchesTool>(tool.surface))
+        fail("contact/" + contact.name + "/tool",
+             "a tool of patches works on one rank only: start without mpirun");
+  }
 }
 
 void Scene::requireEffect(const fem::FeModel& model) const {

@@ -44,7 +44,8 @@ struct ContactPoints {
   int count = 0;
   double smallestGap = 0;  ///< at the start
   int attracted = 0;       ///< points farther off than a uniform Delta, which pulls at them
-  int numCarried() const;  ///< points that carry the law so far: those that came near the tool
+  /// Points that carry the law so far: those that came near the tool. Collective.
+  int numCarried() const;
 };
 
 /// State of one contact at a point of the path.
@@ -57,6 +58,9 @@ struct ContactState {
 
 /// A deck and its mesh made into a finite-element problem, with what the deck asks to be watched.
 /// Everything that can be wrong with the input is found here, before any work: throws deck::DeckError.
+///
+/// On several ranks all make the same scene; the problem is shared out among them. Whatever takes vectors is
+/// collective, and its results are whole on every rank.
 class Scene {
  public:
   Scene(const deck::Deck& deck, fem::Mesh mesh);
@@ -133,6 +137,8 @@ class Scene {
   void choosePressure(const deck::Contact& contact, BodySize body, ContactPoints& entry) const;
   void requireSupport(const fem::Supports& supports) const;
   void requireEffect(const fem::FeModel& model) const;
+  /// Refuses what runs on one rank only.
+  void requireRanks() const;
   [[noreturn]] void fail(const std::string& key, const std::string& problem) const;
   bool writes(deck::OutputField field) const;
   /// Calls f(term of the contact, point, gap and pressure) at all points.

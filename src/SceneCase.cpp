@@ -4,10 +4,12 @@
 
 #include <Tpetra_Vector.hpp>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 
 #include "ContactEvents.hpp"
+#include "Ranks.hpp"
 #include "Sharpen.hpp"
 #include "atrapos/exodus/ResultReader.hpp"
 #include "atrapos/exodus/ResultWriter.hpp"
@@ -28,16 +30,21 @@ std::vector<double> flat(const std::vector<std::vector<double>>& variables) {
 class SceneFields final : public FieldFile {
  public:
   SceneFields(const SceneCase& owner, const Scene& scene, const std::string& file)
-      : owner_(owner), scene_(scene), names_(names(scene)), writer_(file, scene.resultMesh(), names_) {}
+      : owner_(owner), scene_(scene), names_(names(scene)) {
+    if (ranks::isFirst()) writer_.emplace(file, scene.resultMesh(), names_);
+  }
 
   void write(const path::Vector& u, double lambda, const StateNumbers& n) override {
-    writer_.writeStep(
-        n.pathLength, flat(scene_.nodalValues(u, lambda)), flat(scene_.elementValues(u, lambda)),
-        std::vector<double>{lambda, n.pathLength, n.radius, double(n.order), double(n.negative),
-                            double(owner_.activeContacts(u, lambda)), n.residual, double(n.branch)});
+    const auto nodal = flat(scene_.nodalValues(u, lambda)), element = flat(scene_.elementValues(u, lambda));
+    const double active = owner_.activeContacts(u, lambda);
+    if (!writer_) return;
+    writer_->writeStep(n.pathLength, nodal, element,
+                       std::vector<double>{lambda, n.pathLength, n.radius, double(n.order),
+                                           double(n.negative), active, n.residual, double(n.branch)});
   }
 
   void copyFrom(const std::string& file, int count) override {
+    if (!writer_) return;
     const exodus::ResultReader reader(file);
     if (reader.nodalNames() != names_.nodal || reader.elementNames() != names_.element ||
         reader.globalNames() != names_.global)
@@ -50,7 +57,7 @@ class SceneFields final : public FieldFile {
       std::vector<std::vector<double>> nodal, element;
       for (const auto& name : names_.nodal) nodal.push_back(reader.nodal(step, name));
       for (const auto& name : names_.element) element.push_back(reader.element(step, name));
-      writer_.writeStep(times[step], flat(nodal), flat(element), reader.globals(step));
+      writer_->writeStep(times[step], flat(nodal), flat(element), reader.globals(step));
     }
   }
 
@@ -68,7 +75,7 @@ class SceneFields final : public FieldFile {
   const SceneCase& owner_;
   const Scene& scene_;
   exodus::ResultNames names_;
-  exodus::ResultWriter writer_;
+  std::optional<exodus::ResultWriter> writer_;  ///< of the first rank
 };
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numeric>
 
+#include "Ranks.hpp"
 #include "Scene.hpp"
 #include "atrapos/fem/Loads.hpp"
 #include "atrapos/fem/ReferenceCell.hpp"
@@ -208,21 +209,23 @@ bool Scene::contactsGrow() const {
 }
 
 bool Scene::othersAreNear(const path::Vector& u, double lambda) const {
+  const fem::ConstField state = problem_->onRank(u);
+  bool near = false;
   for (const ContactPoints& contact : contacts_)
-    for (const NearContact* term : contact.near)
-      if (term->othersAreNear(fem::field(u), lambda)) return true;
-  return false;
+    for (const NearContact* term : contact.near) near = near || term->othersAreNear(state, lambda);
+  return ranks::any(near);
 }
 
 void Scene::grow(const path::Vector& u, double lambda) {
+  const fem::ConstField state = problem_->onRank(u);
   for (const ContactPoints& contact : contacts_)
-    for (NearContact* term : contact.near) term->grow(fem::field(u), lambda);
+    for (NearContact* term : contact.near) term->grow(state, lambda);
 }
 
 int ContactPoints::numCarried() const {
   if (near.empty()) return count;
-  return std::accumulate(near.begin(), near.end(), 0,
-                         [](int n, const NearContact* term) { return n + term->numCarried(); });
+  return ranks::sum(std::accumulate(near.begin(), near.end(), 0,
+                                    [](int n, const NearContact* term) { return n + term->numCarried(); }));
 }
 
 }  // namespace atrapos

@@ -153,15 +153,15 @@ std::vector<std::vector<double>> Scene::nodalStress(const path::Vector& u, doubl
   for (std::size_t b = 0; b < mesh_.blocks.size(); ++b) {
     const BodyBlock& body = bodies_[b];
     const fem::Block& block = mesh_.blocks[b];
-    const fem::Term& term = problem_->term(body.term);
-    const auto observed = term.observe(fem::field(u), lambda);
+    const auto observed = problem_->observe(body.term, u, lambda);
     const int N = fem::nodesPerElement(block.topology), Q = static_cast<int>(body.toNodes.size()) / N;
     for (int layer = 0; layer < 3; ++layer) {
       constexpr double zetas[3] = {solid::midSurface, solid::topSurface, solid::bottomSurface};
       if (body.shells < 0 && layer > 0 && !surfaces) break;
       const auto values =
           body.shells < 0 ? observed.values : solid::surfaceStress(observed, {}, zetas[layer]);
-      for (int e = 0; e < term.numEntities(); ++e)
+      const int elements = static_cast<int>(block.nodes.size()) / N;
+      for (int e = 0; e < elements; ++e)
         for (int n = 0; n < N; ++n) {
           std::size_t node = block.nodes[static_cast<std::size_t>(e) * N + n];
           if (body_ && layer > 0) {  // bottom and top of the director
@@ -187,9 +187,9 @@ std::vector<std::vector<double>> Scene::elementValues(const path::Vector& u, dou
   };
   const std::vector<double> state = fem::FeProblem::values(u);
   for (const BodyBlock& body : bodies_) {
-    const fem::Term& term = problem_->term(body.term);
-    const fem::PointValues observed = term.observe(fem::field(u), lambda);
-    const std::size_t elements = term.numEntities();
+    const fem::Block& block = mesh_.blocks[&body - bodies_.data()];
+    const fem::PointValues observed = problem_->observe(body.term, u, lambda);
+    const std::size_t elements = block.nodes.size() / fem::nodesPerElement(block.topology);
     if (body.shells >= 0) {
       add(0, meanSurfaceStress(observed, solid::midSurface), 6);
       add(6, meanSurfaceStress(observed, solid::topSurface), 6);

@@ -71,7 +71,10 @@ void Scene::addMonitors() {
       auto nodes = nodesOf(m->set);
       if (m->near) nodes = {nearestNode(mesh_, nodes, *m->near)};
       const double each = m->reduce == deck::DisplacementMonitor::Reduce::Mean ? 1.0 / nodes.size() : 1.0;
-      for (int n : nodes) weights->sumIntoLocalValue(3 * n + componentIndex(m->component), each);
+      for (int n : nodes) {
+        const linear::GlobalIndex dof = 3LL * n + componentIndex(m->component);
+        if (problem_->map()->isNodeGlobalElement(dof)) weights->sumIntoGlobalValue(dof, each);
+      }
     }
     displacementWeights_.push_back(weights);
     std::vector<std::vector<double>> points;
@@ -103,7 +106,7 @@ std::vector<std::string> Scene::monitorNames() const {
 void Scene::forEachContactPoint(const ContactPoints& contact, const path::Vector& u, double lambda,
                                 const std::function<void(std::size_t, int, const double*)>& f) const {
   for (std::size_t t = 0; t < contact.terms.size(); ++t) {
-    const fem::PointValues observed = problem_->term(contact.terms[t]).observe(fem::field(u), lambda);
+    const fem::PointValues observed = problem_->observe(contact.terms[t], u, lambda);
     const int M = static_cast<int>(observed.names.size());
     for (int p = 0; p < contact.points[t].numPoints(); ++p)
       f(t, p, &observed.values[static_cast<std::size_t>(p) * M]);

@@ -17,6 +17,7 @@
 #include "MapCommand.hpp"
 #include "MeshCommand.hpp"
 #include "ModelCase.hpp"
+#include "Ranks.hpp"
 #include "Run.hpp"
 #include "SceneCase.hpp"
 #include "Version.hpp"
@@ -41,13 +42,47 @@ class Runtime {
     Tpetra::initialize(nullptr, nullptr);
     // Small fronts: a threaded BLAS costs more than it gives (docs/install.md).
     atrapos::linear::setBlasThreads(1);
+    atrapos::ranks::open();
   }
   ~Runtime() {
+    atrapos::ranks::close();
     Tpetra::finalize();
     Kokkos::finalize();
     MPI_Finalize();
   }
 };
+
+/// The exit code of f, or what its error means; its one line has been told to the user then.
+template <class F>
+int reported(const std::string& named, const F& f) {
+  const auto fail = [](const std::string& line, int code) {
+    atrapos::ranks::fail(line, code);
+    return code;
+  };
+  try {
+    return f();
+  } catch (const atrapos::deck::DeckError& e) {
+    return fail(e.what(), kBadInput);
+  } catch (const atrapos::exodus::Error& e) {
+    return fail(e.what(), kBadInput);
+  } catch (const std::invalid_argument& e) {
+    return fail(named + e.what(), kBadInput);
+  } catch (const std::exception& e) {
+    return fail(named + e.what(), kInternalError);
+  }
+}
+
+/// The same with MPI and Kokkos, which must still be there for errors of several ranks.
+template <class F>
+int withRuntime(int threads, const std::string& named, const F& f) {
+  Runtime runtime(threads);
+  return reported(named, f);
+}
+
+void requireOneRank(const std::string& what) {
+  if (atrapos::ranks::count() > 1)
+    throw atrapos::deck::DeckError(fmt::format("atrapos: {} on one rank only: start without mpirun", what));
+}
 
 std::string defaultDirectory(const std::string& deck) {
   return std::filesystem::path(deck).stem().string() + "_results";
@@ -63,7 +98,6 @@ struct RunWords {
 int run(const RunWords& words) {
   const int threads = words.threads;
   const auto deck = atrapos::deck::readDeck(words.deck);
-  Runtime runtime(threads);
   if (threads > 1 && !(Kokkos::DefaultExecutionSpace::concurrency() > 1))
     throw atrapos::deck::DeckError(fmt::format("atrapos: --threads {}: this build runs on {} (one thread)",
                                                threads, Kokkos::DefaultExecutionSpace::name()));
@@ -73,16 +107,18 @@ int run(const RunWords& words) {
   options.directory = !words.output.empty()    ? words.output
                       : !words.restart.empty() ? words.restart
                                                : defaultDirectory(words.deck);
-  options.progress = words.quiet ? nullptr : &std::cout;
+  const bool quiet = words.quiet || !atrapos::ranks::isFirst();
+  options.progress = quiet ? nullptr : &std::cout;
   const auto follow = [&](atrapos::PathCase& pathCase, const std::string& about) {
-    if (!words.quiet) std::cout << fmt::format("{}\n{}\n", deck.title, about);
+    if (!quiet) std::cout << fmt::format("{}\n{}\n", deck.title, about);
     const auto result = atrapos::runPath(pathCase, options);
-    if (!words.quiet || !result.reachedStop)
+    if (!quiet || (!result.reachedStop && atrapos::ranks::isFirst()))
       (result.reachedStop ? std::cout : std::cerr)
           << fmt::format("{}\nresults in {}\n", result.text, options.directory);
     return result.reachedStop ? 0 : kCannotContinue;
   };
   if (deck.problem) {
+    requireOneRank("problem: model problems run");
     atrapos::ModelCase model(deck);
     return follow(model, model.about());
   }
@@ -96,7 +132,7 @@ int map(const atrapos::MapWords& words) {
   options.progress = words.quiet ? nullptr : &std::cout;
   std::vector<atrapos::deck::Deck> decks;
   for (const std::string& deck : words.decks) decks.push_back(atrapos::deck::readDeck(deck));
-  Runtime runtime(0);
+  requireOneRank("map runs");
   std::vector<std::unique_ptr<atrapos::Scene>> scenes;
   std::vector<std::unique_ptr<atrapos::PathCase>> cases;
   for (const auto& deck : decks) {
@@ -122,7 +158,7 @@ int makeMesh(const std::string& deckFile, const std::string& output, bool quiet)
 
 int check(const std::string& deckFile) {
   const auto deck = atrapos::deck::readDeck(deckFile);
-  Runtime runtime(0);
+  requireOneRank("check runs");
   if (deck.problem) {
     atrapos::printCheck(atrapos::ModelCase(deck), std::cout);
     return 0;
@@ -205,29 +241,17 @@ int main(int argc, char** argv) {
     return kBadInput;
   }
   const std::string named = deck.empty() ? "atrapos: " : deck + ": ";
-  try {
+  return reported(named, [&] {
     if (*runCommand) {
       words.deck = deck;
       words.output = output;
       words.threads = threads;
       words.quiet = quiet;
-      return run(words);
+      return withRuntime(threads, named, [&] { return run(words); });
     }
     if (*meshCommand) return makeMesh(deck, output, quiet);
-    if (*checkCommand) return check(deck);
-    if (*mapCommand) return map(mapWords);
-  } catch (const atrapos::deck::DeckError& e) {
-    std::cerr << e.what() << '\n';
-    return kBadInput;
-  } catch (const atrapos::exodus::Error& e) {
-    std::cerr << e.what() << '\n';
-    return kBadInput;
-  } catch (const std::invalid_argument& e) {
-    std::cerr << named << e.what() << '\n';
-    return kBadInput;
-  } catch (const std::exception& e) {
-    std::cerr << named << e.what() << '\n';
+    if (*checkCommand) return withRuntime(0, named, [&] { return check(deck); });
+    if (*mapCommand) return withRuntime(0, named, [&] { return map(mapWords); });
     return kInternalError;
-  }
-  return kInternalError;
+  });
 }

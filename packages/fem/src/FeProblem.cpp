@@ -1,5 +1,6 @@
 #include "atrapos/fem/FeProblem.hpp"
 
+#include <Teuchos_CommHelpers.hpp>
 #include <Tpetra_Core.hpp>
 #include <Tpetra_CrsGraph.hpp>
 #include <Tpetra_CrsMatrix.hpp>
@@ -11,8 +12,10 @@
 #include <string>
 
 #include "CoupledSystem.hpp"
+#include "Distribution.hpp"
 #include "EventTerms.hpp"
 #include "PieceTerms.hpp"
+#include "atrapos/fem/LawArrays.hpp"
 
 namespace atrapos::fem {
 
@@ -43,53 +46,34 @@ std::vector<double> toHost(const ConstField& f) {
   return {mirror.data(), mirror.data() + mirror.size()};
 }
 
-/// Summed in one order, so that the number is the same for any number of threads.
-double norm(const ConstField& f) {
+/// Sum of squares of the first `count` entries, in one order: the number is the same for any number of
+/// threads.
+double squares(const ConstField& f, std::size_t count) {
   auto mirror = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), f);
   double sum = 0;
-  for (std::size_t i = 0; i < mirror.size(); ++i) sum += mirror(i) * mirror(i);
-  return std::sqrt(sum);
+  for (std::size_t i = 0; i < count; ++i) sum += mirror(i) * mirror(i);
+  return sum;
 }
 
-/// Rows of the node graph, sorted: all nodes that share an entity of any term, coupled nodes with their
-/// masters.
-std::vector<std::vector<int>> nodeGraph(const FeModel& model, const std::vector<Coupling>& couplings) {
-  std::vector<std::vector<int>> rows(model.numNodes), masters(model.numNodes);
-  for (const Coupling& c : couplings)
-    for (const CoupledDof& m : c.masters) masters[c.dof / 3].push_back(m.dof / 3);
-  for (auto& nodes : masters) {
-    std::sort(nodes.begin(), nodes.end());
-    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-  }
-  const auto connect = [&](const std::vector<int>& group) {
-    for (int a : group) rows[a].insert(rows[a].end(), group.begin(), group.end());
-  };
-  for (const auto& term : model.terms) {
-    const int N = term->nodesPerEntity();
-    const std::vector<int>& nodes = term->nodes();
-    for (int e = 0; e < term->numEntities(); ++e) {
-      std::vector<int> group(nodes.begin() + e * N, nodes.begin() + (e + 1) * N);
-      for (int a = 0; a < N; ++a) {
-        const auto& more = masters[nodes[e * N + a]];
-        group.insert(group.end(), more.begin(), more.end());
-      }
-      connect(group);
-    }
-  }
-  for (int n = 0; n < model.numNodes; ++n) {
-    if (masters[n].empty()) continue;
-    std::vector<int> group = masters[n];
-    group.push_back(n);
-    connect(group);
-  }
-  for (int n = 0; n < model.numNodes; ++n) {
-    auto& row = rows[n];
-    row.push_back(n);
-    std::sort(row.begin(), row.end());
-    row.erase(std::unique(row.begin(), row.end()), row.end());
-    row.shrink_to_fit();
-  }
-  return rows;
+/// Entries of the nodes of a rank, from those of the whole model.
+template <class T>
+std::vector<T> ofNodes(const std::vector<T>& whole, const std::vector<int>& nodes) {
+  std::vector<T> part;
+  part.reserve(3 * nodes.size());
+  for (int n : nodes) part.insert(part.end(), whole.begin() + 3 * n, whole.begin() + 3 * n + 3);
+  return part;
+}
+
+/// Numbers that every rank has at its own dofs, as one list on all of them.
+std::vector<double> onAllRanks(const Map& map, const ConstField& own) {
+  std::vector<double> part = toHost(own);
+  if (map.getComm()->getSize() == 1) return part;
+  std::vector<double> mine(map.getGlobalNumElements(), 0.0), all(mine.size());
+  const auto ids = map.getNodeElementList();
+  for (long i = 0; i < ids.size(); ++i) mine[ids[i]] = part[i];
+  Teuchos::reduceAll(*map.getComm(), Teuchos::REDUCE_SUM, static_cast<int>(mine.size()), mine.data(),
+                     all.data());
+  return all;
 }
 
 }  // namespace
@@ -104,71 +88,133 @@ struct FeProblem::Impl {
   EventTerms events;
   PieceTerms pieces;
   RCP<const Map> map;
+  std::unique_ptr<detail::Distribution> ranks;
   RCP<CrsMatrix> K;
+  /// The matrix before the shared rows are added up; K's own values where there is one rank.
+  View<double*> entries;
   View<std::size_t*> rowStart;
   View<int*> columns;
   View<char*> fixed;
   detail::CoupledSystem coupled;
   Field value, rate, load, constantLoad;
-  Field sum;                  // work
-  Field last;                 // U of the order completed last
-  double lastLambda = 0;      // and its lambda
-  double diagonal = 0;        // s of the prescribed rows
-  double parameterInner = 1;  // factor of a parameter's square in inner()
+  Field shared;                  // state of the last call with the values at shared nodes (several ranks)
+  Field sum;                     // work
+  Field last;                    // U of the order completed last
+  double lastLambda = 0;         // and its lambda
+  double diagonal = 0;           // s of the prescribed rows
+  std::vector<int> parameters;   // dofs of this rank that are parameters of laws
+  std::vector<int> wholeCounts;  // [term] entities on all ranks (several ranks)
+  double parameterInner = 1;     // factor of a parameter's square in inner()
   double scaleFloor = 0;
   int numFree = 0;
 
   explicit Impl(FeModel m) : model(std::move(m)), events(model.terms) {
     const auto comm = model.comm.is_null() ? Tpetra::getDefaultComm() : model.comm;
-    if (comm->getSize() != 1)
-      throw std::invalid_argument(
-          "finite-element problems run on one rank so far: start without mpirun, or with -np 1");
     const int numDofs = 3 * model.numNodes;
     if (model.supports.numNodes() != model.numNodes)
       throw std::logic_error("FeModel: supports of another mesh");
     model.load.resize(numDofs, 0.0);
     model.constantLoad.resize(numDofs, 0.0);
-    map = rcp(new Map(numDofs, 0, comm));
-    sum = Field("sum", numDofs);
-    last = Field("last", numDofs);
-    if (!model.couplings.empty()) coupled = detail::CoupledSystem(model.couplings.resolved(model.supports));
+    std::vector<Coupling> couplings;
+    if (!model.couplings.empty()) couplings = model.couplings.resolved(model.supports);
+    ranks = std::make_unique<detail::Distribution>(model, couplings, comm);
+    map = mapOf(ranks->nodes(), ranks->numOwned());
+    sum = Field("sum", 3 * ranks->numLocal());
+    last = Field("last", 3 * ranks->numLocal());
+    if (!ranks->alone()) shared = Field("shared", 3 * ranks->numLocal());
+    coupled = detail::CoupledSystem(ranks->couplings());
+    uploadConditions(couplings);
+    share();
     makeMatrix();
-    uploadConditions();
     findScale();
   }
 
+  /// The map of the first nodes of the rank.
+  RCP<const Map> mapOf(const std::vector<int>& nodes, int count) const {
+    if (ranks->alone()) return rcp(new Map(3 * model.numNodes, 0, ranks->comm()));
+    std::vector<linear::GlobalIndex> dofs;
+    for (int l = 0; l < count; ++l)
+      for (int i = 0; i < 3; ++i) dofs.push_back(3LL * nodes[l] + i);
+    return rcp(new Map(Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid(),
+                       Teuchos::arrayViewFromVector(dofs), 0, ranks->comm()));
+  }
+
+  /// Terms keep this rank's entities, with its nodes.
+  void share() {
+    if (ranks->alone()) return;
+    ranks->together([&] {
+      for (std::size_t t = 0; t < model.terms.size(); ++t) {
+        Term& term = *model.terms[t];
+        wholeCounts.push_back(term.numEntities());
+        TermPart part{ranks->entities()[t], {}};
+        const int N = term.nodesPerEntity();
+        for (const int e : part.entities)
+          for (int n = 0; n < N; ++n)
+            part.nodes.push_back(ranks->localOf(term.nodes()[static_cast<std::size_t>(e) * N + n]));
+        term.keep(part);
+      }
+    });
+  }
+
+  std::size_t numOwned() const { return 3 * static_cast<std::size_t>(ranks->numOwned()); }
+
+  /// Norm over all ranks of their own entries.
+  double norm(const ConstField& f) const { return std::sqrt(ranks->sum(squares(f, numOwned()))); }
+
+  /// A state as the terms read it, in `to` where there are several ranks.
+  ConstField local(const Vector& u, const Field& to) const {
+    if (ranks->alone()) return field(u);
+    copyOwned(field(u), to);
+    ranks->fetch(to);
+    return to;
+  }
+  ConstField local(const Vector& u) const { return local(u, shared); }
+
+  /// This rank's own entries of a field, with those of all others.
+  std::vector<double> onAllRanks(const Field& f) const {
+    return fem::onAllRanks(*map, Kokkos::subview(f, std::make_pair(std::size_t{0}, numOwned())));
+  }
+
+  void copyOwned(const ConstField& from, const Field& to) const {
+    const auto range = std::make_pair(std::size_t{0}, numOwned());
+    Kokkos::deep_copy(Kokkos::subview(to, range), Kokkos::subview(from, range));
+  }
+
   void makeMatrix() {
-    const auto rows = nodeGraph(model, coupled.couplings());
-    const int numDofs = 3 * model.numNodes;
-    std::size_t entries = 0;
-    for (const auto& row : rows) entries += 9 * row.size();
+    const auto& rows = ranks->rows();
+    const auto count = [&](int nodes) {
+      std::size_t entries = 0;
+      for (int l = 0; l < nodes; ++l) entries += 9 * rows[l].size();
+      return entries;
+    };
+    const int numLocal = ranks->numLocal();
+    std::vector<std::size_t> starts{0};
+    std::vector<int> indices;
+    indices.reserve(count(numLocal));
+    for (int l = 0; l < numLocal; ++l)
+      for (int i = 0; i < 3; ++i) {
+        for (int m : rows[l])
+          for (int j = 0; j < 3; ++j) indices.push_back(3 * m + j);
+        starts.push_back(indices.size());
+      }
+    rowStart = upload("rowStart", starts);
+    columns = upload("columns", indices);
 
     using LocalGraph = CrsGraph::local_graph_device_type;
-    LocalGraph::row_map_type::non_const_type rowPtr("rowPtr", numDofs + 1);
-    LocalGraph::entries_type::non_const_type indices("indices", entries);
-    auto hostPtr = Kokkos::create_mirror_view(rowPtr);
-    auto hostInd = Kokkos::create_mirror_view(indices);
-    std::size_t at = 0;
-    for (int n = 0; n < model.numNodes; ++n)
-      for (int i = 0; i < 3; ++i) {
-        hostPtr(3 * n + i) = at;
-        for (int m : rows[n])
-          for (int j = 0; j < 3; ++j) hostInd(at++) = 3 * m + j;
-      }
-    hostPtr(numDofs) = at;
-    Kokkos::deep_copy(rowPtr, hostPtr);
-    Kokkos::deep_copy(indices, hostInd);
-    const auto graph = rcp(new CrsGraph(map, map, rowPtr, indices));
+    LocalGraph::row_map_type::non_const_type rowPtr("rowPtr", numOwned() + 1);
+    LocalGraph::entries_type::non_const_type ownIndices("indices", count(ranks->numOwned()));
+    Kokkos::deep_copy(rowPtr, Kokkos::subview(rowStart, std::make_pair(std::size_t{0}, numOwned() + 1)));
+    Kokkos::deep_copy(ownIndices,
+                      Kokkos::subview(columns, std::make_pair(std::size_t{0}, ownIndices.extent(0))));
+    const auto columnMap = ranks->alone() ? map : mapOf(ranks->nodes(), ranks->numColumns());
+    const auto graph = rcp(new CrsGraph(map, columnMap, rowPtr, ownIndices));
     graph->fillComplete(map, map);
     K = rcp(new CrsMatrix(graph));
     K->fillComplete(map, map);
-
-    rowStart = View<std::size_t*>("rowStart", numDofs + 1);
-    auto starts = Kokkos::create_mirror_view(rowStart);
-    for (int i = 0; i <= numDofs; ++i) starts(i) = hostPtr(i);
-    Kokkos::deep_copy(rowStart, starts);
-    columns = View<int*>("columns", entries);
-    Kokkos::deep_copy(columns, indices);
+    if (ranks->alone())
+      entries = K->getLocalMatrixDevice().values;
+    else
+      entries = View<double*>("entries", indices.size());
 
     for (auto& term : model.terms) {
       const int N = term->nodesPerEntity();
@@ -186,11 +232,12 @@ struct FeProblem::Impl {
     }
   }
 
-  void uploadConditions() {
+  /// What is prescribed, of the whole model, and of it what this rank has.
+  void uploadConditions(const std::vector<Coupling>& couplings) {
     std::vector<char> used(model.numNodes, 0);
     for (const auto& term : model.terms)
       for (int n : term->nodes()) used[n] = 1;
-    for (const Coupling& c : coupled.couplings()) {
+    for (const Coupling& c : couplings) {
       used[c.dof / 3] = 1;
       for (const CoupledDof& m : c.masters) used[m.dof / 3] = 1;
     }
@@ -199,16 +246,15 @@ struct FeProblem::Impl {
       if (!used[d / 3] && (model.load[d] != 0 || model.constantLoad[d] != 0))
         throw std::invalid_argument("a force acts at node " + std::to_string(d / 3 + 1) +
                                     ", which no element has");
-    fixed = View<char*>("fixed", numDofs);
-    auto flags = Kokkos::create_mirror_view(fixed);
+    std::vector<char> flags(numDofs);
     std::vector<double> values(numDofs, 0.0), rates(numDofs, 0.0);
     for (int d = 0; d < numDofs; ++d) {
-      flags(d) = model.supports.fixed(d) || !used[d / 3];
-      numFree += !flags(d);
+      flags[d] = model.supports.fixed(d) || !used[d / 3];
+      numFree += !flags[d];
       values[d] = model.supports.value(d);
       rates[d] = model.supports.perLoadFactor(d);
     }
-    for (const Coupling& c : coupled.couplings()) {
+    for (const Coupling& c : couplings) {
       --numFree;
       values[c.dof] = c.value;
       rates[c.dof] = c.perLoadFactor;
@@ -217,11 +263,22 @@ struct FeProblem::Impl {
         rates[c.dof] += m.factor * rates[m.dof];
       }
     }
-    Kokkos::deep_copy(fixed, flags);
-    value = toDevice(values);
-    rate = toDevice(rates);
-    load = toDevice(model.load);
-    constantLoad = toDevice(model.constantLoad);
+    const std::vector<int>& nodes = ranks->nodes();
+    fixed = upload("fixed", ofNodes(flags, nodes));
+    value = toDevice(ofNodes(values, nodes));
+    rate = toDevice(ofNodes(rates, nodes));
+    // Dead loads act at their owners'.
+    const std::vector<int> own(nodes.begin(), nodes.begin() + ranks->numOwned());
+    const auto loads = [&](const std::vector<double>& whole) {
+      auto part = ofNodes(whole, own);
+      part.resize(3 * ranks->numLocal(), 0.0);
+      return toDevice(part);
+    };
+    load = loads(model.load);
+    constantLoad = loads(model.constantLoad);
+    for (const int d : model.parameters)
+      if (const int l = ranks->localOf(d / 3); l >= 0 && l < ranks->numOwned())
+        parameters.push_back(3 * l + d % 3);
   }
 
   /// Forces at load factor 1: dead loads, those that the driven supports alone would need, and those of terms
@@ -230,22 +287,27 @@ struct FeProblem::Impl {
     double size = std::max(norm(load), norm(constantLoad));
     if (model.supports.driven() || model.couplings.driven()) {
       double squares = 0;
-      for (const auto& term : model.terms)
-        if (!term->seesLoadFactor()) squares += term->addResidual(rate, 1, sum);
-      size = std::max(size, std::sqrt(squares));
+      ranks->together([&] {
+        for (const auto& term : model.terms)
+          if (!term->seesLoadFactor()) squares += term->addResidual(rate, 1, sum);
+      });
+      size = std::max(size, std::sqrt(ranks->sum(squares)));
     }
     // Terms that see lambda count by their derivative: their force at load factor 1 in the undeformed body
     // says nothing (a tool moved through it).
     Kokkos::deep_copy(sum, 0.0);
-    const TangentSink sink{rowStart, K->getLocalMatrixDevice().values, sum};
-    for (const auto& term : model.terms)
-      if (term->seesLoadFactor()) term->addTangent(value, 0, sink);
+    const TangentSink sink{rowStart, entries, sum};
+    ranks->together([&] {
+      for (const auto& term : model.terms)
+        if (term->seesLoadFactor()) term->addTangent(value, 0, sink);
+    });
+    ranks->collect(sum);
     const double driving = norm(sum);
     if (std::isfinite(driving)) size = std::max(size, driving);
     scaleFloor = std::max(1e-6 * size, 1e-300);
   }
 
-  /// sum = sum of the terms - F_0 - lambda F_1 on all rows; returns the scale.
+  /// sum = this rank's part of the terms - F_0 - lambda F_1 on all rows; returns the scale.
   double imbalance(const ConstField& u, double lambda) {
     const Field total = sum, F1 = load, F0 = constantLoad;
     Kokkos::parallel_for(
@@ -253,8 +315,10 @@ struct FeProblem::Impl {
         KOKKOS_LAMBDA(int i) { total(i) = -F0(i) - lambda * F1(i); });
     const double external = norm(total);
     double squares = 0;
-    for (const auto& term : model.terms) squares += term->addResidual(u, lambda, total);
-    return std::max({scaleFloor, external, std::sqrt(squares)});
+    ranks->together([&] {
+      for (const auto& term : model.terms) squares += term->addResidual(u, lambda, total);
+    });
+    return std::max({scaleFloor, external, std::sqrt(ranks->sum(squares))});
   }
 
   double ofParameters(const Vector& x, const Vector& y) const {
@@ -262,11 +326,12 @@ struct FeProblem::Impl {
     const auto a = x.getLocalViewHost(Tpetra::Access::ReadOnly),
                b = y.getLocalViewHost(Tpetra::Access::ReadOnly);
     double sum = 0;
-    for (const int d : model.parameters) sum += a(d, 0) * b(d, 0);
-    return sum;
+    for (const int d : parameters) sum += a(d, 0) * b(d, 0);
+    return ranks->sum(sum);
   }
 
-  /// The smallest diagonal entry of the tangent among the free dofs of a node; 0 where there is none.
+  /// The smallest diagonal entry of the tangent among the free dofs of a node of the rank; 0 where there is
+  /// none.
   std::vector<double> nodalStiffness() const {
     const auto onHost = [](const auto& view) {
       return Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), view);
@@ -275,32 +340,43 @@ struct FeProblem::Impl {
     const auto start = onHost(rowStart);
     const auto column = onHost(columns);
     const auto isFixed = onHost(fixed);
-    std::vector<double> stiffness(model.numNodes, 0.0);
-    for (int d = 0; d < 3 * model.numNodes; ++d)
+    std::vector<double> least(3 * ranks->numLocal(), 0.0);  // first component of each node
+    for (int d = 0; d < static_cast<int>(numOwned()); ++d)
       for (std::size_t e = start(d); e < start(d + 1); ++e)
         if (column(e) == d && !isFixed(d) && values(e) > 0) {
-          double& least = stiffness[d / 3];
-          least = least > 0 ? std::min(least, values(e)) : values(e);
+          double& of = least[d / 3 * 3];
+          of = of > 0 ? std::min(of, values(e)) : values(e);
         }
+    const Field all = toDevice(least);
+    ranks->fetch(all);
+    least = toHost(all);
+    std::vector<double> stiffness(ranks->numLocal());
+    for (std::size_t l = 0; l < stiffness.size(); ++l) stiffness[l] = least[3 * l];
     return stiffness;
   }
 
-  /// The size of the free dofs' diagonal.
+  /// The size of the free dofs' diagonal, from the ranks' parts of the matrix.
   void findDiagonal() {
-    const auto values = K->getLocalMatrixDevice().values;
+    const auto values = entries;
     const auto start = rowStart;
     const auto column = columns;
     const auto isFixed = fixed;
-    const int numDofs = 3 * model.numNodes;
+    const Field own = sum;
+    Kokkos::parallel_for(
+        "diagonal", Kokkos::RangePolicy<Execution>(0, own.size()), KOKKOS_LAMBDA(int d) {
+          own(d) = 0;
+          for (std::size_t e = start(d); e < start(d + 1); ++e)
+            if (column(e) == d) own(d) = values(e);
+        });
+    ranks->collect(own);
     double largest = 0;
     Kokkos::parallel_reduce(
-        "diagonal", Kokkos::RangePolicy<Execution>(0, numDofs),
+        "largest diagonal", Kokkos::RangePolicy<Execution>(0, numOwned()),
         KOKKOS_LAMBDA(int d, double& m) {
-          for (std::size_t e = start(d); e < start(d + 1); ++e)
-            if (column(e) == d && !isFixed(d))
-              m = Kokkos::Experimental::fmax(m, Kokkos::Experimental::fabs(values(e)));
+          if (!isFixed(d)) m = Kokkos::Experimental::fmax(m, Kokkos::Experimental::fabs(own(d)));
         },
         Kokkos::Max<double>(largest));
+    largest = ranks->max(largest);
     diagonal = largest > 0 && std::isfinite(largest) ? largest : 1.0;
   }
 
@@ -356,7 +432,7 @@ bool FeProblem::symmetric() const {
 }
 
 path::ResidualNorm FeProblem::residual(const Vector& u, double lambda, Vector& r) {
-  const ConstField state = field(u);
+  const ConstField state = impl_->local(u);
   path::ResidualNorm result;
   result.scale = impl_->imbalance(state, lambda);
   const Field out = writable(r), total = impl_->sum, value = impl_->value, rate = impl_->rate;
@@ -364,48 +440,71 @@ path::ResidualNorm FeProblem::residual(const Vector& u, double lambda, Vector& r
   const double s = impl_->diagonal;
   impl_->coupled.gatherForces(total);
   impl_->coupled.addGaps(state, lambda, s, total);
+  impl_->ranks->collect(total);
   Kokkos::parallel_for(
       "residual", Kokkos::RangePolicy<Execution>(0, out.size()), KOKKOS_LAMBDA(int d) {
         if (fixed(d)) total(d) = s * (state(d) - value(d) - lambda * rate(d));  // not the reaction
         out(d) = total(d);
       });
-  result.norm = norm(total);
+  result.norm = impl_->norm(total);
   return result;
 }
 
 RCP<const CrsMatrix> FeProblem::tangent(const Vector& u, double lambda, Vector& F) {
+  const auto& ranks = *impl_->ranks;
   impl_->K->resumeFill();
   const auto values = impl_->K->getLocalMatrixDevice().values;
-  const Field direction = writable(F);
-  Kokkos::deep_copy(values, 0.0);
+  if (ranks.alone()) impl_->entries = values;
+  const auto entries = impl_->entries;
+  const Field direction = ranks.alone() ? writable(F) : Field("direction", impl_->load.size());
+  Kokkos::deep_copy(entries, 0.0);
   Kokkos::deep_copy(direction, impl_->load);
-  for (const auto& term : impl_->model.terms)
-    term->addTangent(field(u), lambda, TangentSink{impl_->rowStart, values, direction});
+  const ConstField state = impl_->local(u);
+  ranks.together([&] {
+    for (const auto& term : impl_->model.terms)
+      term->addTangent(state, lambda, TangentSink{impl_->rowStart, entries, direction});
+  });
   // Once: were it that of the last tangent, the rounding of prescribed rows would tell what came before.
   if (impl_->diagonal == 0) impl_->findDiagonal();
-  impl_->coupled.transform(impl_->rowStart, impl_->columns, values, impl_->diagonal, direction);
-  impl_->applySupports(direction);
+  ranks.together([&] {
+    impl_->coupled.transform(impl_->rowStart, impl_->columns, entries, impl_->diagonal, direction);
+  });
+  const Field own = writable(F);
+  if (!ranks.alone()) {
+    ranks.collectRows(impl_->rowStart, entries);
+    ranks.collect(direction);
+    Kokkos::deep_copy(values, Kokkos::subview(entries, std::make_pair(std::size_t{0}, values.extent(0))));
+    impl_->copyOwned(direction, own);
+  }
+  impl_->applySupports(own);
   impl_->K->fillComplete(impl_->map, impl_->map);
   return impl_->K;
 }
 
 void FeProblem::beginSeries(const Vector& u, double lambda, int maxOrder) {
-  for (const auto& term : impl_->model.terms) term->beginSeries(field(u), lambda, maxOrder);
+  const ConstField state = impl_->local(u);
+  impl_->ranks->together([&] {
+    for (const auto& term : impl_->model.terms) term->beginSeries(state, lambda, maxOrder);
+  });
 }
 
 void FeProblem::orderRhs(int k, Vector& Fk) {
   const Field total = impl_->sum, out = writable(Fk);
   const auto fixed = impl_->fixed;
   Kokkos::deep_copy(total, 0.0);
-  for (const auto& term : impl_->model.terms) term->addOrder(k, impl_->last, impl_->lastLambda, total);
+  impl_->ranks->together([&] {
+    for (const auto& term : impl_->model.terms) term->addOrder(k, impl_->last, impl_->lastLambda, total);
+  });
   impl_->coupled.gatherForces(total);
+  impl_->ranks->collect(total);
   Kokkos::parallel_for(
       "orderRhs", Kokkos::RangePolicy<Execution>(0, out.size()),
       KOKKOS_LAMBDA(int d) { out(d) = fixed(d) ? 0.0 : -total(d); });
 }
 
 void FeProblem::completeOrder(int, const Vector& Uk, double lambdaK) {
-  Kokkos::deep_copy(impl_->last, field(Uk));
+  impl_->copyOwned(field(Uk), impl_->last);
+  impl_->ranks->fetch(impl_->last);
   impl_->lastLambda = lambdaK;
 }
 
@@ -427,7 +526,7 @@ void FeProblem::eventOrder(int k, std::vector<double>& g) const {
 }
 
 std::vector<int> FeProblem::eventsAt(const Vector& u, double lambda) const {
-  return impl_->events.at(field(u), lambda);
+  return impl_->events.at(impl_->local(u), lambda);
 }
 
 void FeProblem::applyEvent(const std::vector<int>& indices, const Vector& u, double lambda) {
@@ -467,9 +566,10 @@ RCP<Vector> FeProblem::initialState(double lambda) const {
 }
 
 std::vector<double> FeProblem::reactions(const Vector& u, double lambda) const {
-  impl_->imbalance(field(u), lambda);
+  impl_->imbalance(impl_->local(u), lambda);
   impl_->coupled.gatherForces(impl_->sum);
-  std::vector<double> r = toHost(impl_->sum);
+  impl_->ranks->collect(impl_->sum);
+  std::vector<double> r = impl_->onAllRanks(impl_->sum);
   for (std::size_t d = 0; d < r.size(); ++d)
     if (!impl_->model.supports.fixed(static_cast<int>(d))) r[d] = 0;
   return r;
@@ -477,11 +577,33 @@ std::vector<double> FeProblem::reactions(const Vector& u, double lambda) const {
 
 std::vector<double> FeProblem::forces(const Term& term, const Vector& u, double lambda) const {
   Kokkos::deep_copy(impl_->sum, 0.0);
-  term.addResidual(field(u), lambda, impl_->sum);
-  return toHost(impl_->sum);
+  const ConstField state = impl_->local(u);
+  impl_->ranks->together([&] { term.addResidual(state, lambda, impl_->sum); });
+  impl_->ranks->collect(impl_->sum);
+  return impl_->onAllRanks(impl_->sum);
 }
 
-std::vector<double> FeProblem::values(const Vector& u) { return toHost(field(u)); }
+PointValues FeProblem::observe(int i, const Vector& u, double lambda) const {
+  const Term& term = *impl_->model.terms.at(i);
+  const ConstField state = impl_->local(u);
+  PointValues own;
+  impl_->ranks->together([&] { own = term.observe(state, lambda); });
+  if (impl_->ranks->alone()) return own;
+  // Ranks without a part of the term learn how many numbers an entity has.
+  const auto& entities = impl_->ranks->entities()[i];
+  const auto each = static_cast<std::size_t>(
+      impl_->ranks->max(entities.empty() ? 0.0 : static_cast<double>(own.values.size() / entities.size())));
+  std::vector<double> all(impl_->wholeCounts[i] * each, 0.0);
+  for (std::size_t e = 0; e < entities.size(); ++e)
+    std::copy_n(&own.values[e * each], each, &all[entities[e] * each]);
+  impl_->ranks->sum(all);
+  own.values = std::move(all);
+  return own;
+}
+
+ConstField FeProblem::onRank(const Vector& u) const { return impl_->local(u); }
+
+std::vector<double> FeProblem::values(const Vector& u) { return onAllRanks(*u.getMap(), field(u)); }
 
 const FeModel& FeProblem::model() const { return impl_->model; }
 const Term& FeProblem::term(int i) const { return *impl_->model.terms.at(i); }
@@ -491,7 +613,7 @@ int FeProblem::numFreeDofs() const { return impl_->numFree; }
 std::size_t FeProblem::historyBytes(int maxOrder) const {
   std::size_t bytes = 0;
   for (const auto& term : impl_->model.terms) bytes += term->historyBytes(maxOrder);
-  return bytes;
+  return static_cast<std::size_t>(impl_->ranks->sum(static_cast<double>(bytes)));
 }
 
 }  // namespace atrapos::fem

@@ -1,5 +1,6 @@
 #include "Run.hpp"
 
+#include <Teuchos_CommHelpers.hpp>
 #include <algorithm>
 #include <cmath>
 
@@ -148,7 +149,11 @@ void Run::chooseOrder() {
   const auto& s = work.seconds;
   const double order = s.solve / work.solves + s.orderRhs / work.orders;
   const double all = s.tangent + s.factor + s.solve + s.orderRhs + s.residual;
-  order_ = bestOrder(std::max(0.0, all - order * seriesOrders_) / seriesBuilt_, order, options_.delta);
+  // Clocks differ from rank to rank; the order may not.
+  const double own[2] = {std::max(0.0, all - order * seriesOrders_) / seriesBuilt_, order};
+  double slowest[2] = {0, 0};
+  Teuchos::reduceAll(*calls_.problem().map()->getComm(), Teuchos::REDUCE_MAX, 2, own, slowest);
+  order_ = bestOrder(slowest[0], slowest[1], options_.delta);
 }
 
 void Run::finish() {

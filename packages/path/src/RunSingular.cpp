@@ -1,8 +1,10 @@
-#include <algorithm>
-#include <cmath>
-
+#include <Teuchos_CommHelpers.hpp>
 #include <Tpetra_CrsMatrix.hpp>
 #include <Tpetra_Vector.hpp>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <vector>
 
 #include "Augmented.hpp"
 #include "Newton.hpp"
@@ -39,18 +41,21 @@ void inverseIterations(Calls& calls, Vector& x, bool transposed) {
   }
 }
 
-/// The largest entries of a null vector, for a message.
+/// The largest entries of a null vector, for a message; the same on all ranks.
 std::string largestEntries(const Vector& x) {
-  const auto data = x.getData();
+  const auto own = x.getData();
+  std::vector<double> mine(x.getGlobalLength(), 0.0), data(mine.size());
+  for (int i = 0; i < own.size(); ++i) mine[x.getMap()->getGlobalElement(i)] = own[i];
+  Teuchos::reduceAll(*x.getMap()->getComm(), Teuchos::REDUCE_SUM, static_cast<int>(mine.size()), mine.data(),
+                     data.data());
   std::vector<int> order(data.size());
-  for (int i = 0; i < data.size(); ++i) order[i] = i;
-  const int count = std::min<int>(3, data.size());
+  std::iota(order.begin(), order.end(), 0);
+  const int count = static_cast<int>(std::min<std::size_t>(3, data.size()));
   std::partial_sort(order.begin(), order.begin() + count, order.end(),
                     [&](int i, int j) { return std::abs(data[i]) > std::abs(data[j]); });
   std::string text = "largest entries of its null vector: ";
   for (int i = 0; i < count; ++i)
-    text += line(i > 0 ? ", " : "", "unknown ", x.getMap()->getGlobalElement(order[i]), " (", data[order[i]],
-                 ')');
+    text += line(i > 0 ? ", " : "", "unknown ", order[i], " (", data[order[i]], ')');
   return text;
 }
 

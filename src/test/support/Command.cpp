@@ -61,15 +61,20 @@ std::vector<std::string> CommandResult::errorLines() const {
   return lines;
 }
 
-Command::Command(const std::vector<std::string>& arguments, const std::filesystem::path& folder)
+Command::Command(const std::vector<std::string>& arguments, const std::filesystem::path& folder, int ranks)
     : out_(std::make_unique<Capture>()), err_(std::make_unique<Capture>()) {
   // All that allocates comes before fork: between it and exec only plain system calls are safe.
-  std::string program = ATRAPOS_COMMAND;
+  std::string program = ranks > 0 ? ATRAPOS_MPIEXEC : ATRAPOS_COMMAND;
   std::vector<std::string> words = arguments;
+  if (ranks > 0)
+    words.insert(words.begin(), {"--oversubscribe", "-np", std::to_string(ranks), ATRAPOS_COMMAND});
   std::vector<char*> argv{program.data()};
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
   std::vector<char*> environment = userEnvironment();
+  // Open MPI's mpirun refuses the superuser, whom test machines often run as.
+  std::string asRoot = "OMPI_ALLOW_RUN_AS_ROOT=1", confirmed = "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1";
+  if (ranks > 0) environment.insert(environment.begin(), {asRoot.data(), confirmed.data()});
   const std::string directory = folder.string();
   const int out = fileno(out_->file), err = fileno(err_->file);
 
@@ -124,6 +129,11 @@ CommandResult Command::wait(double seconds) {
 CommandResult runAtrapos(const std::vector<std::string>& arguments, const std::filesystem::path& folder,
                          double seconds) {
   return Command(arguments, folder).wait(seconds);
+}
+
+CommandResult runAtraposOnRanks(int ranks, const std::vector<std::string>& arguments,
+                                const std::filesystem::path& folder, double seconds) {
+  return Command(arguments, folder, ranks).wait(seconds);
 }
 
 }  // namespace atrapos::test

@@ -24,7 +24,8 @@ struct CommandResult {
 /// have started the test.
 class Command {
  public:
-  Command(const std::vector<std::string>& arguments, const std::filesystem::path& folder);
+  /// `ranks` > 0: started by mpirun on so many ranks.
+  Command(const std::vector<std::string>& arguments, const std::filesystem::path& folder, int ranks = 0);
   ~Command();  ///< kills it where it still runs
   Command(const Command&) = delete;
   Command& operator=(const Command&) = delete;
@@ -46,5 +47,9 @@ class Command {
 /// Starts the command and waits for its end.
 CommandResult runAtrapos(const std::vector<std::string>& arguments, const std::filesystem::path& folder,
                          double seconds = 120);
+
+/// The same on several ranks. mpirun has lines of its own in `err` where the command fails.
+CommandResult runAtraposOnRanks(int ranks, const std::vector<std::string>& arguments,
+                                const std::filesystem::path& folder, double seconds = 120);
 
 }  // namespace atrapos::test

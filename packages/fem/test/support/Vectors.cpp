@@ -16,8 +16,10 @@ linear::RCP<path::Vector> zeroVector(const path::Problem& problem) {
 
 void copyInto(const Numbers& values, path::Vector& vector) {
   auto view = vector.getLocalViewHost(Tpetra::Access::OverwriteAll);
-  if (view.extent(0) != values.size()) throw std::logic_error("copyInto: wrong size");
-  for (std::size_t i = 0; i < values.size(); ++i) view(i, 0) = values[i];
+  if (vector.getGlobalLength() != values.size()) throw std::logic_error("copyInto: wrong size");
+  const auto map = vector.getMap();
+  for (std::size_t i = 0; i < view.extent(0); ++i)
+    view(i, 0) = values[map->getGlobalElement(static_cast<int>(i))];
 }
 
 linear::RCP<path::Vector> vectorOf(const path::Problem& problem, const Numbers& values) {
@@ -45,6 +47,13 @@ double Tangent::at(int row, int col) const {
   for (std::size_t e = start[row]; e < start[row + 1]; ++e)
     if (column[e] == col) return value[e];
   return 0;
+}
+
+TangentTimes tangentTimes(path::Problem& problem, const Numbers& u, double lambda, const Numbers& x) {
+  auto F = zeroVector(problem), y = zeroVector(problem);
+  const auto K = problem.tangent(*vectorOf(problem, u), lambda, *F);
+  K->apply(*vectorOf(problem, x), *y);
+  return {FeProblem::values(*y), FeProblem::values(*F)};
 }
 
 Tangent tangent(path::Problem& problem, const Numbers& u, double lambda) {

@@ -11,6 +11,7 @@ namespace atrapos::fem::test {
 
 using Numbers = std::vector<double>;
 
+/// Numbers of all dofs, given alike on every rank.
 linear::RCP<path::Vector> vectorOf(const path::Problem& problem, const Numbers& values);
 linear::RCP<path::Vector> zeroVector(const path::Problem& problem);
 void copyInto(const Numbers& values, path::Vector& vector);
@@ -21,7 +22,13 @@ struct Residual {
 };
 Residual residual(path::Problem& problem, const Numbers& u, double lambda);
 
-/// The tangent in compressed rows, and F = -dR/dlambda.
+/// K x and F = -dR/dlambda, on any number of ranks.
+struct TangentTimes {
+  Numbers Kx, F;
+};
+TangentTimes tangentTimes(path::Problem& problem, const Numbers& u, double lambda, const Numbers& x);
+
+/// The tangent in compressed rows, and F = -dR/dlambda. One rank.
 struct Tangent {
   std::vector<std::size_t> start;
   std::vector<int> column;

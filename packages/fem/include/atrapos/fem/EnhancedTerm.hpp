@@ -153,13 +153,8 @@ class EnhancedTerm final : public Term {
     if (Q > maxPoints)
       throw std::invalid_argument("a shell element has more than 27 points: lower the cubature degree");
     a_.fill(law, p.points, p.data, batches_);
-    const std::size_t batches = batches_.count;
     a_.modes = upload("modes", p.modes);
-    a_.dfde = View<double*>("dfde", batches * Q * I * L);
-    a_.dsdh = View<double*>("dsdh", batches * Q * I * L);
-    a_.inverse = View<double*>("inverse", batches * M * M * L);
-    a_.g = View<double*>("g", batches * M * L);
-    a_.failed = View<int*>("failed", batches * L);
+    makeWorkspace();
   }
 
   int numEntities() const override { return a_.numEntities; }
@@ -169,6 +164,14 @@ class EnhancedTerm final : public Term {
   bool seesLoadFactor() const override { return false; }
   std::size_t historyBytes(int maxOrder) const override {
     return a_.historyDoubles(batches_.count, maxOrder) * sizeof(double);
+  }
+
+  void keep(const TermPart& part) override {
+    batches_ = makeBatches(L, static_cast<int>(part.entities.size()), a_.N, part.nodes);
+    entityNodes_ = part.nodes;
+    kept_ = part.entities;
+    a_.keep(part, batches_);
+    makeWorkspace();
   }
 
   void setPositions(const std::vector<int>& positions) override {
@@ -253,7 +256,7 @@ class EnhancedTerm final : public Term {
         });
     const std::string unsolved = failure();
     if (!unsolved.empty()) throw taylor::DomainError(taylor::Operation::Result, NAN, unsolved);
-    throwFirst(failures);
+    throwFirst(failures, kept_);
   }
 
   // f_k - K_ub K_bb^-1 g_k, after the histories of order k - 1 became those of the true (U, beta).
@@ -316,17 +319,28 @@ class EnhancedTerm final : public Term {
   }
 
   /// The first element without enhanced parameters in the last loop over states (residual, tangent, start of
-  /// a series), and why; empty where all have theirs. Elements are counted from 1 within the term.
+  /// a series), and why; empty where all have theirs. Elements are counted from 1 within the whole term.
   std::string failure() const {
     auto failed = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), a_.failed);
     for (int e = 0; e < a_.numEntities; ++e)
       if (failed(e) != 0)
-        return "element " + std::to_string(e + 1) + ": " + describe(static_cast<EnhancedFailure>(failed(e)));
+        return "element " + std::to_string(numberInTerm(kept_, e) + 1) + ": " +
+               describe(static_cast<EnhancedFailure>(failed(e)));
     return {};
   }
 
  private:
+  void makeWorkspace() {
+    const std::size_t batches = batches_.count, Q = a_.Q;
+    a_.dfde = View<double*>("dfde", batches * Q * I * L);
+    a_.dsdh = View<double*>("dsdh", batches * Q * I * L);
+    a_.inverse = View<double*>("inverse", batches * M * M * L);
+    a_.g = View<double*>("g", batches * M * L);
+    a_.failed = View<int*>("failed", batches * L);
+  }
+
   std::vector<int> entityNodes_;
+  std::vector<int> kept_;  ///< entities of the whole term, where this is a part
   Batches batches_;
   Arrays a_;
 };

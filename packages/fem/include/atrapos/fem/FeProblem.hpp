@@ -26,7 +26,7 @@ struct FeModel {
   int numMultipliers = 0;
   std::vector<double> constantLoad;  ///< F_0, [3 node + component], dead
   std::vector<double> load;          ///< F_1: the dead load at load factor 1
-  /// Communicator of the problem's maps, of one rank; null: Tpetra's default, all ranks of the program.
+  /// Communicator of the problem's maps; null: Tpetra's default, all ranks of the program.
   linear::RCP<const Teuchos::Comm<int>> comm;
   /// Dofs that are parameters t of local laws (places on contact curves), not displacements; each owes a
   /// negative pivot.
@@ -53,8 +53,11 @@ struct FeModel {
 /// vanish at a stressed state, and in a thin body the rounding of the displacements alone then exceeds any
 /// fraction of them.)
 ///
-/// One rank only: a communicator of more throws std::invalid_argument. A program of several ranks may have
-/// one problem on each, with Teuchos::MpiComm<int>(MPI_COMM_SELF) as FeModel::comm.
+/// On a communicator of several ranks every rank gives the same whole model; the problem cuts it
+/// (fem::partition) and each rank keeps its part (docs/theory/parallel.md). Whatever takes vectors is
+/// collective then, numbers of nodes and entities stay those of the whole model, and an error on one rank is
+/// thrown on all. Terms that cannot be shared out (Term::keep) throw std::invalid_argument. A program of
+/// several ranks may have one problem on each, with Teuchos::MpiComm<int>(MPI_COMM_SELF) as FeModel::comm.
 class FeProblem final : public path::Problem {
  public:
   explicit FeProblem(FeModel model);
@@ -90,22 +93,30 @@ class FeProblem final : public path::Problem {
   linear::RCP<path::Vector> initialState(double lambda) const;
 
   /// Forces that the supports exert on the body at (u, lambda), with those of coupled dofs, zero at free
-  /// dofs: [3 node + component].
+  /// dofs: [3 node + component], on every rank.
   std::vector<double> reactions(const path::Vector& u, double lambda) const;
 
   /// Nodal forces F(u, lambda) of one term.
   std::vector<double> forces(const Term& term, const path::Vector& u, double lambda) const;
 
-  /// What the problem was made of; its terms are the problem's own.
+  /// Named values of term i at all its points, those of all ranks' entities, on every rank.
+  PointValues observe(int i, const path::Vector& u, double lambda) const;
+
+  /// The state as the terms read it: with several ranks, three entries for each node of this rank. Holds
+  /// until the next call to the problem.
+  ConstField onRank(const path::Vector& u) const;
+
+  /// What the problem was made of; its terms are the problem's own, with several ranks those of this rank's
+  /// part.
   const FeModel& model() const;
 
-  /// A vector of the map as plain numbers [3 node + component].
+  /// A vector of the map as plain numbers [3 node + component], on every rank. Collective.
   static std::vector<double> values(const path::Vector& u);
 
   const Term& term(int i) const;
   int numTerms() const;
   int numFreeDofs() const;
-  /// Bytes of the terms' histories for series of order `maxOrder`.
+  /// Bytes of the terms' histories for series of order `maxOrder`, on all ranks together.
   std::size_t historyBytes(int maxOrder) const;
 
  private:

@@ -251,6 +251,34 @@ struct LawArrays {
     order = upload("order", grouped.order);
   }
 
+  /// The arrays of some of the entities alone: [entity of the part] -> number so far, and their nodes.
+  void keep(const TermPart& part, const Batches& grouped) {
+    const std::size_t batches = grouped.count, count = part.entities.size();
+    const auto kept = [&](const View<double*>& from, std::size_t size) {
+      const auto host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), from);
+      std::vector<double> to(batches * size * L);
+      for (std::size_t i = 0; i < batches * L; ++i) {
+        const std::size_t e = part.entities[std::min(i, count - 1)];
+        for (std::size_t m = 0; m < size; ++m)
+          to[(i / L * size + m) * L + i % L] = host((e / L * size + m) * L + e % L);
+      }
+      return to;
+    };
+    std::vector<double> w = kept(weight, Q);
+    for (std::size_t i = count; i < batches * L; ++i)  // copies that fill up the last batch weigh nothing
+      for (int q = 0; q < Q; ++q) w[(i / L * Q + q) * L + i % L] = 0;
+    std::vector<int> n(batches * L * N);
+    for (std::size_t i = 0; i < batches * L; ++i)
+      std::copy_n(&part.nodes[std::min(i, count - 1) * N], N, &n[i * N]);
+    shape = upload("shape", kept(shape, static_cast<std::size_t>(Q) * N * C));
+    weight = upload("weight", w);
+    if (C == 1) offset = upload("offset", kept(offset, static_cast<std::size_t>(Q) * I));
+    data = upload("data", kept(data, static_cast<std::size_t>(Q) * D));
+    nodes = upload("nodes", n);
+    order = upload("order", grouped.order);
+    numEntities = static_cast<int>(count);
+  }
+
   /// [entity][point][m] -> [batch][point][m][lane], m < count; lanes beyond the last entity copy it.
   void pack(const std::vector<double>& from, int count, std::size_t batches, double* to) const {
     for (std::size_t b = 0; b < batches; ++b)
@@ -295,14 +323,20 @@ void forEachBatch(const char* name, const Batches& batches, const View<int*>& or
   Execution().fence();
 }
 
+/// Number of an entity, from 0, in the whole term: `kept` are the entities of a part, empty where all are
+/// there.
+inline int numberInTerm(const std::vector<int>& kept, int entity) {
+  return kept.empty() ? entity : kept[entity];
+}
+
 /// Throws taylor::DomainError for the first batch that noted a failure.
-inline void throwFirst(const View<LawFailure*>& perBatch) {
+inline void throwFirst(const View<LawFailure*>& perBatch, const std::vector<int>& kept = {}) {
   auto host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), perBatch);
   for (std::size_t b = 0; b < host.size(); ++b)
     if (host(b).entity >= 0)
-      throw taylor::DomainError(
-          host(b).operation, host(b).value,
-          "entity " + std::to_string(host(b).entity + 1) + ", point " + std::to_string(host(b).point + 1));
+      throw taylor::DomainError(host(b).operation, host(b).value,
+                                "entity " + std::to_string(numberInTerm(kept, host(b).entity) + 1) +
+                                    ", point " + std::to_string(host(b).point + 1));
 }
 
 /// The sum over all batches, in one order for any number of threads.

@@ -84,6 +84,23 @@ class LawTerm final : public Term {
     return a_.historyDoubles(batches_.count, maxOrder) * sizeof(double);
   }
 
+  void keep(const TermPart& part) override {
+    if (pieces_)
+      throw std::invalid_argument(
+          "contact with a tool of patches works on one rank only: start without mpirun");
+    batches_ = makeBatches(L, static_cast<int>(part.entities.size()), a_.N, part.nodes);
+    entityNodes_ = part.nodes;
+    kept_ = part.entities;
+    a_.keep(part, batches_);
+    if (!update_) return;
+    const std::size_t each = static_cast<std::size_t>(a_.Q) * D;
+    std::vector<double> data;
+    for (const int e : part.entities)
+      data.insert(data.end(), initialData_.begin() + e * each, initialData_.begin() + (e + 1) * each);
+    initialData_ = std::move(data);
+    seriesData_ = View<double*>("seriesData", a_.data.size());
+  }
+
   void setPositions(const std::vector<int>& positions) override {
     a_.setPositions(positions, batches_.count);
   }
@@ -157,7 +174,7 @@ class LawTerm final : public Term {
             a.findFailure(b, q, out, noted, failures(b));
           }
         });
-    throwFirst(failures);
+    throwFirst(failures, kept_);
   }
 
   void addOrder(int k, const ConstField& last, double lastLambda, const Field& f) override {
@@ -256,6 +273,7 @@ class LawTerm final : public Term {
   }
 
   std::vector<int> entityNodes_;
+  std::vector<int> kept_;  ///< entities of the whole term, where this is a part
   Batches batches_;
   Arrays a_;
   DataUpdate update_;

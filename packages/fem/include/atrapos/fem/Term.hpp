@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Kokkos_Core.hpp>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,12 @@ struct PointValues {
 
 class PointPieces;
 
+/// The share of a term that one rank works on.
+struct TermPart {
+  std::vector<int> entities;  ///< numbers within the term, ascending
+  std::vector<int> nodes;     ///< [entity of the part][node] as the rank counts them
+};
+
 /// One contribution F(u, lambda) to the residual: a law acting at the points of a set of entities, sum over
 /// points of B^T law(B u, lambda). Virtual once per loop, never inside it. Fields have 3 entries a node of
 /// the mesh.
@@ -42,6 +49,14 @@ class Term {
   virtual const std::vector<int>& nodes() const = 0;  ///< [entity][node]
   virtual bool symmetric() const = 0;
   virtual bool seesLoadFactor() const = 0;  ///< false: F depends on u alone
+
+  /// Drops all entities but these; called at most once, before anything else, where a problem has several
+  /// ranks. From then on the term is that of the part: fields, numbers of entities and sums over them. What
+  /// it says about an entity names it by its number in the whole. Throws std::invalid_argument where the term
+  /// cannot be shared out.
+  virtual void keep(const TermPart& /*part*/) {
+    throw std::invalid_argument("one of the problem's terms works on one rank only: start without mpirun");
+  }
 
   /// Receives the matrix graph once: position of the block (a, b) of an entity within its row,
   /// [entity][a][b], in units of entries.

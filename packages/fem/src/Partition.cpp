@@ -1,0 +1,193 @@
+#include "atrapos/fem/Partition.hpp"
+
+#include <metis.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace atrapos::fem {
+namespace {
+
+/// A node of more elements (the load factor's own, a rigid body's) says nothing about neighbourhood.
+constexpr std::size_t mostNeighbours = 64;
+
+struct Entity {
+  int term = 0, number = 0;
+};
+
+const int* nodesOf(const FeModel& model, const Entity& e) {
+  const Term& term = *model.terms[e.term];
+  return term.nodes().data() + static_cast<std::size_t>(e.number) * term.nodesPerEntity();
+}
+
+/// The elements of a model: entities whose nodes no other one has, with what goes with them.
+struct Elements {
+  std::vector<Entity> entity;              ///< [element]
+  std::vector<double> cost;                ///< [element] with its faces and points
+  std::vector<std::vector<int>> at;        ///< [node] elements
+  std::vector<std::vector<int>> ofEntity;  ///< [term][entity] element
+};
+
+/// The element that has all these nodes, or -1.
+int hostOf(const FeModel& model, const Elements& elements, const int* nodes, int count) {
+  const int* rarest = std::min_element(
+      nodes, nodes + count, [&](int a, int b) { return elements.at[a].size() < elements.at[b].size(); });
+  for (const int h : elements.at[*rarest]) {
+    const int* own = nodesOf(model, elements.entity[h]);
+    const int size = model.terms[elements.entity[h].term]->nodesPerEntity();
+    if (std::all_of(nodes, nodes + count, [&](int n) { return std::find(own, own + size, n) != own + size; }))
+      return h;
+  }
+  return -1;
+}
+
+Elements elementsOf(const FeModel& model) {
+  Elements elements;
+  elements.at.resize(model.numNodes);
+  elements.ofEntity.resize(model.terms.size());
+  std::vector<int> order(model.terms.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
+    return model.terms[a]->nodesPerEntity() > model.terms[b]->nodesPerEntity();
+  });
+  constexpr int usualOrder = 20;
+  for (const int t : order) {
+    const Term& term = *model.terms[t];
+    const double cost =
+        term.numEntities() > 0 ? static_cast<double>(term.historyBytes(usualOrder)) / term.numEntities() : 0;
+    for (int e = 0; e < term.numEntities(); ++e) {
+      const int* nodes = nodesOf(model, {t, e});
+      int host = hostOf(model, elements, nodes, term.nodesPerEntity());
+      if (host < 0) {
+        host = static_cast<int>(elements.entity.size());
+        elements.entity.push_back({t, e});
+        elements.cost.push_back(0);
+        for (int n = 0; n < term.nodesPerEntity(); ++n) elements.at[nodes[n]].push_back(host);
+      }
+      elements.cost[host] += cost;
+      elements.ofEntity[t].push_back(host);
+    }
+  }
+  return elements;
+}
+
+/// Groups of elements that stay together: [element] number of its group, groups numbered by their first one.
+std::vector<int> groupsOf(const Elements& elements, const std::vector<Coupling>& couplings, int& count) {
+  std::vector<int> parent(elements.entity.size());
+  std::iota(parent.begin(), parent.end(), 0);
+  const auto root = [&](int e) {
+    while (parent[e] != e) e = parent[e] = parent[parent[e]];
+    return e;
+  };
+  for (const Coupling& c : couplings)
+    for (const int e : elements.at[c.dof / 3]) {
+      const int a = root(e), b = root(elements.at[c.dof / 3].front());
+      parent[std::max(a, b)] = std::min(a, b);
+    }
+  std::vector<int> group(parent.size(), -1);
+  count = 0;
+  for (std::size_t e = 0; e < group.size(); ++e) {
+    const int r = root(static_cast<int>(e));
+    group[e] = r == static_cast<int>(e) ? count++ : group[r];
+  }
+  return group;
+}
+
+/// [group] rank.
+std::vector<int> cut(const FeModel& model, const Elements& elements, const std::vector<int>& group,
+                     int numGroups, int numRanks) {
+  // Edges weigh as many nodes as they share.
+  std::vector<std::vector<int>> neighbours(numGroups);
+  for (std::size_t e = 0; e < group.size(); ++e) {
+    const int* nodes = nodesOf(model, elements.entity[e]);
+    for (int n = 0; n < model.terms[elements.entity[e].term]->nodesPerEntity(); ++n) {
+      if (elements.at[nodes[n]].size() > mostNeighbours) continue;
+      for (const int other : elements.at[nodes[n]])
+        if (group[other] != group[e]) neighbours[group[e]].push_back(group[other]);
+    }
+  }
+  std::vector<idx_t> start{0}, adjacent, edgeWeight, weight(numGroups, 1);
+  for (auto& list : neighbours) {
+    std::sort(list.begin(), list.end());
+    for (std::size_t i = 0; i < list.size(); ++i) {
+      if (i == 0 || list[i] != list[i - 1]) {
+        adjacent.push_back(list[i]);
+        edgeWeight.push_back(0);
+      }
+      ++edgeWeight.back();
+    }
+    start.push_back(static_cast<idx_t>(adjacent.size()));
+    list = {};
+  }
+  std::vector<double> cost(numGroups, 0.0);
+  for (std::size_t e = 0; e < group.size(); ++e) cost[group[e]] += elements.cost[e];
+  const double largest = numGroups > 0 ? *std::max_element(cost.begin(), cost.end()) : 0;
+  // Whole numbers whose sum METIS' 32 bits can hold.
+  const double scale = largest > 0 ? std::min(1000.0, 1e9 / numGroups) / largest : 0;
+  for (int g = 0; g < numGroups; ++g) weight[g] += static_cast<idx_t>(scale * cost[g]);
+
+  std::vector<idx_t> rank(numGroups, 0);
+  if (adjacent.empty() || numGroups < numRanks) {  // nothing for METIS to decide
+    for (int g = 0; g < numGroups; ++g)
+      rank[g] = static_cast<idx_t>(static_cast<long long>(g) * numRanks / numGroups);
+    return {rank.begin(), rank.end()};
+  }
+  idx_t options[METIS_NOPTIONS], vertices = numGroups, constraints = 1, parts = numRanks, edgeCut = 0;
+  METIS_SetDefaultOptions(options);
+  options[METIS_OPTION_NUMBERING] = 0;
+  options[METIS_OPTION_SEED] = 1;
+  // METIS' manual: bisection for few parts, where it balances better.
+  const auto method = numRanks <= 8 ? METIS_PartGraphRecursive : METIS_PartGraphKway;
+  const int status = method(&vertices, &constraints, start.data(), adjacent.data(), weight.data(), nullptr,
+                            edgeWeight.data(), &parts, nullptr, nullptr, options, &edgeCut, rank.data());
+  if (status != METIS_OK)
+    throw std::runtime_error("METIS: cutting " + std::to_string(numGroups) + " elements into " +
+                             std::to_string(numRanks) + " parts failed (code " + std::to_string(status) +
+                             ")");
+  return {rank.begin(), rank.end()};
+}
+
+}  // namespace
+
+Partition partition(const FeModel& model, const std::vector<Coupling>& couplings, int numRanks) {
+  const Elements elements = elementsOf(model);
+  int numGroups = 0;
+  const auto group = groupsOf(elements, couplings, numGroups);
+  const auto rankOfGroup = cut(model, elements, group, numGroups, numRanks);
+
+  Partition result;
+  std::vector<std::vector<std::pair<int, int>>> ranksAt(model.numNodes);  // rank, number of entities
+  const auto count = [&](int node, int rank) {
+    for (auto& entry : ranksAt[node])
+      if (entry.first == rank) {
+        ++entry.second;
+        return;
+      }
+    ranksAt[node].push_back({rank, 1});
+  };
+  result.entities.resize(model.terms.size());
+  for (std::size_t t = 0; t < model.terms.size(); ++t)
+    for (int e = 0; e < model.terms[t]->numEntities(); ++e) {
+      const int rank = rankOfGroup[group[elements.ofEntity[t][e]]];
+      result.entities[t].push_back(rank);
+      const int* nodes = nodesOf(model, {static_cast<int>(t), e});
+      for (int n = 0; n < model.terms[t]->nodesPerEntity(); ++n) count(nodes[n], rank);
+    }
+  result.nodes.assign(model.numNodes, 0);
+  for (int n = 0; n < model.numNodes; ++n) {
+    int most = 0;
+    for (const auto& [rank, entities] : ranksAt[n])
+      if (entities > most || (entities == most && rank < result.nodes[n])) {
+        most = entities;
+        result.nodes[n] = rank;
+      }
+  }
+  for (const Coupling& c : couplings) result.couplings.push_back(result.nodes[c.dof / 3]);
+  return result;
+}
+
+}  // namespace atrapos::fem

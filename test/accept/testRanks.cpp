@@ -1,0 +1,220 @@
+// The command under mpirun: the same path on 1, 2 and 3 ranks, files by one of them, errors told once.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "atrapos/exodus/ResultReader.hpp"
+#include "support/Command.hpp"
+#include "support/Folder.hpp"
+#include "support/Table.hpp"
+
+namespace atrapos::test {
+namespace {
+
+/// A deck with its mesh, run on several numbers of ranks.
+struct DeckOnRanks {
+  TemporaryFolder folder;
+
+  explicit DeckOnRanks(const std::string& deck) {
+    writeFile(folder / "deck.yaml", deck);
+    const CommandResult r = runAtrapos({"mesh", "-q", "deck.yaml"}, folder.path());
+    if (r.exitCode != 0) throw std::runtime_error(r.err);
+  }
+
+  std::string run(int ranks, const std::vector<std::string>& more = {}) const {
+    const std::string name = "on" + std::to_string(ranks);
+    std::vector<std::string> words{"run", "-q", "deck.yaml", "-o", name};
+    words.insert(words.end(), more.begin(), more.end());
+    const CommandResult r = runAtraposOnRanks(ranks, words, folder.path());
+    if (r.exitCode != 0) throw std::runtime_error(r.err);
+    return name;
+  }
+  std::filesystem::path file(const std::string& run, const std::string& name) const {
+    return folder.path() / run / name;
+  }
+};
+
+/// Largest difference in parts of the largest value.
+double difference(const std::vector<double>& x, const std::vector<double>& y) {
+  double worst = 0, scale = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    const double off = std::abs(x[i] - y.at(i));
+    if (!std::isfinite(off)) return off;
+    worst = std::max(worst, off);
+    scale = std::max(scale, std::abs(x[i]));
+  }
+  return worst > 0 ? worst / scale : 0;
+}
+
+/// All columns but the residual, which is rounding itself; numbers only.
+void expectSameTable(const Table& a, const Table& b, double tolerance) {
+  ASSERT_EQ(a.numRows(), b.numRows());
+  ASSERT_EQ(a.names(), b.names());
+  for (const std::string& name : a.names())
+    if (name != "residual") {
+      EXPECT_LE(difference(a.column(name), b.column(name)), tolerance) << name;
+    }
+}
+
+/// Events of points that close together by symmetry come in the order of their roundings: by number here.
+void expectSameEvents(const Table& a, const Table& b) {
+  const std::vector<std::string> columns{"step", "point", "path_length", "load_factor",
+                                         "node", "x",     "y",           "z"};
+  const auto sorted = [&](const Table& table) {
+    std::vector<std::vector<double>> rows(table.numRows());
+    for (const std::string& name : columns) {
+      const auto values = table.column(name);
+      for (std::size_t i = 0; i < rows.size(); ++i) rows[i].push_back(values[i]);
+    }
+    std::sort(rows.begin(), rows.end());
+    return rows;
+  };
+  const auto x = sorted(a), y = sorted(b);
+  ASSERT_GT(x.size(), 0u);
+  ASSERT_EQ(x.size(), y.size());
+  for (std::size_t i = 0; i < x.size(); ++i)
+    for (std::size_t c = 0; c < columns.size(); ++c)
+      EXPECT_NEAR(x[i][c], y[i][c], 1e-9 * std::max(1.0, std::abs(x[i][c])))
+          << columns[c];  // printed digits: 10
+}
+
+void expectSameFields(const std::filesystem::path& a, const std::filesystem::path& b, double tolerance) {
+  const exodus::ResultReader x(a.string()), y(b.string());
+  ASSERT_EQ(x.numSteps(), y.numSteps());
+  ASSERT_EQ(x.nodalNames(), y.nodalNames());
+  ASSERT_EQ(x.elementNames(), y.elementNames());
+  ASSERT_GT(x.numSteps(), 1);
+  const int last = x.numSteps() - 1;
+  // Components of vectors and tensors count against the largest one: some are zero but for rounding.
+  const auto largest = [&](const std::vector<std::string>& names, const auto& read) {
+    double size = 0, worst = 0;
+    for (const std::string& name : names) {
+      const auto p = read(x, name), q = read(y, name);
+      for (std::size_t i = 0; i < p.size(); ++i) {
+        size = std::max(size, std::abs(p[i]));
+        worst = std::max(worst, std::abs(p[i] - q.at(i)));
+      }
+    }
+    EXPECT_GT(size, 0);
+    EXPECT_LE(worst, tolerance * size) << names.front();
+  };
+  largest(x.nodalNames(), [&](const auto& file, const std::string& name) { return file.nodal(last, name); });
+  if (!x.elementNames().empty())
+    largest(x.elementNames(),
+            [&](const auto& file, const std::string& name) { return file.element(last, name); });
+}
+
+nlohmann::json summaryOf(const DeckOnRanks& deck, const std::string& run) {
+  return nlohmann::json::parse(readFile(deck.file(run, "summary.json")));
+}
+
+/// The well-conditioned block on the roll: what rounds differently must not show. What is asked of runs on
+/// several ranks.
+constexpr double kSame = 1e-10;
+
+std::string block() { return readFile(ATRAPOS_ACCEPT_DATA "/block.yaml"); }
+
+TEST(Ranks, BlockWithContactFollowsTheSamePath) {
+  const DeckOnRanks deck(edited(block(), "  points_per_step: 2",
+                                "  points_per_step: 2\n  fields: [displacement, reaction, contact, stress]"));
+  const CommandResult alone = runAtrapos({"run", "-q", "deck.yaml", "-o", "alone"}, deck.folder.path());
+  ASSERT_EQ(alone.exitCode, 0) << alone.err;
+  const Table path(deck.file("alone", "path.csv")), stored(ATRAPOS_ACCEPT_DATA "/block_path.csv");
+  expectSameTable(stored, path, kSame);
+  for (const int ranks : {1, 2, 3}) {
+    SCOPED_TRACE(ranks);
+    const std::string run = deck.run(ranks);
+    expectSameTable(path, Table(deck.file(run, "path.csv")), kSame);
+    EXPECT_EQ(summaryOf(deck, run).at("ranks"), ranks);
+    EXPECT_EQ(summaryOf(deck, run).at("steps"), summaryOf(deck, "alone").at("steps"));
+    EXPECT_EQ(summaryOf(deck, run).at("contacts"), summaryOf(deck, "alone").at("contacts"));
+    expectSameEvents(Table(deck.file("alone", "events.csv")), Table(deck.file(run, "events.csv")));
+    // Stresses are differences of displacements, reactions sums of stresses: ten times as far off.
+    expectSameFields(deck.file("alone", "results.exo"), deck.file(run, "results.exo"), 10 * kSame);
+  }
+}
+
+TEST(Ranks, RunGoesOnWithAnotherNumberOfRanks) {
+  const DeckOnRanks whole(block()),
+      parts(edited(block(), "{load_factor: 0.5}", "{load_factor: 0.5, steps: 4}"));
+  const std::string three = parts.run(3);
+  writeFile(parts.folder / "deck.yaml", block());
+  const std::string two = parts.run(2, {"--restart", three});
+  EXPECT_EQ(summaryOf(parts, two).at("restarted_behind_step"), 4);
+  expectSameTable(Table(whole.file(whole.run(1), "path.csv")), Table(parts.file(two, "path.csv")), kSame);
+}
+
+/// A plate of shells that bends under a pressure that follows it, its end rigid.
+const std::string kPlate = R"(mesh:
+  file: plate.exo
+  generate: {shape: shell_plate, length: 4, width: 2, divisions: [6, 3], block: plate}
+materials:
+  plate: {law: saint_venant_kirchhoff, youngs_modulus: 1000, poissons_ratio: 0.3, blocks: [plate]}
+shells:
+  sections:
+    plate: {blocks: [plate], thickness: 0.4}
+supports:
+  clamp: {set: x_min, condition: clamped}
+couplings:
+  end: {kind: rigid, set: x_max}
+loads:
+  push: {type: surface, set: top, pressure: 2, follower: true}
+path:
+  order: 15
+  stop: {load_factor: 1}
+output:
+  monitors:
+    tip_uz: {type: displacement, set: x_max, component: z}
+    tip_ux: {type: displacement, set: x_max, component: x}
+)";
+
+TEST(Ranks, ShellsWithFollowersAndCouplingsFollowTheSamePath) {
+  const DeckOnRanks deck(kPlate);
+  const Table path(deck.file(deck.run(1), "path.csv"));
+  EXPECT_GT(std::abs(path.column("tip_uz").back()), 0.1);
+  for (const int ranks : {2, 3})
+    // A tenth of the length thick; measured: 4e-12.
+    expectSameTable(path, Table(deck.file(deck.run(ranks), "path.csv")), kSame);
+}
+
+/// Lines of the command's own, without those of mpirun.
+int linesWith(const CommandResult& r, const std::string& text) {
+  const auto lines = r.errorLines();
+  return static_cast<int>(std::count_if(lines.begin(), lines.end(), [&](const std::string& line) {
+    return line.find(text) != std::string::npos;
+  }));
+}
+
+TEST(Ranks, ErrorOfAllIsToldOnce) {
+  TemporaryFolder folder;
+  writeFile(folder / "deck.yaml", edited(block(), "x_min", "no_such_set"));
+  ASSERT_EQ(runAtrapos({"mesh", "-q", "deck.yaml"}, folder.path()).exitCode, 0);
+  const CommandResult r = runAtraposOnRanks(2, {"run", "-q", "deck.yaml"}, folder.path());
+  EXPECT_EQ(r.exitCode, 2);
+  EXPECT_EQ(linesWith(r, "no_such_set"), 1) << r.err;
+}
+
+TEST(Ranks, ErrorOfOneEndsAll) {
+  const DeckOnRanks deck(block());
+  writeFile(deck.folder / "taken", "a file where the first rank wants a folder");
+  const CommandResult r = runAtraposOnRanks(3, {"run", "-q", "deck.yaml", "-o", "taken"}, deck.folder.path());
+  EXPECT_EQ(r.exitCode, 2);
+  EXPECT_EQ(linesWith(r, "cannot be made"), 1) << r.err;
+}
+
+TEST(Ranks, WhatRunsOnOneRankSaysSo) {
+  const DeckOnRanks deck(edited(block(),
+                                "lower: {tool: roll, set: z_min, stiffness: 1000, regularisation: 1.0e-3}",
+                                "lower: {tool: roll, set: z_min, law: hard, points: nodes}"));
+  const CommandResult hard = runAtraposOnRanks(2, {"run", "-q", "deck.yaml"}, deck.folder.path());
+  EXPECT_EQ(hard.exitCode, 2);
+  EXPECT_EQ(linesWith(hard, "contact/lower/law: hard works on one rank only"), 1) << hard.err;
+  const CommandResult check = runAtraposOnRanks(2, {"check", "deck.yaml"}, deck.folder.path());
+  EXPECT_EQ(check.exitCode, 2);
+  EXPECT_EQ(linesWith(check, "check runs on one rank only"), 1) << check.err;
+}
+
+}  // namespace
+}  // namespace atrapos::test
