@@ -466,7 +466,8 @@ TEST(BadDeck, unknownKeys) {
               {"did you mean 'path'?", "allowed are title, mesh,"});
   expectError("radius: 50", "raduis: 50", "tools/roll/raduis: is not a key here",
               {"did you mean 'radius'?", "allowed are type, center, axis, radius", "(line 16)"});
-  expectError("order: 15", "zzz: 15", "path/zzz: is not a key here;", {"allowed are method, order, accuracy"});
+  expectError("order: 15", "zzz: 15", "path/zzz: is not a key here;",
+              {"allowed are method, order, accuracy"});
   expectError("{value: 0.5,", "{valeu: 0.5,", "supports/pull/x/valeu: is not a key",
               {"'value'", "(line 12)"});
   expectError("{type: cylinder", "{type: plane", "tools/roll/center: is not a key here", {"point, normal"});

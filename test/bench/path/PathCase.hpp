@@ -22,6 +22,10 @@ struct PathCase {
 /// 0.25.
 const std::vector<std::string>& pathCases();
 
+/// The refinement whose number of unknowns is nearest to this one. Throws std::invalid_argument on an unknown
+/// name.
+int refinementFor(const std::string& name, double unknowns);
+
 /// `refinement` >= 1 multiplies the divisions. Throws std::invalid_argument on an unknown name.
 PathCase makePathCase(const std::string& name, int refinement);
 

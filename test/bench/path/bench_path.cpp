@@ -34,6 +34,7 @@ struct Options {
   std::vector<std::string> cases = bench::pathCases();
   std::vector<std::string> methods{"series", "newton", "modified", "points", "loca"};
   int refinement = 1, samples = 100;
+  double unknowns = 0;  ///< 0: by the refinement
   bool quick = false;
   std::string csv;
 };
@@ -71,7 +72,8 @@ class Bench {
   void run() {
     fmt::print("{}\n", header);
     for (const auto& name : options_.cases) {
-      case_ = bench::makePathCase(name, options_.refinement);
+      case_ = bench::makePathCase(
+          name, options_.unknowns > 0 ? bench::refinementFor(name, options_.unknowns) : options_.refinement);
       judge_ = linear::makeTangentSolver({});
       judged_ = false;
       findLength();
@@ -200,6 +202,7 @@ class Bench {
     for (const double aggressiveness : tolerances({0.5, 0.1, 1.0, 2.0})) {
       thyra::test::LocaOptions options;
       options.aggressiveness = aggressiveness;
+      options.firstStep = 1e-3;  // of the load factor: the strip leaves its path with longer ones
       const auto& stops = case_.stops;
       options.stop = [&](const path::State& s) {
         if (!stops.loadFactors.empty()) return s.lambda > stops.loadFactors[0];
@@ -248,6 +251,9 @@ int main(int argc, char** argv) {
   app.add_option("--refinement", options.refinement, "multiplies the divisions of the meshes")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
+  app.add_option("--unknowns", options.unknowns, "about so many, by the refinement")
+      ->check(CLI::PositiveNumber)
+      ->excludes("--refinement");
   app.add_option("--samples", options.samples, "places along a path where its error is measured")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();

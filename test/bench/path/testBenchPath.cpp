@@ -49,6 +49,15 @@ TEST(PathSamples, DistanceIsThatOfAKnownDisplacement) {
   }
 }
 
+/// The refinement chosen has about the unknowns asked for.
+TEST(PathCase, HasTheSizeAskedFor) {
+  for (const std::string& name : pathCases())
+    for (const double unknowns : {10000.0, 20000.0}) {
+      const PathCase c = makePathCase(name, refinementFor(name, unknowns));
+      EXPECT_NEAR(c.problem->numFreeDofs(), unknowns, 0.2 * unknowns) << name;  // whole refinements
+    }
+}
+
 std::vector<std::map<std::string, std::string>> table(const std::string& file) {
   std::ifstream in(file);
   std::vector<std::string> names;
