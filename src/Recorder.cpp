@@ -110,12 +110,12 @@ bool Recorder::onStep(int branch, const path::StepReport& report, const path::Se
   const double before = seconds();
   branch_ = branch;
   const auto negativeAt = [&](double a) { return report.negativeAt(a).value_or(-1); };
-  if (!started_) writeStart(*series.coefficient(0).u, series.lambdaCoefficient(0), negativeAt(0));
   // The step is one of the problem before the events at its end.
   const auto changeBack = [&] {
     if (!report.events.empty()) case_.problem().applyEvent(report.events, *report.end.u, report.end.lambda);
   };
   changeBack();
+  if (!started_) writeStart(*series.coefficient(0).u, series.lambdaCoefficient(0), negativeAt(0));
   const int points = case_.deck().output.pointsPerStep;
   worstResidual_ = std::max(worstResidual_, report.residual);
   for (int j = 1; j < points; ++j) {

@@ -106,7 +106,7 @@ TEST_F(ContactEvents, CurveAsUnknown) {
     changes[curve] = run(edited(deck, kLaw, "{" + law + (curve == 1 ? ", unknown: curve}" : "}"))).size();
     exodus::ResultReader results((folder_ / "deck_results" / "results.exo").string());
     const int last = results.numSteps() - 1;
-    EXPECT_EQ(results.global(last, "load_factor"), 1.5);
+    EXPECT_DOUBLE_EQ(results.global(last, "load_factor"), 1.5);  // a root on the series
     deflection[curve] = results.nodal(last, "displ_z").back();
     steps[curve] = last;
   }

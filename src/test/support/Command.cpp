@@ -67,14 +67,19 @@ Command::Command(const std::vector<std::string>& arguments, const std::filesyste
   std::string program = ranks > 0 ? ATRAPOS_MPIEXEC : ATRAPOS_COMMAND;
   std::vector<std::string> words = arguments;
   if (ranks > 0)
-    words.insert(words.begin(), {"--oversubscribe", "-np", std::to_string(ranks), ATRAPOS_COMMAND});
+    words.insert(words.begin(),
+                 {"--oversubscribe", "--bind-to", "none", "-np", std::to_string(ranks), ATRAPOS_COMMAND});
   std::vector<char*> argv{program.data()};
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
   std::vector<char*> environment = userEnvironment();
   // Open MPI's mpirun refuses the superuser, whom test machines often run as.
   std::string asRoot = "OMPI_ALLOW_RUN_AS_ROOT=1", confirmed = "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1";
-  if (ranks > 0) environment.insert(environment.begin(), {asRoot.data(), confirmed.data()});
+  // There may be less cores than ranks, and other tests on them: who waits makes room.
+  std::string yields = "OMPI_MCA_mpi_yield_when_idle=1", oneThread = "OMP_NUM_THREADS=1";
+  if (ranks > 0)
+    environment.insert(environment.begin(),
+                       {asRoot.data(), confirmed.data(), yields.data(), oneThread.data()});
   const std::string directory = folder.string();
   const int out = fileno(out_->file), err = fileno(err_->file);
 
