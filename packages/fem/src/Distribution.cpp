@@ -187,7 +187,8 @@ auto onHost(const V& view) {
 
 }  // namespace
 
-void Distribution::fetch(const Field& f) const {
+template <class Put>
+void Distribution::trade(const Field& f, Nodes given, Nodes taken, const Put& put) const {
   if (alone()) return;
   const auto host = onHost(f);
   std::vector<int> ranks;
@@ -195,34 +196,25 @@ void Distribution::fetch(const Field& f) const {
   for (const Neighbour& n : neighbours_) {
     ranks.push_back(n.rank);
     send.emplace_back();
-    for (const int l : n.ours)
+    for (const int l : n.*given)
       for (int i = 0; i < 3; ++i) send.back().push_back(host(3 * l + i));
-    receive.emplace_back(3 * n.theirs.size());
+    receive.emplace_back(3 * (n.*taken).size());
   }
   exchange(*comm_, ranks, send, receive);
-  for (std::size_t k = 0; k < neighbours_.size(); ++k)
-    for (std::size_t r = 0; r < neighbours_[k].theirs.size(); ++r)
-      for (int i = 0; i < 3; ++i) host(3 * neighbours_[k].theirs[r] + i) = receive[k][3 * r + i];
+  for (std::size_t k = 0; k < neighbours_.size(); ++k) {
+    const std::vector<int>& nodes = neighbours_[k].*taken;
+    for (std::size_t r = 0; r < nodes.size(); ++r)
+      for (int i = 0; i < 3; ++i) put(host(3 * nodes[r] + i), receive[k][3 * r + i]);
+  }
   Kokkos::deep_copy(f, host);
 }
 
+void Distribution::fetch(const Field& f) const {
+  trade(f, &Neighbour::ours, &Neighbour::theirs, [](double& own, double owners) { own = owners; });
+}
+
 void Distribution::collect(const Field& f) const {
-  if (alone()) return;
-  const auto host = onHost(f);
-  std::vector<int> ranks;
-  std::vector<std::vector<double>> send, receive;
-  for (const Neighbour& n : neighbours_) {
-    ranks.push_back(n.rank);
-    send.emplace_back();
-    for (const int l : n.theirs)
-      for (int i = 0; i < 3; ++i) send.back().push_back(host(3 * l + i));
-    receive.emplace_back(3 * n.ours.size());
-  }
-  exchange(*comm_, ranks, send, receive);
-  for (std::size_t k = 0; k < neighbours_.size(); ++k)
-    for (std::size_t r = 0; r < neighbours_[k].ours.size(); ++r)
-      for (int i = 0; i < 3; ++i) host(3 * neighbours_[k].ours[r] + i) += receive[k][3 * r + i];
-  Kokkos::deep_copy(f, host);
+  trade(f, &Neighbour::theirs, &Neighbour::ours, [](double& own, double part) { own += part; });
 }
 
 void Distribution::collectRows(const View<std::size_t*>& rowStart, const View<double*>& values) const {

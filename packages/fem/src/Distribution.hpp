@@ -78,6 +78,11 @@ class Distribution {
     std::vector<int> columnStart, columns;
     std::size_t sent = 0;  ///< entries of our rows of `theirs`
   };
+  using Nodes = std::vector<int> Neighbour::*;
+  /// Sends the field at the given nodes of every neighbour and puts what comes into the taken ones, the
+  /// ranks' in ascending order.
+  template <class Put>
+  void trade(const Field& f, Nodes given, Nodes taken, const Put& put) const;
   void cutRows(const FeModel& model, const std::vector<Coupling>& couplings, const Partition& p);
   void findNeighbours(const std::vector<std::vector<int>>& ranksAt, const Partition& p);
   void matchRows();
