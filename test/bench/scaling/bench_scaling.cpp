@@ -134,8 +134,8 @@ int makeRow(const Options& options) {
 /// A row by another process, so that its memory is its own.
 std::string rowOf(const std::string& program, const std::string& family, double size, int threads,
                   int steps) {
-  char folder[] = "/tmp/bench_scaling_XXXXXX";
-  if (!mkdtemp(folder)) throw std::runtime_error("bench_scaling: no temporary folder");
+  std::string folder = (std::filesystem::temp_directory_path() / "bench_scaling_XXXXXX").string();
+  if (!mkdtemp(folder.data())) throw std::runtime_error("bench_scaling: no temporary folder");
   const std::string command =
       fmt::format("'{}' --row --families {} --sizes {:g} --threads {} --steps {} --folder {}", program,
                   family, size, threads, steps, folder);
