@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 #include "Interrupt.hpp"
-#include "atrapos/fem/FeProblem.hpp"
+#include "atrapos/linear/OnAllRanks.hpp"
 #include "atrapos/path/Imperfect.hpp"
 #include "atrapos/path/PathFollower.hpp"
 
@@ -16,7 +16,7 @@ namespace {
 path::RCP<path::Vector> shapeOf(const path::Vector& nullVector) {
   auto shape = Teuchos::rcp(new path::Vector(nullVector, Teuchos::Copy));
   double largest = 0;
-  for (const double x : fem::FeProblem::values(nullVector))
+  for (const double x : linear::onAllRanks(nullVector))
     if (std::abs(x) > std::abs(largest)) largest = x;
   shape->scale(1 / largest);
   return shape;

@@ -10,7 +10,7 @@
 #include <stdexcept>
 
 #include "Ranks.hpp"
-#include "atrapos/fem/FeProblem.hpp"
+#include "atrapos/linear/OnAllRanks.hpp"
 
 namespace atrapos {
 namespace {
@@ -39,7 +39,7 @@ class Packer {
     put(static_cast<std::uint64_t>(values.size()));
     bytes_.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
   }
-  void put(const path::Vector& u) { put(fem::FeProblem::values(u)); }
+  void put(const path::Vector& u) { put(linear::onAllRanks(u)); }
   const std::string& bytes() const { return bytes_; }
 
  private:

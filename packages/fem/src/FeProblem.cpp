@@ -1,6 +1,5 @@
 #include "atrapos/fem/FeProblem.hpp"
 
-#include <Teuchos_CommHelpers.hpp>
 #include <Tpetra_Core.hpp>
 #include <Tpetra_CrsGraph.hpp>
 #include <Tpetra_CrsMatrix.hpp>
@@ -16,6 +15,7 @@
 #include "EventTerms.hpp"
 #include "PieceTerms.hpp"
 #include "atrapos/fem/LawArrays.hpp"
+#include "atrapos/linear/OnAllRanks.hpp"
 
 namespace atrapos::fem {
 
@@ -62,18 +62,6 @@ std::vector<T> ofNodes(const std::vector<T>& whole, const std::vector<int>& node
   part.reserve(3 * nodes.size());
   for (int n : nodes) part.insert(part.end(), whole.begin() + 3 * n, whole.begin() + 3 * n + 3);
   return part;
-}
-
-/// Numbers that every rank has at its own dofs, as one list on all of them.
-std::vector<double> onAllRanks(const Map& map, const ConstField& own) {
-  std::vector<double> part = toHost(own);
-  if (map.getComm()->getSize() == 1) return part;
-  std::vector<double> mine(map.getGlobalNumElements(), 0.0), all(mine.size());
-  const auto ids = map.getNodeElementList();
-  for (long i = 0; i < ids.size(); ++i) mine[ids[i]] = part[i];
-  Teuchos::reduceAll(*map.getComm(), Teuchos::REDUCE_SUM, static_cast<int>(mine.size()), mine.data(),
-                     all.data());
-  return all;
 }
 
 }  // namespace
@@ -172,7 +160,7 @@ struct FeProblem::Impl {
 
   /// This rank's own entries of a field, with those of all others.
   std::vector<double> onAllRanks(const Field& f) const {
-    return fem::onAllRanks(*map, Kokkos::subview(f, std::make_pair(std::size_t{0}, numOwned())));
+    return linear::onAllRanks(*map, toHost(Kokkos::subview(f, std::make_pair(std::size_t{0}, numOwned()))));
   }
 
   void copyOwned(const ConstField& from, const Field& to) const {
@@ -603,7 +591,7 @@ PointValues FeProblem::observe(int i, const Vector& u, double lambda) const {
 
 ConstField FeProblem::onRank(const Vector& u) const { return impl_->local(u); }
 
-std::vector<double> FeProblem::values(const Vector& u) { return onAllRanks(*u.getMap(), field(u)); }
+std::vector<double> FeProblem::values(const Vector& u) { return linear::onAllRanks(u); }
 
 const FeModel& FeProblem::model() const { return impl_->model; }
 const Term& FeProblem::term(int i) const { return *impl_->model.terms.at(i); }

@@ -1,4 +1,3 @@
-#include <Teuchos_CommHelpers.hpp>
 #include <Tpetra_CrsMatrix.hpp>
 #include <Tpetra_Vector.hpp>
 #include <algorithm>
@@ -10,6 +9,7 @@
 #include "Newton.hpp"
 #include "Run.hpp"
 #include "atrapos/linear/Dot.hpp"
+#include "atrapos/linear/OnAllRanks.hpp"
 
 namespace atrapos::path {
 
@@ -43,11 +43,7 @@ void inverseIterations(Calls& calls, Vector& x, bool transposed) {
 
 /// The largest entries of a null vector, for a message; the same on all ranks.
 std::string largestEntries(const Vector& x) {
-  const auto own = x.getData();
-  std::vector<double> mine(x.getGlobalLength(), 0.0), data(mine.size());
-  for (int i = 0; i < own.size(); ++i) mine[x.getMap()->getGlobalElement(i)] = own[i];
-  Teuchos::reduceAll(*x.getMap()->getComm(), Teuchos::REDUCE_SUM, static_cast<int>(mine.size()), mine.data(),
-                     data.data());
+  const std::vector<double> data = linear::onAllRanks(x);
   std::vector<int> order(data.size());
   std::iota(order.begin(), order.end(), 0);
   const int count = static_cast<int>(std::min<std::size_t>(3, data.size()));

@@ -4,12 +4,10 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <fstream>
-#include <map>
-#include <sstream>
 #include <string>
 #include <vector>
 
+#include "CsvRows.hpp"
 #include "PathCase.hpp"
 #include "PathSamples.hpp"
 #include "atrapos/linear/MakeTangentSolver.hpp"
@@ -58,24 +56,6 @@ TEST(PathCase, HasTheSizeAskedFor) {
     }
 }
 
-std::vector<std::map<std::string, std::string>> table(const std::string& file) {
-  std::ifstream in(file);
-  std::vector<std::string> names;
-  std::vector<std::map<std::string, std::string>> rows;
-  for (std::string line; std::getline(in, line);) {
-    std::vector<std::string> cells;
-    std::istringstream stream(line + ",");
-    for (std::string cell; std::getline(stream, cell, ',');) cells.push_back(cell);
-    if (names.empty()) {
-      names = cells;
-      continue;
-    }
-    auto& row = rows.emplace_back();
-    for (std::size_t i = 0; i < names.size() && i < cells.size(); ++i) row[names[i]] = cells[i];
-  }
-  return rows;
-}
-
 /// `bench_path --quick`: every method reaches the end, and what claims an accuracy has about that.
 TEST(BenchPath, QuickRunWritesTheTable) {
   const std::string csv = testing::TempDir() + "bench_path_quick.csv";
@@ -83,7 +63,7 @@ TEST(BenchPath, QuickRunWritesTheTable) {
   const std::string command =
       std::string(ATRAPOS_BENCH_PATH) + " --quick --cases roof --samples 20 --csv " + csv + " > /dev/null";
   ASSERT_EQ(std::system(command.c_str()), 0);
-  const auto rows = table(csv);
+  const auto rows = csvRows(csv);
   ASSERT_GE(rows.size(), 5u);
   for (auto row : rows) {
     EXPECT_EQ(row["end"], "stopReached") << row["method"];

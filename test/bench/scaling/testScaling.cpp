@@ -4,32 +4,12 @@
 
 #include <cstdio>
 #include <cstdlib>
-#include <fstream>
-#include <map>
-#include <sstream>
 #include <string>
 #include <vector>
 
-namespace {
+#include "CsvRows.hpp"
 
-std::vector<std::map<std::string, std::string>> table(const std::string& file) {
-  std::ifstream in(file);
-  std::vector<std::string> names;
-  std::vector<std::map<std::string, std::string>> rows;
-  for (std::string line; std::getline(in, line);) {
-    std::vector<std::string> cells;
-    std::istringstream stream(line);
-    for (std::string cell; std::getline(stream, cell, ',');) cells.push_back(cell);
-    if (names.empty()) {
-      names = cells;
-      continue;
-    }
-    EXPECT_EQ(cells.size(), names.size()) << line;
-    auto& row = rows.emplace_back();
-    for (std::size_t i = 0; i < names.size() && i < cells.size(); ++i) row[names[i]] = cells[i];
-  }
-  return rows;
-}
+namespace {
 
 TEST(BenchScaling, WritesTheTable) {
   const std::string csv = testing::TempDir() + "bench_scaling_test.csv";
@@ -37,7 +17,7 @@ TEST(BenchScaling, WritesTheTable) {
   const std::string command = std::string(ATRAPOS_BENCH_SCALING) +
                               " --sizes 1000 3000 --threads 1 --steps 1 --csv " + csv + " > /dev/null";
   ASSERT_EQ(std::system(command.c_str()), 0);
-  const auto rows = table(csv);
+  const auto rows = atrapos::bench::csvRows(csv);
   ASSERT_EQ(rows.size(), 4u);
   for (auto row : rows) {
     const auto number = [&](const char* name) { return std::stod(row.at(name)); };
