@@ -49,7 +49,7 @@ function(atrapos_test name)
     set(arg_LABELS unit)
   endif()
   if(NOT arg_TIMEOUT)
-    set(arg_TIMEOUT 300)
+    set(arg_TIMEOUT 900)
   endif()
   if(arg_RANKS)
     list(APPEND arg_LABELS mpi)
@@ -59,7 +59,7 @@ function(atrapos_test name)
       if(numbers GREATER 1)
         set(test ${name}_np${ranks})
       endif()
-      add_test(NAME ${test} COMMAND ${MPIEXEC_EXECUTABLE} --oversubscribe ${MPIEXEC_NUMPROC_FLAG} ${ranks}
+      add_test(NAME ${test} COMMAND ${MPIEXEC_EXECUTABLE} --oversubscribe --bind-to none ${MPIEXEC_NUMPROC_FLAG} ${ranks}
         $<TARGET_FILE:${name}>)
       set_tests_properties(${test} PROPERTIES PROCESSORS ${ranks})
       list(APPEND tests ${test})
@@ -69,7 +69,7 @@ function(atrapos_test name)
     set(tests ${name})
   endif()
   set_tests_properties(${tests} PROPERTIES LABELS "${arg_LABELS}" TIMEOUT ${arg_TIMEOUT}
-    ENVIRONMENT "OMPI_ALLOW_RUN_AS_ROOT=1;OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1;OMP_PROC_BIND=false;${arg_ENVIRONMENT}")
+    ENVIRONMENT "OMPI_ALLOW_RUN_AS_ROOT=1;OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1;OMPI_MCA_mpi_yield_when_idle=1;OMP_PROC_BIND=false;${arg_ENVIRONMENT}")
 endfunction()
 
 # The distribution's GoogleTest. A Trilinos prefix may carry headers of its own copy, which would

@@ -6,8 +6,11 @@
 
 #include "Memory.hpp"
 #include "MeshCommand.hpp"
+#include "Ranks.hpp"
 #include "RunSettings.hpp"
 #include "SceneCase.hpp"
+#include "Threads.hpp"
+#include "atrapos/linear/Choice.hpp"
 
 namespace atrapos {
 namespace {
@@ -45,12 +48,13 @@ void printCheck(Scene& scene, std::ostream& out) {
           "does not\n",
           contact.name, contact.attracted);
   }
+  if (ranks::count() > 1) out << fmt::format("# ranks     {}\n", threads::describe(ranks::communicator()));
   SceneCase pathCase(scene);
   const auto solver = tangentSolver(pathCase);
   const MemoryEstimate memory =
-      estimateMemory(problem, pathCase.start(), scene.deck().path, *solver,
-                     static_cast<double>(problem.historyBytes(historyOrder(scene.deck().path))));
-  for (const std::string& line : describe(memory, machineMemory())) out << "# " << line << '\n';
+      estimateMemory(problem, pathCase.start(), scene.deck().path, *solver, pathCase.historyBytes());
+  if (const std::string why = linear::choice(*solver); !why.empty()) out << "# solver    " << why << '\n';
+  for (const std::string& line : describe(memory, allMachines())) out << "# " << line << '\n';
 }
 
 void printCheck(const ModelCase& model, std::ostream& out) {

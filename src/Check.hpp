@@ -7,7 +7,7 @@
 
 namespace atrapos {
 
-/// What would be solved: effective deck values, sizes, contact gaps, memory.
+/// What would be solved: effective deck values, sizes, contact gaps, memory of all ranks. Collective.
 void printCheck(Scene& scene, std::ostream& out);
 
 /// The same for a model problem.

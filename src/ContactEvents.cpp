@@ -7,6 +7,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "atrapos/fem/EventTerm.hpp"
 #include "atrapos/taylor/Implicit.hpp"
 
 namespace atrapos {
@@ -109,12 +110,12 @@ int nearestNode(const fem::PointSet& points, int point, int numMeshNodes) {
 
 }  // namespace
 
-ContactEvents::ContactEvents(const Scene& scene, const std::string& file)
+ContactEvents::ContactEvents(const Scene& scene, const std::string& file, bool append)
     : scene_(scene),
-      table_(file, "step,branch,path_length,load_factor,contact,event,point,node,x,y,z,force") {}
+      table_(file, "step,branch,path_length,load_factor,contact,event,point,node,x,y,z,force", append) {}
 
 void ContactEvents::onStep(int branch, int step, double pathLengthStart, double length,
-                           const path::Series& series) {
+                           const path::Series& series, const std::vector<int>& changes) {
   constexpr int samples = 16;
   if (branch != branch_) closed_.clear();
   branch_ = branch;
@@ -125,6 +126,10 @@ void ContactEvents::onStep(int branch, int step, double pathLengthStart, double 
   std::vector<ContactEvent> events;
   for (std::size_t c = 0; c < scene_.contacts().size(); ++c) {
     const ContactPoints& contact = scene_.contacts()[c];
+    if (contact.hardFaces) {
+      findCorners(c, series, length, changes, events);
+      continue;
+    }
     closed_[c].resize(contact.count);
     int number = -1;
     for (std::size_t t = 0; t < contact.points.size(); ++t)
@@ -176,6 +181,52 @@ void ContactEvents::onStep(int branch, int step, double pathLengthStart, double 
                               e.place[2], e.force));
   }
   count_ += static_cast<int>(events.size());
+}
+
+void ContactEvents::findCorners(std::size_t c, const path::Series& series, double length,
+                                const std::vector<int>& changes, std::vector<ContactEvent>& events) const {
+  if (changes.empty()) return;
+  const ContactPoints& contact = scene_.contacts()[c];
+  const fem::FeProblem& problem = scene_.problem();
+  path::Vector state(problem.map());
+  const double lambda = series.evaluate(length, state);
+  const auto u = fem::FeProblem::values(state);
+  int index = 0;  // of the term's first event function
+  for (int i = 0; i < contact.terms[0]; ++i)
+    if (const auto* other = dynamic_cast<const fem::EventTerm*>(&problem.term(i)))
+      index += other->eventCount();
+  int number = 0;  // of the term's first corner
+  for (std::size_t t = 0; t < contact.terms.size(); ++t) {
+    const auto& term = dynamic_cast<const fem::EventTerm&>(problem.term(contact.terms[t]));
+    const std::vector<int> active = term.conditions();
+    // Behind the nodes of a face stand those of its corners' multipliers, numbered as the conditions are.
+    const int N = contact.points[t].nodesPerEntity, all = term.nodesPerEntity();
+    int least = problem.model().numNodes;
+    for (int e = 0; e < term.numEntities(); ++e)
+      for (int m = N; m < all; ++m) least = std::min(least, term.nodes()[e * all + m]);
+    std::vector<int> corner(active.size());
+    for (int e = 0; e < term.numEntities(); ++e)
+      for (int m = N; m < all; ++m) corner[term.nodes()[e * all + m] - least] = term.nodes()[e * all + m - N];
+    const int count = static_cast<int>(active.size());
+    for (const int change : changes) {
+      const int i = change - index;
+      if (i < 0 || i >= count) continue;
+      ContactEvent event;
+      event.a = length;
+      event.loadFactor = lambda;
+      event.closes = active[i] == 0;
+      event.contact = static_cast<int>(c);
+      event.point = number + i;
+      event.node = corner[i];
+      for (int d = 0; d < 3; ++d) {
+        const std::size_t dof = 3 * static_cast<std::size_t>(corner[i]) + d;
+        event.place[d] = scene_.mesh().coordinates[dof] + u[dof];
+      }
+      events.push_back(event);
+    }
+    index += count;
+    number += count;
+  }
 }
 
 }  // namespace atrapos

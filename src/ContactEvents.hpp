@@ -16,8 +16,8 @@ struct ContactEvent {
   double loadFactor = 0;
   bool closes = false;
   int contact = 0;              ///< of Scene::contacts
-  int point = 0;                ///< among the contact's points, from 0
-  int node = 0;                 ///< that of the point, or the nearest one of its face, from 0
+  int point = 0;                ///< among the contact's points, or corners, from 0
+  int node = 0;                 ///< that of the point or corner, or the nearest one of its face, from 0
   double place[3] = {0, 0, 0};  ///< where the point is then
   double force = 0;             ///< weight times pressure there
 };
@@ -26,18 +26,23 @@ struct ContactEvent {
 ///
 /// The gap of a point is projected at 17 places of the step; between two with different signs its root is
 /// found on the series to rounding. Two events of one point within a sixteenth of a step are not seen. Points
-/// whose way in the step is shorter than their distance from closing are passed over.
+/// whose way in the step is shorter than their distance from closing are passed over. Corners of hard contact
+/// on faces close and open at the ends of steps, where the set of active ones changes.
 class ContactEvents final : public StepWatch {
  public:
   /// Throws std::runtime_error where the file cannot be written.
-  ContactEvents(const Scene& scene, const std::string& file);
+  /// `append`: goes on with the file.
+  ContactEvents(const Scene& scene, const std::string& file, bool append = false);
 
-  void onStep(int branch, int step, double pathLengthStart, double length,
-              const path::Series& series) override;
-  void copyFrom(const std::string& file, int last) override { table_.copyFrom(file, 0, last); }
+  void onStep(int branch, int step, double pathLengthStart, double length, const path::Series& series,
+              const std::vector<int>& changes) override;
+  void copyFrom(const std::string& file, const RestartPlace& last) override { table_.copyFrom(file, last); }
   int count() const override { return count_; }
 
  private:
+  void findCorners(std::size_t c, const path::Series& series, double length, const std::vector<int>& changes,
+                   std::vector<ContactEvent>& events) const;
+
   const Scene& scene_;
   Table table_;
   int branch_ = 0;

@@ -7,6 +7,9 @@
 #include <algorithm>
 #include <fstream>
 
+#include "Ranks.hpp"
+#include "Threads.hpp"
+
 namespace atrapos {
 namespace {
 
@@ -44,6 +47,17 @@ MachineMemory machineMemory() {
   return memory;
 }
 
+ResidentMemory residentOfAll() {
+  const ResidentMemory own = residentMemory();
+  return {ranks::sum(own.now), ranks::sum(own.peak)};
+}
+
+MachineMemory allMachines() {
+  const MachineMemory here = machineMemory();
+  const double share = 1.0 / threads::machine(ranks::communicator()).ranks;
+  return {ranks::sum(share * here.total), ranks::sum(share * here.available)};
+}
+
 int historyOrder(const deck::Path& path) {
   constexpr int mostOfAuto = 40;
   return !path.series() ? 0 : path.autoOrder ? mostOfAuto : path.order;
@@ -65,7 +79,7 @@ MemoryEstimate estimateMemory(path::Problem& problem, const path::State& start, 
   estimate.matrix = entries * (sizeof(double) + sizeof(linear::LocalIndex)) + rows * sizeof(std::size_t);
   estimate.parts.push_back(
       {"set up", fmt::format("program, mesh, elements, matrix ({} of it)", inBytes(estimate.matrix)),
-       residentMemory().now});
+       residentOfAll().now});
   solver.analyze(K);
   const auto factor = linear::estimate(solver);
   estimate.parts.push_back({"factor",
@@ -82,7 +96,7 @@ MemoryEstimate estimateMemory(path::Problem& problem, const path::State& start, 
   } else {
     estimate.parts.push_back({"points", "cubic, states and corrections, 16 vectors", 16 * vector});
   }
-  estimate.analysisPeak = residentMemory().peak;
+  estimate.analysisPeak = residentOfAll().peak;
   return estimate;
 }
 

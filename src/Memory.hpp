@@ -15,6 +15,8 @@ struct ResidentMemory {
   double now = 0, peak = 0;
 };
 ResidentMemory residentMemory();
+/// The same of all ranks together. Collective.
+ResidentMemory residentOfAll();
 
 /// Bytes of the machine, or of the control group that the process is in where that has fewer: all, and those
 /// that are free for it now (what it has itself not counted); 0 where the system does not tell.
@@ -22,6 +24,8 @@ struct MachineMemory {
   double total = 0, available = 0;
 };
 MachineMemory machineMemory();
+/// The same of all machines that ranks run on. Collective.
+MachineMemory allMachines();
 
 /// The highest order whose histories a run may need.
 int historyOrder(const deck::Path& path);
@@ -33,7 +37,7 @@ struct MemoryEstimate {
     double bytes = 0;
   };
   std::vector<Part> parts;
-  double analysisPeak = 0;  ///< most that the process had during the estimate, analysis included
+  double analysisPeak = 0;  ///< most that the processes had during the estimate, analysis included
   double matrix = 0;        ///< of the matrix, which is among what is there already
 
   /// The larger of the parts' sum and of what the analysis takes in passing.
@@ -42,7 +46,7 @@ struct MemoryEstimate {
 
 /// Assembles the tangent at rest and lets the solver analyse it: the factor by that analysis, histories as
 /// the terms will allocate them, what is there already as the system counts it. `historyBytes`: of the
-/// path's order.
+/// path's order. All sizes are those of all ranks together. Collective.
 MemoryEstimate estimateMemory(path::Problem& problem, const path::State& start, const deck::Path& path,
                               linear::TangentSolver& solver, double historyBytes);
 

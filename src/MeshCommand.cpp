@@ -2,10 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
 #include <stdexcept>
 
-#include "atrapos/exodus/MeshFile.hpp"
 #include "atrapos/fem/StructuredMesh.hpp"
 #include "atrapos/fem/StructuredShell.hpp"
 
@@ -36,18 +34,6 @@ fem::Mesh generateMesh(const deck::Deck& deck) {
     return mesh;
   } catch (const std::invalid_argument& e) {
     throw deck::DeckError(fmt::format("{}: mesh/generate: {}", deck.file, e.what()));
-  }
-}
-
-fem::Mesh readDeckMesh(const deck::Deck& deck) {
-  if (!std::filesystem::exists(deck.mesh.path))
-    throw deck::DeckError(
-        fmt::format("{}: mesh/file: {} does not exist{}", deck.file, deck.mesh.path,
-                    deck.mesh.generate ? fmt::format("; `atrapos mesh {}` makes it", deck.file) : ""));
-  try {
-    return exodus::readMesh(deck.mesh.path);
-  } catch (const exodus::Error& e) {
-    throw deck::DeckError(fmt::format("{}: mesh/file: {}", deck.file, e.what()));
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "DeckMesh.hpp"
 #include "atrapos/fem/Mesh.hpp"
 #include "deck/Deck.hpp"
 
@@ -9,9 +10,6 @@ namespace atrapos {
 
 /// The mesh that the deck's mesh/generate describes. Throws deck::DeckError where it has none or it is wrong.
 fem::Mesh generateMesh(const deck::Deck& deck);
-
-/// Reads the deck's mesh file; a missing file is told how to make it. Throws deck::DeckError.
-fem::Mesh readDeckMesh(const deck::Deck& deck);
 
 /// "1 234 nodes, 80 HEX20 in block 'strip', ..." for the user.
 std::string describeMesh(const fem::Mesh& mesh);

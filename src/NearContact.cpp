@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "atrapos/fem/PointPieces.hpp"
+
 namespace atrapos {
 namespace {
 
@@ -63,6 +65,7 @@ void NearContact::setPositions(const std::vector<int>& positions) {
 /// The term of the entities that are carried.
 void NearContact::make() {
   near_.reset();
+  carriedPoints_.clear();
   const std::size_t N = points_.nodesPerEntity, Q = points_.pointsPerEntity;
   std::vector<int> carried;
   std::vector<double> gaps;
@@ -70,6 +73,7 @@ void NearContact::make() {
   for (std::size_t e = 0; e < carried_.size(); ++e) {
     if (!carried_[e]) continue;
     carried.push_back(static_cast<int>(e));
+    for (std::size_t q = 0; q < Q; ++q) carriedPoints_.push_back(static_cast<int>(e * Q + q));
     appendRows(referenceGaps_, e, Q, gaps);
     appendRows(positions_, e, N * N, positions);
   }
@@ -112,16 +116,33 @@ void NearContact::grow(const fem::ConstField& u, double lambda) {
   make();
 }
 
+/// The law's pieces are those of all points.
+void NearContact::lendPieces() const {
+  if (all_->pieces()) all_->pieces()->lend(carriedPoints_, *near_->pieces());
+}
+
+std::vector<double> NearContact::places(const fem::ConstField& u, double lambda) const {
+  return all_->places(u, lambda);
+}
+
 double NearContact::addResidual(const fem::ConstField& u, double lambda, const fem::Field& f) const {
-  return near_ ? near_->addResidual(u, lambda, f) : 0;
+  if (!near_) return 0;
+  lendPieces();
+  return near_->addResidual(u, lambda, f);
 }
 
 void NearContact::addTangent(const fem::ConstField& u, double lambda, const fem::TangentSink& sink) const {
-  if (near_) near_->addTangent(u, lambda, sink);
+  if (!near_) return;
+  lendPieces();
+  near_->addTangent(u, lambda, sink);
 }
 
 void NearContact::beginSeries(const fem::ConstField& u, double lambda, int maxOrder) {
-  if (near_) near_->beginSeries(u, lambda, maxOrder);
+  if (near_) {
+    lendPieces();
+    near_->beginSeries(u, lambda, maxOrder);
+  }
+  if (pieces()) pieces()->beginSeriesOf(carriedPoints_, near_ ? near_->pieces() : nullptr);
 }
 
 void NearContact::addOrder(int k, const fem::ConstField& last, double lastLambda, const fem::Field& f) {

@@ -39,6 +39,9 @@ class NearContact final : public fem::Term {
   void addTangent(const fem::ConstField& u, double lambda, const fem::TangentSink& sink) const override;
   void beginSeries(const fem::ConstField& u, double lambda, int maxOrder) override;
   void addOrder(int k, const fem::ConstField& last, double lastLambda, const fem::Field& f) override;
+  /// Of all points; those that carry no law are on no piece of a series.
+  fem::PointPieces* pieces() override { return all_->pieces(); }
+  std::vector<double> places(const fem::ConstField& u, double lambda) const override;
   /// Of all points, with the law's pressure also where it is not carried.
   fem::PointValues observe(const fem::ConstField& u, double lambda) const override;
   std::size_t historyBytes(int maxOrder) const override;
@@ -46,6 +49,7 @@ class NearContact final : public fem::Term {
  private:
   bool search(const fem::ConstField& u, double lambda, std::vector<char>* joining) const;
   void make();
+  void lendPieces() const;
   fem::PointSet pointsOf(const std::vector<int>& entities) const;
 
   const RigidTool& tool_;
@@ -55,6 +59,7 @@ class NearContact final : public fem::Term {
   std::unique_ptr<fem::Term> all_;
   std::vector<int> positions_;
   std::vector<char> carried_;        ///< [entity]
+  std::vector<int> carriedPoints_;   ///< numbers of the points of near_, in its order
   std::unique_ptr<fem::Term> near_;  ///< null: none
 };
 

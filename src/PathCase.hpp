@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "RestartRecord.hpp"
 #include "atrapos/linear/TangentSolver.hpp"
 #include "atrapos/path/Monitor.hpp"
 #include "atrapos/path/Options.hpp"
@@ -31,17 +32,22 @@ class FieldFile {
   /// Takes over the first `count` states of an earlier file. Throws std::invalid_argument, one line, where it
   /// holds others than this one.
   virtual void copyFrom(const std::string& file, int count) = 0;
+  /// Gives the file another name, under which it goes on.
+  virtual void rename(const std::string& file) = 0;
+  /// Removes the file, which is not written again.
+  virtual void discard() = 0;
 };
 
 /// Looks at every step for what belongs to one kind of case, and writes it to a table of its own.
 class StepWatch {
  public:
   virtual ~StepWatch() = default;
-  virtual void onStep(int branch, int step, double pathLengthStart, double length,
-                      const path::Series& series) = 0;
-  /// Takes over what an earlier run wrote up to step `last`. Throws std::invalid_argument, one line, where
-  /// that was another table.
-  virtual void copyFrom(const std::string& file, int last) = 0;
+  /// The problem is that of the step; `events`: what changes it at the end (path::StepReport).
+  virtual void onStep(int branch, int step, double pathLengthStart, double length, const path::Series& series,
+                      const std::vector<int>& events) = 0;
+  /// Takes over what an earlier run wrote up to the step `last`. Throws std::invalid_argument, one line,
+  /// where that was another table.
+  virtual void copyFrom(const std::string& file, const RestartPlace& last) = 0;
   virtual int count() const = 0;  ///< of what was found
 };
 
@@ -68,8 +74,16 @@ class PathCase {
   virtual int activeContacts(const path::Vector& /*u*/, double /*lambda*/) const { return 0; }
   /// Null where there are no fields to write.
   virtual std::unique_ptr<FieldFile> makeFieldFile(const std::string& /*file*/) const { return nullptr; }
-  /// Null where there is nothing to watch.
-  virtual std::unique_ptr<StepWatch> makeWatch(const std::string& /*file*/) const { return nullptr; }
+  /// Null where there is nothing to watch. `append`: goes on with the file.
+  virtual std::unique_ptr<StepWatch> makeWatch(const std::string& /*file*/, bool /*append*/) const {
+    return nullptr;
+  }
+  /// The same with another undeformed body: its nodes moved by the displacements of `shape`, a vector on the
+  /// problem's map, times such a number that the largest one is `size`. Directors of shells are normal to the
+  /// moved middle surface. Null where there is no body.
+  virtual std::unique_ptr<PathCase> moved(const path::Vector& /*shape*/, double /*size*/) const {
+    return nullptr;
+  }
   /// Lines for the user before the first step: what was chosen for him.
   virtual std::vector<std::string> remarks() const { return {}; }
   /// Whether the step leads where the problem has to be another one, as it is from now on: the step has to be
@@ -83,6 +97,8 @@ class PathCase {
                              nlohmann::ordered_json& /*summary*/) {
     return {};
   }
+  /// Bytes of the histories that a run of this deck will keep; 0: few.
+  virtual double historyBytes() { return 0; }
   /// Sizes for summary.json: name -> number.
   virtual std::vector<std::pair<std::string, long long>> sizes() const = 0;
 };

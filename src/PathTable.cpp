@@ -2,17 +2,18 @@
 
 #include <fmt/format.h>
 
-#include <cstdlib>
+#include <algorithm>
+#include <sstream>
 #include <stdexcept>
 
 #include "Ranks.hpp"
 
 namespace atrapos {
 
-Table::Table(const std::string& file, const std::string& header)
+Table::Table(const std::string& file, const std::string& header, bool append)
     : file_(file), header_(header), writes_(ranks::isFirst()) {
-  if (writes_) out_.open(file, std::ios::trunc);
-  append(header);
+  if (writes_) out_.open(file, append ? std::ios::app : std::ios::trunc);
+  if (!append) this->append(header);
 }
 
 void Table::append(const std::string& row) {
@@ -22,7 +23,18 @@ void Table::append(const std::string& row) {
   if (!out_) throw std::runtime_error(fmt::format("{}: cannot be written (disk full?)", file_));
 }
 
-void Table::copyFrom(const std::string& file, int column, int last) {
+namespace {
+
+std::vector<std::string> wordsOf(const std::string& row) {
+  std::vector<std::string> words;
+  std::istringstream in(row);
+  for (std::string word; std::getline(in, word, ',');) words.push_back(word);
+  return words;
+}
+
+}  // namespace
+
+void Table::copyFrom(const std::string& file, const RestartPlace& last) {
   if (!writes_) return;
   std::ifstream in(file);
   std::string line;
@@ -30,10 +42,16 @@ void Table::copyFrom(const std::string& file, int column, int last) {
   if (line != header_)
     throw std::invalid_argument(
         fmt::format("{}: has the columns {}, the deck asks for {}", file, line, header_));
+  const auto names = wordsOf(header_);
+  const auto column = [&](const char* name) {
+    return std::find(names.begin(), names.end(), name) - names.begin();
+  };
+  const auto step = column("step"), branch = column("branch");
   while (std::getline(in, line)) {
-    std::size_t begin = 0;
-    for (int c = 0; c < column; ++c) begin = line.find(',', begin) + 1;
-    if (in.eof() || std::atoi(line.c_str() + begin) > last) break;  // without its end: a row cut short
+    if (in.eof()) break;  // without its end: a row cut short
+    const auto words = wordsOf(line);
+    const int onBranch = std::stoi(words.at(branch));
+    if (onBranch > last.branch || (onBranch == last.branch && std::stoi(words.at(step)) > last.step)) break;
     append(line);
   }
 }

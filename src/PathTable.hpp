@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "atrapos/path/Report.hpp"
+#include "RestartRecord.hpp"
 
 namespace atrapos {
 
@@ -13,13 +13,14 @@ namespace atrapos {
 class Table {
  public:
   /// Throws std::runtime_error where the file cannot be written.
-  Table(const std::string& file, const std::string& header);
+  /// `append`: goes on with the table of that header which is there.
+  Table(const std::string& file, const std::string& header, bool append = false);
 
   void append(const std::string& row);
 
-  /// Takes over the rows of an earlier table whose column `column` is at most `last`. Throws
-  /// std::invalid_argument, one line, where that table has another header.
-  void copyFrom(const std::string& file, int column, int last);
+  /// Takes over the rows of an earlier table up to a step of a branch, which are in its columns `step` and
+  /// `branch`. Throws std::invalid_argument, one line, where that table has another header.
+  void copyFrom(const std::string& file, const RestartPlace& last);
 
  private:
   std::string file_, header_;
@@ -46,7 +47,7 @@ struct PointRow {
   std::string kind;
   int negativeChange = 0, nullity = 0;
   double uncertainty = 0;
-  std::vector<double> monitors;
+  std::vector<double> monitors{};
 };
 std::string pointHeader(const std::vector<std::string>& monitors);
 std::string text(const PointRow& row);

@@ -13,34 +13,32 @@
 
 namespace atrapos {
 
-/// An earlier run that goes on.
-struct Continued {
-  std::string directory;  ///< of its results
-  path::Start from;
-};
-
 /// Writes what a run finds, step by step: path.csv, points.csv, events.csv, restart.bin, results.exo and
 /// results_branch<n>.exo; one line a step for the user. Every finished step is on disk before the next one
-/// begins, its restart record last. On several ranks all call it and the first one writes.
+/// begins, its restart record last. On several ranks all call it and the first one writes, but for
+/// result files in parts (output/parts).
 class Recorder final : public path::BranchObserver {
  public:
-  /// `progress` may be null. Throws std::invalid_argument where the continued run does not fit the deck.
-  Recorder(PathCase& pathCase, std::string directory, std::ostream* progress,
+  /// `progress` may be null; `problem`: whose path is under way at the beginning, that of the case or an
+  /// imperfect one. Throws std::invalid_argument where the continued run does not fit the deck.
+  Recorder(PathCase& pathCase, path::Problem& problem, std::string directory, std::ostream* progress,
            const std::optional<Continued>& continued);
   ~Recorder() override;
 
   void onBranch(const path::BranchDiagram& diagram, int branch) override;
-  /// An imperfect path as another branch; `problem`, whose residual counts, must outlive its steps.
-  void beginImperfect(path::Problem& problem, int branch, double size);
+  /// An imperfect path as another branch; the case and the problem, whose residual counts, must outlive its
+  /// steps.
+  void beginImperfect(PathCase& pathCase, path::Problem& problem, int branch, double size);
   /// False after SIGINT or SIGTERM.
   bool onStep(int branch, const path::StepReport& report, const path::Series& series) override;
+  void onProgress(const path::BranchProgress& progress) override;
 
   /// The start of the path under way where no step was made.
   void finish(const path::State& start);
 
   int limitPoints() const { return limitPoints_; }
   int unexplained() const { return unexplained_; }
-  int contactEvents() const { return watch_ ? watch_->count() : 0; }
+  int contactEvents() const { return watched_ + (watch_ ? watch_->count() : 0); }
   double worstResidual() const { return worstResidual_; }  ///< over all output points
   double outputSeconds() const { return outputSeconds_; }
   double seconds() const;
@@ -55,8 +53,8 @@ class Recorder final : public path::BranchObserver {
   void printHead() const;
   void printStep(const path::StepReport& report) const;
 
-  PathCase& case_;
-  path::Problem* problem_;  ///< under way: the case's, or an imperfect one
+  PathCase* case_;          ///< under way
+  path::Problem* problem_;  ///< its own, or an imperfect one
   std::vector<path::Monitor> functionals_;
   std::string directory_;
   std::ostream* progress_;
@@ -69,6 +67,7 @@ class Recorder final : public path::BranchObserver {
   int branch_ = 0;
   bool started_ = false;  ///< the start of the branch under way is written
   int limitPoints_ = 0, unexplained_ = 0;
+  int watched_ = 0;  ///< by watches of other cases
   double worstResidual_ = 0, outputSeconds_ = 0;
 };
 

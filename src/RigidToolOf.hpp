@@ -88,6 +88,14 @@ class RigidToolOf final : public RigidTool {
       contact::addHardContact(model, points, tool_);
   }
 
+  void addHardFaces(fem::FeModel& model, const fem::PointSet& faces) const override {
+    if constexpr (patches)
+      throw std::invalid_argument(
+          "hard contact with tools of type patches acts at nodes; expected points: nodes beside it");
+    else
+      contact::addHardFaceContact(model, faces, tool_);
+  }
+
   void addCurve(fem::FeModel& model, const contact::RegularisedPressure& pressure,
                 const fem::PointSet& points, const std::vector<double>& referenceGaps) const override {
     if constexpr (patches)

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <ostream>
 
+#include "FieldFiles.hpp"
 #include "Files.hpp"
 #include "Imperfections.hpp"
 #include "Interrupt.hpp"
@@ -24,28 +26,31 @@ namespace {
 /// A path without branches as a diagram of one.
 class Single final : public path::Observer {
  public:
-  Single(PathCase& pathCase, Recorder& recorder, path::BranchDiagram& diagram)
-      : case_(pathCase), recorder_(recorder), diagram_(diagram) {}
+  Single(PathCase& pathCase, Recorder& recorder, path::BranchProgress& progress)
+      : case_(pathCase), recorder_(recorder), progress_(progress) {}
 
   /// Follows the path; where the problem has become another one on a step, again from the step's start.
   template <class Follower>
-  path::Outcome follow(Follower& follower, const path::Start& start) {
-    next_ = start;
+  void follow(Follower& follower) {
     path::Outcome total;
     do {
       changed_ = false;
-      const path::Outcome part = follower.runFrom(next_, *this);
+      const path::Start from = *progress_.path;
+      const path::Outcome part = follower.runFrom(from, *this);
       total = total.final.u ? sum(total, part) : part;
     } while (changed_);
-    return total;
+    progress_.diagram.branches[0].outcome = total;
   }
 
   bool onStep(const path::StepReport& report, const path::Series& series) override {
     changed_ = case_.changedOn(report.length, series);
     if (changed_) return false;
-    next_ = report.next;
-    for (const auto& point : report.criticalPoints) diagram_.points.push_back({point, 0, report.step});
-    return recorder_.onStep(0, report, series);
+    auto& points = progress_.diagram.points;
+    for (const auto& point : report.criticalPoints) points.push_back({point, 0, report.step});
+    progress_.path = report.next;
+    const bool more = recorder_.onStep(0, report, series);
+    recorder_.onProgress(progress_);
+    return more;
   }
 
  private:
@@ -75,36 +80,40 @@ class Single final : public path::Observer {
 
   PathCase& case_;
   Recorder& recorder_;
-  path::BranchDiagram& diagram_;
-  path::Start next_;
+  path::BranchProgress& progress_;
   bool changed_ = false;
 };
 
-bool isBranchFile(const std::string& name) {
-  return name.rfind("results_branch", 0) == 0 && name.size() > 4 && name.substr(name.size() - 4) == ".exo";
-}
-
-/// A run that is killed must not leave an earlier run's files beside its own.
-void removeStale(const std::string& directory) {
+/// A run that is killed must not leave an earlier run's files beside its own, those of the branches up to
+/// `last` excepted.
+void removeStale(const std::string& directory, int last, const deck::Deck& deck) {
   if (!ranks::isFirst()) return;
   for (const char* old : {"summary.json", "branches.csv", "path.png", "sharpen.csv"})
     std::filesystem::remove(directory + "/" + old);
-  std::vector<std::filesystem::path> branches;
-  for (const auto& entry : std::filesystem::directory_iterator(directory))
-    if (isBranchFile(entry.path().filename().string())) branches.push_back(entry.path());
-  for (const auto& file : branches) std::filesystem::remove(file);
+  removeOtherFields(directory, last, deck);
 }
 
 std::optional<Continued> continuedRun(PathCase& pathCase, const RunOptions& options) {
   if (options.restart.empty()) return {};
-  if (pathCase.deck().path.branches != path::Follow::none)
-    throw std::invalid_argument("path/branches: a run with branches cannot be restarted; expected none");
-  if (!pathCase.deck().path.imperfections.empty())
-    throw std::invalid_argument("path/imperfections: a run with imperfect paths cannot be restarted");
-  Continued continued{options.restart, readRestart(options.restart + "/restart.bin", options.fromStep,
-                                                   pathCase.problem().map())};
-  if (!pathCase.deck().path.autoOrder)
-    continued.from.order = 0;  // that of the deck, which may be another one
+  const deck::Path& settings = pathCase.deck().path;
+  Continued continued = readRestart(options.restart, options.from, pathCase.problem().map());
+  const bool tree = settings.branches != path::Follow::none;
+  if (continued.tree != tree)
+    throw std::invalid_argument(fmt::format("path/branches: the run in {} follows {}branches; expected {}",
+                                            options.restart, continued.tree ? "" : "no ",
+                                            continued.tree ? "all or stable" : "none"));
+  const auto& branches = continued.progress.diagram.branches;
+  std::size_t imperfect = 0;
+  for (const path::Branch& b : branches)
+    if (b.imperfection != 0) {
+      const auto& asked = settings.imperfections;
+      if (imperfect >= asked.size() || asked[imperfect] != b.imperfection)
+        throw std::invalid_argument(fmt::format("path/imperfections: the run in {} has {:g} in place {}",
+                                                options.restart, b.imperfection, imperfect + 1));
+      ++imperfect;
+    }
+  if (continued.progress.path && !settings.autoOrder)
+    continued.progress.path->order = 0;  // that of the deck, which may be another one
   return continued;
 }
 
@@ -136,7 +145,7 @@ RunResult resultOf(const path::BranchDiagram& diagram) {
 RunResult runPath(PathCase& pathCase, const RunOptions& options) {
   const deck::Deck& deck = pathCase.deck();
   path::Problem& problem = pathCase.problem();
-  const auto solver = tangentSolver(pathCase);
+  const auto solver = tangentSolver(pathCase, options.progress);
   const path::Options settings = pathOptions(pathCase);
   const path::Stops stops = pathCase.stops();
   const std::vector<int> conditions = problem.conditions();
@@ -144,49 +153,59 @@ RunResult runPath(PathCase& pathCase, const RunOptions& options) {
   path::BranchFollower tree(problem, *solver, settings, stops, branchOptions(deck.path));
   follower.watch(pathCase.functionals());
   tree.watch(pathCase.functionals());
-  const auto continued = continuedRun(pathCase, options);
+  auto continued = continuedRun(pathCase, options);
+  auto imperfect = continued ? imperfectUnderWay(pathCase, conditions, continued->progress) : nullptr;
   ranks::wait();  // all have read what the first one is going to replace
 
   prepareFolder(options.directory, {"path.csv", "points.csv", "events.csv", "branches.csv", "results.exo",
                                     "restart.bin", "sharpen.csv", "summary.json", "path.png"});
+  ranks::wait();  // the folder is there
   Interrupt interrupt;
-  Recorder recorder(pathCase, options.directory, options.progress, continued);
-  removeStale(options.directory);
+  Recorder recorder(imperfect ? imperfect->pathCase() : pathCase, imperfect ? imperfect->problem() : problem,
+                    options.directory, options.progress, continued);
+  removeStale(options.directory, continued ? continued->progress.current : 0, deck);
   const path::State start = pathCase.start();
-  path::BranchDiagram diagram;
-  if (deck.path.branches == path::Follow::none) {
-    diagram.branches.emplace_back();
-    diagram.branches[0].start = continued ? continued->from.state : start;
-    path::Start from;
-    from.state = start;
-    if (continued) from = continued->from;
-    Single single(pathCase, recorder, diagram);
-    if (deck.path.series()) {
-      diagram.branches[0].outcome = single.follow(follower, from);
-    } else {
-      path::NewtonFollower newton(problem, *solver, newtonOptions(pathCase), stops);
-      diagram.branches[0].outcome = single.follow(newton, from);
+  const std::optional<path::Start> behind = continued ? continued->progress.path : std::nullopt;
+  path::BranchProgress progress = continued ? continued->progress : path::BranchProgress(start);
+  if (progress.diagram.branches.back().imperfection == 0) {
+    if (deck.path.branches != path::Follow::none) {
+      tree.goOn(progress, recorder);
+    } else if (progress.path) {
+      Single single(pathCase, recorder, progress);
+      if (deck.path.series()) {
+        single.follow(follower);
+      } else {
+        path::NewtonFollower newton(problem, *solver, newtonOptions(pathCase), stops);
+        single.follow(newton);
+      }
+      if (!deck.path.imperfections.empty() && !Interrupt::came()) {
+        progress.path.reset();
+        recorder.onProgress(progress);
+      }
     }
-  } else {
-    diagram = tree.run(start, recorder);
+    recorder.finish(start);
   }
-  recorder.finish(start);
+  const path::BranchDiagram& diagram = progress.diagram;
   std::string trouble;
-  std::vector<double> imperfections;
   try {
-    followImperfect(pathCase, *solver, settings, conditions, recorder, diagram, imperfections);
+    followImperfect(pathCase, *solver, settings, conditions, std::move(imperfect), recorder, progress);
   } catch (const std::runtime_error& e) {
     trouble = e.what();  // what has been found stays
   }
 
-  auto summary = runSummary(pathCase, diagram, imperfections, *solver, recorder);
-  if (continued) summary["restarted_behind_step"] = continued->from.steps;
+  auto summary = runSummary(pathCase, diagram, *solver, recorder);
+  if (continued) {
+    const int branch = continued->progress.current;
+    summary["restarted_on_branch"] = branch;
+    summary["restarted_behind_step"] =
+        behind ? behind->steps : continued->progress.diagram.branches[branch].outcome.steps;
+  }
   std::string finished;
   const path::Outcome& first = diagram.branches[0].outcome;
   if (first.reason == path::EndReason::stopReached && !Interrupt::came())
     finished = pathCase.finish(first.final, settings, *solver, options.directory, summary);
   replaceFile(options.directory + "/summary.json", summary.dump(2) + "\n");
-  replaceFile(options.directory + "/branches.csv", branchTable(diagram, imperfections));
+  replaceFile(options.directory + "/branches.csv", branchTable(diagram));
   const std::string plot = plotPath(options.directory, deck.title, pathCase.monitorNames(),
                                     static_cast<int>(diagram.branches.size()));
   if (options.progress) {

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "PathCase.hpp"
+#include "RestartRecord.hpp"
 
 namespace atrapos {
 
@@ -12,7 +13,7 @@ struct RunOptions {
   std::string directory;             ///< where results go; made if missing
   std::ostream* progress = nullptr;  ///< one line a step; none where null
   std::string restart;               ///< folder with the results of a run that goes on; empty: a new run
-  std::optional<int> fromStep;       ///< where it goes on; empty: behind its last step
+  std::optional<RestartPlace> from;  ///< where it goes on; empty: behind all that it has finished
 };
 
 /// How a run ended.

@@ -1,5 +1,10 @@
 #include "RunSettings.hpp"
 
+#include <Tpetra_Map.hpp>
+#include <algorithm>
+#include <ostream>
+
+#include "Memory.hpp"
 #include "atrapos/linear/MakeTangentSolver.hpp"
 
 namespace atrapos {
@@ -33,11 +38,49 @@ path::NewtonOptions newtonOptions(const PathCase& pathCase) {
   return options;
 }
 
-std::unique_ptr<linear::TangentSolver> tangentSolver(PathCase& pathCase) {
+namespace {
+
+constexpr const char* uncounted =
+    "negative eigenvalues are not counted (-1 in path.csv) and no bifurcation points are looked for";
+
+/// Bytes that the deck allows, or that are free and not taken by histories and the two series.
+double solverMemory(PathCase& pathCase) {
+  const deck::Deck& deck = pathCase.deck();
+  if (deck.solver.memory) return 1e9 * *deck.solver.memory;
+  const double vector =
+      sizeof(double) * static_cast<double>(pathCase.problem().map()->getGlobalNumElements());
+  const double free = machineMemory().available;
+  if (!(free > 0)) return 0;  // the system does not tell
+  const double rest = free - pathCase.historyBytes() - 2 * (historyOrder(deck.path) + 1) * vector;
+  return std::max(rest, 1.0);
+}
+
+}  // namespace
+
+std::unique_ptr<linear::TangentSolver> tangentSolver(PathCase& pathCase, std::ostream* progress) {
+  using Type = deck::Solver::Type;
+  const deck::Deck& deck = pathCase.deck();
   linear::TangentSolverOptions options;
-  options.type = pathCase.deck().solver.spec();
+  options.type = deck.solver.spec();
   options.symmetric = pathCase.problem().symmetric();
-  return linear::makeTangentSolver(options);
+  if (deck.solver.preconditioner == deck::Solver::Preconditioner::Ilu)
+    options.krylov.preconditioner = linear::KrylovOptions::Preconditioner::ilu;
+  options.krylov.lowRank = deck.solver.lowRank.value_or(0);
+  options.krylov.tolerance = krylovTolerance(deck.path.residual);
+  if (deck.solver.type == Type::Auto) {
+    options.memory = solverMemory(pathCase);
+    if (progress)
+      options.tell = [progress](const std::string& line) { *progress << "solver: " << line << '\n'; };
+  }
+  auto solver = linear::makeTangentSolver(options);
+  if (progress && (deck.solver.type == Type::Belos || deck.solver.type == Type::Amesos2))
+    *progress << "solver: " << solver->name() << ": " << uncounted << '\n';
+  return solver;
+}
+
+double krylovTolerance(double residualBound) {
+  constexpr double share = 1e-3;
+  return share * residualBound;
 }
 
 path::BranchOptions branchOptions(const deck::Path& path) {

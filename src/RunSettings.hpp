@@ -1,5 +1,6 @@
 #pragma once
 
+#include <iosfwd>
 #include <memory>
 
 #include "PathCase.hpp"
@@ -13,6 +14,12 @@ namespace atrapos {
 path::Options pathOptions(const PathCase& pathCase);
 path::NewtonOptions newtonOptions(const PathCase& pathCase);  ///< of decks whose method is one of Newton's
 path::BranchOptions branchOptions(const deck::Path& path);
-std::unique_ptr<linear::TangentSolver> tangentSolver(PathCase& pathCase);
+
+/// `progress`, where not null, gets a line on what was chosen and on what such a solver does not tell.
+std::unique_ptr<linear::TangentSolver> tangentSolver(PathCase& pathCase, std::ostream* progress = nullptr);
+
+/// Relative residual of iterative solves under which they do not show in the path's
+/// (docs/theory/tangent_solvers.md).
+double krylovTolerance(double residualBound);
 
 }  // namespace atrapos

@@ -9,6 +9,8 @@
 #include "Memory.hpp"
 #include "Ranks.hpp"
 #include "Version.hpp"
+#include "atrapos/linear/Choice.hpp"
+#include "atrapos/linear/Iterations.hpp"
 #include "deck/DeckTables.hpp"
 
 namespace atrapos {
@@ -49,8 +51,7 @@ nlohmann::ordered_json pointsOf(const PathCase& pathCase, const path::BranchDiag
   return list;
 }
 
-nlohmann::ordered_json branchesOf(const path::BranchDiagram& diagram,
-                                  const std::vector<double>& imperfections) {
+nlohmann::ordered_json branchesOf(const path::BranchDiagram& diagram) {
   auto list = nlohmann::ordered_json::array();
   for (std::size_t i = 0; i < diagram.branches.size(); ++i) {
     const path::Branch& b = diagram.branches[i];
@@ -61,7 +62,7 @@ nlohmann::ordered_json branchesOf(const path::BranchDiagram& diagram,
       json["load_direction"] = b.direction.lambda;
     }
     json["depth"] = b.depth;
-    if (imperfections[i] != 0) json["imperfection"] = imperfections[i];
+    if (b.imperfection != 0) json["imperfection"] = b.imperfection;
     json["end"] = path::toString(b.end);
     json["ended"] = path::toString(b.outcome.reason);
     json["why"] = b.outcome.text;
@@ -77,7 +78,6 @@ nlohmann::ordered_json branchesOf(const path::BranchDiagram& diagram,
 }  // namespace
 
 nlohmann::ordered_json runSummary(const PathCase& pathCase, const path::BranchDiagram& diagram,
-                                  const std::vector<double>& imperfections,
                                   const linear::TangentSolver& solver, const Recorder& recorder) {
   using path::Outcome;
   const Outcome& first = diagram.branches[0].outcome;
@@ -118,15 +118,18 @@ nlohmann::ordered_json runSummary(const PathCase& pathCase, const path::BranchDi
   json["bifurcation_points"] = diagram.points.size();
   json["unexplained_sign_changes"] = recorder.unexplained();
   json["points"] = pointsOf(pathCase, diagram);
-  json["branches"] = branchesOf(diagram, imperfections);
+  json["branches"] = branchesOf(diagram);
   json["branches_complete"] = diagram.complete;
   for (const auto& [name, size] : pathCase.sizes()) json[name] = size;
   if (deck.path.series()) json["contact_events"] = recorder.contactEvents();
   pathCase.summarize(json);
   json["solver"] = solver.name();
+  if (const std::string why = linear::choice(solver); !why.empty()) json["solver_choice"] = why;
+  if (const auto iterations = linear::iterations(solver))
+    json["iterations"] = {{"total", iterations->total}, {"most", iterations->most}};
   nlohmann::ordered_json memory;
   if (const auto factor = linear::spent(solver)) memory["factor"] = factor->bytes;
-  memory["peak"] = residentMemory().peak;
+  memory["peak"] = residentOfAll().peak;  // collective
   json["memory_bytes"] = memory;
   json["ranks"] = ranks::count();
   json["execution_space"] = Kokkos::DefaultExecutionSpace::name();
@@ -141,7 +144,7 @@ nlohmann::ordered_json runSummary(const PathCase& pathCase, const path::BranchDi
   return json;
 }
 
-std::string branchTable(const path::BranchDiagram& diagram, const std::vector<double>& imperfections) {
+std::string branchTable(const path::BranchDiagram& diagram) {
   std::string table =
       "branch,parent,depth,point,kind,load_factor,load_direction,steps,factorizations,end,ended,"
       "imperfection\n";
@@ -150,12 +153,12 @@ std::string branchTable(const path::BranchDiagram& diagram, const std::vector<do
     const bool first = b.parent < 0;
     const path::CriticalPoint* p = first ? nullptr : &diagram.points[b.point].point;
     table += fmt::format("{},{},{},{},{},{:.17g},{:.17g},{},{},{},{},{:g}\n", i, b.parent, b.depth, b.point,
-                         imperfections[i] != 0 ? "imperfect"
-                         : first               ? "start"
-                                               : path::toString(p->kind),
+                         b.imperfection != 0 ? "imperfect"
+                         : first             ? "start"
+                                             : path::toString(p->kind),
                          first ? b.start.lambda : p->state.lambda, first ? 0.0 : b.direction.lambda,
                          b.outcome.steps, b.outcome.factorizations, path::toString(b.end),
-                         path::toString(b.outcome.reason), imperfections[i]);
+                         path::toString(b.outcome.reason), b.imperfection);
   }
   return table;
 }

@@ -12,12 +12,10 @@ namespace atrapos {
 
 /// summary.json: how the run ended, what was found, what it cost. Counts and seconds are those of all
 /// branches together; the load factor and the path length are the first path's.
-/// `imperfections`: of each branch, 0 where it is perfect.
 nlohmann::ordered_json runSummary(const PathCase& pathCase, const path::BranchDiagram& diagram,
-                                  const std::vector<double>& imperfections,
                                   const linear::TangentSolver& solver, const Recorder& recorder);
 
 /// branches.csv: one row per branch of the diagram, the first path included.
-std::string branchTable(const path::BranchDiagram& diagram, const std::vector<double>& imperfections);
+std::string branchTable(const path::BranchDiagram& diagram);
 
 }  // namespace atrapos

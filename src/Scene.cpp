@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <Teuchos_DefaultMpiComm.hpp>
 #include <Tpetra_Map.hpp>
 #include <algorithm>
 #include <cmath>
@@ -17,7 +18,8 @@
 
 namespace atrapos {
 
-Scene::Scene(const deck::Deck& deck, fem::Mesh mesh) : deck_(deck), mesh_(std::move(mesh)) {
+Scene::Scene(const deck::Deck& deck, DeckMesh mesh)
+    : deck_(deck), mesh_(std::move(mesh.mesh)), givenRanks_(std::move(mesh.ranks)) {
   deck::checkAgainstMesh(deck_, mesh_);
   requireRanks();
   shells_ = sceneShells(deck_, mesh_);
@@ -25,28 +27,80 @@ Scene::Scene(const deck::Deck& deck, fem::Mesh mesh) : deck_(deck), mesh_(std::m
     if (shells_.empty()) fail("output/shells", "the mesh has no shells, which alone have a body to write");
     body_ = fem::shellBody(mesh_, shells_.geometry);
   }
-  fem::FeModel model;
-  model.numNodes = shells_.geometry.numNodes();
-  for (const deck::Coupling& coupling : deck_.couplings)
-    if (coupling.kind == deck::Coupling::Kind::Rigid) model.numNodes += fem::RigidBody::numNodes;
-  addMaterials(model);
-  model.supports = fem::Supports(model.numNodes);
-  addSupports(model);
-  addCouplings(model);
-  addLoads(model);
-  addFollowers(model);
-  addContacts(model);
+  fem::FeModel model = makeModel();
   requireSupport(model.supports);
   requireEffect(model);
   problem_ = std::make_unique<fem::FeProblem>(std::move(model));
   addMonitors();
 }
 
+fem::FeModel Scene::makeModel() {
+  bodies_.clear();
+  contacts_.clear();
+  fem::FeModel model;
+  model.comm = Teuchos::rcp(new Teuchos::MpiComm<int>(ranks::communicator()));
+  model.numNodes = shells_.geometry.numNodes();
+  for (const deck::Coupling& coupling : deck_.couplings)
+    if (coupling.kind == deck::Coupling::Kind::Rigid) model.numNodes += fem::RigidBody::numNodes;
+  addMaterials(model);
+  giveRanks(model);
+  model.supports = fem::Supports(model.numNodes);
+  addSupports(model);
+  addCouplings(model);
+  addLoads(model);
+  addFollowers(model);
+  addContacts(model);
+  model.dofName = [this](int dof) { return dofName(dof); };
+  return model;
+}
+
 void Scene::fail(const std::string& key, const std::string& problem) const {
   throw deck::DeckError(fmt::format("{}: {}: {}", deck_.file, key, problem));
 }
 
+std::string Scene::dofName(int dof) const {
+  const fem::ShellGeometry& g = shells_.geometry;
+  const int node = dof / 3;
+  const char component = "xyz"[dof % 3];
+  const auto inFile = [&](int n) {
+    return mesh_.nodeIds.empty() ? static_cast<long long>(n) + 1 : mesh_.nodeIds[n];
+  };
+  if (node < g.numMeshNodes) return fmt::format("displacement {} of node {}", component, inFile(node));
+  if (node < g.numNodes())
+    return fmt::format("director's change {} at node {}", component,
+                       inFile(g.meshNode[node - g.numMeshNodes]));
+  // Rigid bodies in the order of the deck, as addCouplings takes them.
+  int first = g.numNodes();
+  for (const deck::Coupling& coupling : deck_.couplings) {
+    if (coupling.kind != deck::Coupling::Kind::Rigid) continue;
+    if (node < first + fem::RigidBody::numNodes)
+      return fmt::format("unknown {} of the rigid body {}", dof - 3 * first, coupling.name);
+    first += fem::RigidBody::numNodes;
+  }
+  return fmt::format("unknown {}", dof);
+}
+
 std::vector<int> Scene::nodesOf(const std::string& set) const { return atrapos::nodesOf(mesh_, set); }
+
+std::vector<int> Scene::elementRanks() const {
+  std::vector<int> all;
+  for (const BodyBlock& body : bodies_) {
+    const std::vector<int>& ofBlock = problem_->ranksOf(body.term);
+    all.insert(all.end(), ofBlock.begin(), ofBlock.end());
+  }
+  return all;
+}
+
+void Scene::giveRanks(fem::FeModel& model) const {
+  if (givenRanks_.empty()) return;
+  model.ranks.resize(model.terms.size());
+  auto first = givenRanks_.begin();
+  for (const BodyBlock& body : bodies_) {
+    const auto last = first + model.terms[body.term]->numEntities();
+    model.ranks[body.term].assign(first, last);
+    first = last;
+  }
+}
 
 void Scene::addMaterials(fem::FeModel& model) {
   bodies_.resize(mesh_.blocks.size());
@@ -94,17 +148,24 @@ void Scene::addSupports(fem::FeModel& model) const {
 
 void Scene::requireSupport(const fem::Supports& supports) const {
   std::vector<fem::HeldDirection> held;
-  for (const ContactPoints& contact : contacts_) {
-    if (contact.pressure.hard) continue;  // open points hold nothing
-    for (const fem::PointSet& points : contact.points)
-      for (int n : points.nodes) {
+  for (const ContactPoints& contact : contacts_)
+    for (std::size_t t = 0; t < contact.points.size(); ++t) {
+      const fem::PointSet& points = contact.points[t];
+      const int N = points.nodesPerEntity, Q = points.pointsPerEntity;
+      for (std::size_t i = 0; i < points.nodes.size(); ++i) {
+        const int n = points.nodes[i];
         if (n >= mesh_.numNodes()) continue;  // a director
+        // Hard contact holds what touches, as long as it is pressed; open points hold nothing.
+        const double* gaps = &contact.gaps[t][i / N * Q];
+        if (contact.pressure.hard &&
+            std::any_of(gaps, gaps + Q, [&](double h) { return h > contact.closedGaps[t][i / N * Q]; }))
+          continue;
         const double* x = &mesh_.coordinates[3 * static_cast<std::size_t>(n)];
         const double place[4] = {x[0], x[1], x[2], 0};
         const ToolProjection over = contact.tool->project(place);
         if (std::isfinite(over.gap)) held.push_back({n, {over.normal[0], over.normal[1], over.normal[2]}});
       }
-  }
+    }
   for (const fem::FreeBody& body : fem::freeBodies(mesh_, supports, held, &shells_.geometry, joinedNodes()))
     fail("supports",
          fmt::format("the body with block '{}' can still move freely in {} rigid motion{}: prescribe more "
@@ -114,11 +175,10 @@ void Scene::requireSupport(const fem::Supports& supports) const {
 
 void Scene::requireRanks() const {
   if (ranks::count() == 1) return;
-  if (deck_.path.sharpen) fail("path/sharpen", "works on one rank only: start without mpirun");
   for (const deck::Contact& contact : deck_.contacts) {
-    if (contact.law == deck::Contact::Law::Hard)
-      fail("contact/" + contact.name + "/law",
-           "hard works on one rank only: start without mpirun, or take another law");
+    if (contact.law == deck::Contact::Law::Hard && contact.points == deck::Contact::Points::Quadrature)
+      fail("contact/" + contact.name + "/points",
+           "hard contact over faces works on one rank only: start without mpirun, or take points: nodes");
     for (const deck::Tool& tool : deck_.tools)
       if (tool.name == contact.tool && std::holds_alternative<deck::PatchesTool>(tool.surface))
         fail("contact/" + contact.name + "/tool",

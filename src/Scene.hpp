@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "ContactPressure.hpp"
+#include "DeckMesh.hpp"
 #include "NearContact.hpp"
 #include "RigidTool.hpp"
 #include "Shells.hpp"
@@ -41,6 +42,7 @@ struct ContactPoints {
   const RigidTool* tool = nullptr;
   std::vector<NearContact*> near;  ///< [term]; empty where all points carry the law
   ContactPressure pressure;
+  bool hardFaces = false;  ///< hard, with conditions on mean gaps around the corners of faces
   int count = 0;
   double smallestGap = 0;  ///< at the start
   int attracted = 0;       ///< points farther off than a uniform Delta, which pulls at them
@@ -52,7 +54,7 @@ struct ContactPoints {
 struct ContactState {
   double normalForce = 0;  ///< sum of weight * R over the points
   /// Closed points: h <= 2 eta/alpha, the vertex of the hyperbola (15); rigid: h <= 1e-3 Delta; h <= 0 with
-  /// laws without eta.
+  /// laws without eta; hard on faces: pressed by an active corner.
   int active = 0;
 };
 
@@ -63,10 +65,14 @@ struct ContactState {
 /// collective, and its results are whole on every rank.
 class Scene {
  public:
-  Scene(const deck::Deck& deck, fem::Mesh mesh);
+  Scene(const deck::Deck& deck, DeckMesh mesh);
+  Scene(const Scene&) = delete;  // its problem refers to it
+  Scene& operator=(const Scene&) = delete;
 
   const deck::Deck& deck() const { return deck_; }
   const fem::Mesh& mesh() const { return mesh_; }
+  /// [element] of a mesh that came in parts the rank whose part it came in; empty: METIS decides.
+  const std::vector<int>& givenRanks() const { return givenRanks_; }
   const SceneShells& shells() const { return shells_; }
   fem::FeProblem& problem() { return *problem_; }
   const fem::FeProblem& problem() const { return *problem_; }
@@ -83,7 +89,9 @@ class Scene {
   void grow(const path::Vector& u, double lambda);
 
   /// The body at this load factor, which stays, with contacts whose regularisation falls: eta exp(-s), s in
-  /// place of the load factor in all members from now on. Throws std::logic_error where a law is not (15).
+  /// place of the load factor in all members from now on. States of the problem before go on as
+  /// FeProblem::values: on several ranks the new one may be shared out otherwise. Throws std::logic_error
+  /// where a law is not (15).
   void sharpen(double loadFactor);
 
   path::Stops stops() const;
@@ -105,6 +113,8 @@ class Scene {
 
   /// The mesh on which results are: the deck's own, or with the bodies of shells as solids.
   const fem::Mesh& resultMesh() const { return body_ ? body_->mesh : mesh_; }
+  /// [element of the mesh, and of the result mesh] rank that works on it.
+  std::vector<int> elementRanks() const;
   std::vector<std::string> nodalNames() const;
   std::vector<std::string> elementNames() const;
   /// [variable][node of the result mesh]
@@ -113,9 +123,15 @@ class Scene {
   std::vector<std::vector<double>> elementValues(const path::Vector& u, double lambda) const;
 
  private:
+  /// The whole model, on every rank; bodies, tools and contacts are those of its terms from then on.
+  fem::FeModel makeModel();
+  /// What messages call an unknown of the problem.
+  std::string dofName(int dof) const;
   std::vector<int> nodesOf(const std::string& set) const;
   std::vector<fem::PointSet> pointsOf(const deck::Contact& contact) const;
   void addMaterials(fem::FeModel& model);
+  /// Those of the mesh's parts, to the materials' terms.
+  void giveRanks(fem::FeModel& model) const;
   BodyBlock addShell(const deck::Material& material, int shells, fem::FeModel& model) const;
   void addSupports(fem::FeModel& model) const;
   void addCouplings(fem::FeModel& model) const;
@@ -150,10 +166,11 @@ class Scene {
 
   deck::Deck deck_;
   fem::Mesh mesh_;
+  std::vector<int> givenRanks_;
   SceneShells shells_;
   std::optional<fem::ShellBody> body_;  ///< where the results are on the bodies of shells
   std::unique_ptr<fem::FeProblem> problem_;
-  /// Of a scene that sharpens: the problem before, owner of its terms.
+  /// Of a scene that sharpens: the problem before, which those who followed its path still refer to.
   std::unique_ptr<fem::FeProblem> loaded_;
   std::vector<std::unique_ptr<RigidTool>> tools_;  ///< in the deck's order
   std::vector<BodyBlock> bodies_;                  ///< [block]

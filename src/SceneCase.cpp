@@ -3,82 +3,16 @@
 #include <fmt/format.h>
 
 #include <Tpetra_Vector.hpp>
+#include <cmath>
 #include <nlohmann/json.hpp>
-#include <optional>
-#include <sstream>
-#include <stdexcept>
 
 #include "ContactEvents.hpp"
-#include "Ranks.hpp"
+#include "FieldFiles.hpp"
+#include "Memory.hpp"
 #include "Sharpen.hpp"
-#include "atrapos/exodus/ResultReader.hpp"
-#include "atrapos/exodus/ResultWriter.hpp"
+#include "atrapos/linear/OnAllRanks.hpp"
 
 namespace atrapos {
-namespace {
-
-const std::vector<std::string> kGlobals = {"load_factor",   "path_parameter",  "series_radius",
-                                           "series_order",  "negative_pivots", "active_contacts",
-                                           "residual_norm", "branch"};
-
-std::vector<double> flat(const std::vector<std::vector<double>>& variables) {
-  std::vector<double> all;
-  for (const auto& v : variables) all.insert(all.end(), v.begin(), v.end());
-  return all;
-}
-
-class SceneFields final : public FieldFile {
- public:
-  SceneFields(const SceneCase& owner, const Scene& scene, const std::string& file)
-      : owner_(owner), scene_(scene), names_(names(scene)) {
-    if (ranks::isFirst()) writer_.emplace(file, scene.resultMesh(), names_);
-  }
-
-  void write(const path::Vector& u, double lambda, const StateNumbers& n) override {
-    const auto nodal = flat(scene_.nodalValues(u, lambda)), element = flat(scene_.elementValues(u, lambda));
-    const double active = owner_.activeContacts(u, lambda);
-    if (!writer_) return;
-    writer_->writeStep(n.pathLength, nodal, element,
-                       std::vector<double>{lambda, n.pathLength, n.radius, double(n.order),
-                                           double(n.negative), active, n.residual, double(n.branch)});
-  }
-
-  void copyFrom(const std::string& file, int count) override {
-    if (!writer_) return;
-    const exodus::ResultReader reader(file);
-    if (reader.nodalNames() != names_.nodal || reader.elementNames() != names_.element ||
-        reader.globalNames() != names_.global)
-      throw std::invalid_argument(fmt::format("{}: holds other fields than output/fields asks for", file));
-    if (reader.numSteps() < count)
-      throw std::invalid_argument(
-          fmt::format("{}: holds {} states, {} are needed", file, reader.numSteps(), count));
-    const auto times = reader.times();
-    for (int step = 0; step < count; ++step) {
-      std::vector<std::vector<double>> nodal, element;
-      for (const auto& name : names_.nodal) nodal.push_back(reader.nodal(step, name));
-      for (const auto& name : names_.element) element.push_back(reader.element(step, name));
-      writer_->writeStep(times[step], flat(nodal), flat(element), reader.globals(step));
-    }
-  }
-
- private:
-  static exodus::ResultNames names(const Scene& scene) {
-    exodus::ResultNames names;
-    names.nodal = scene.nodalNames();
-    names.element = scene.elementNames();
-    names.global = kGlobals;
-    std::istringstream deck(scene.deck().text);
-    for (std::string line; std::getline(deck, line);) names.info.push_back(line);
-    return names;
-  }
-
-  const SceneCase& owner_;
-  const Scene& scene_;
-  exodus::ResultNames names_;
-  std::optional<exodus::ResultWriter> writer_;  ///< of the first rank
-};
-
-}  // namespace
 
 path::State SceneCase::start() const { return {scene_.problem().initialState(0.0), 0.0}; }
 
@@ -90,12 +24,26 @@ int SceneCase::activeContacts(const path::Vector& u, double lambda) const {
 }
 
 std::unique_ptr<FieldFile> SceneCase::makeFieldFile(const std::string& file) const {
-  return std::make_unique<SceneFields>(*this, scene_, file);
+  return makeSceneFields(*this, scene_, file);
 }
 
-std::unique_ptr<StepWatch> SceneCase::makeWatch(const std::string& file) const {
+std::unique_ptr<StepWatch> SceneCase::makeWatch(const std::string& file, bool append) const {
   if (scene_.contacts().empty()) return nullptr;
-  return std::make_unique<ContactEvents>(scene_, file);
+  return std::make_unique<ContactEvents>(scene_, file, append);
+}
+
+std::unique_ptr<PathCase> SceneCase::moved(const path::Vector& shape, double size) const {
+  const auto values = linear::onAllRanks(shape);
+  fem::Mesh mesh = scene_.mesh();
+  // Three unknowns a node of the mesh come first, then those of directors and rigid bodies.
+  std::vector<double>& x = mesh.coordinates;
+  double largest = 0;
+  for (std::size_t i = 0; i < x.size(); ++i)
+    if (std::abs(values[i]) > std::abs(largest)) largest = values[i];
+  if (largest == 0) throw std::runtime_error("path/imperfections: the mode moves no node");
+  for (std::size_t i = 0; i < x.size(); ++i) x[i] += size / largest * values[i];
+  return std::make_unique<SceneCase>(
+      std::make_unique<Scene>(scene_.deck(), DeckMesh(std::move(mesh), scene_.givenRanks())));
 }
 
 std::vector<std::string> SceneCase::remarks() const {
@@ -148,6 +96,10 @@ std::string SceneCase::finish(const path::State& end, const path::Options& optio
   for (std::size_t m = 0; m < names.size(); ++m) entry["monitors"][names[m]] = sharpened.monitors[m];
   return fmt::format("eta times {:.3g} in {} steps{}{}", sharpened.factor, sharpened.steps,
                      sharpened.reached ? "" : ": ", sharpened.text);
+}
+
+double SceneCase::historyBytes() {
+  return static_cast<double>(scene_.problem().historyBytes(historyOrder(scene_.deck().path)));
 }
 
 std::vector<std::pair<std::string, long long>> SceneCase::sizes() const {

@@ -5,10 +5,12 @@
 
 namespace atrapos {
 
-/// A scene as something that a run follows; its states go into Exodus files. The scene must outlive it.
+/// A scene as something that a run follows; its states go into Exodus files. A scene given by reference must
+/// outlive it.
 class SceneCase final : public PathCase {
  public:
   explicit SceneCase(Scene& scene) : scene_(scene) {}
+  explicit SceneCase(std::unique_ptr<Scene> scene) : own_(std::move(scene)), scene_(*own_) {}
 
   const deck::Deck& deck() const override { return scene_.deck(); }
   path::Problem& problem() override { return scene_.problem(); }
@@ -21,7 +23,8 @@ class SceneCase final : public PathCase {
   std::vector<path::Monitor> functionals() const override { return scene_.functionals(); }
   int activeContacts(const path::Vector& u, double lambda) const override;
   std::unique_ptr<FieldFile> makeFieldFile(const std::string& file) const override;
-  std::unique_ptr<StepWatch> makeWatch(const std::string& file) const override;
+  std::unique_ptr<StepWatch> makeWatch(const std::string& file, bool append) const override;
+  std::unique_ptr<PathCase> moved(const path::Vector& shape, double size) const override;
   std::vector<std::string> remarks() const override;
   /// Points without a contact law that come near their tool on the step get it.
   bool changedOn(double length, const path::Series& series) override;
@@ -29,9 +32,11 @@ class SceneCase final : public PathCase {
   /// Sharpens the contacts where the deck says so.
   std::string finish(const path::State& end, const path::Options& options, linear::TangentSolver& solver,
                      const std::string& directory, nlohmann::ordered_json& summary) override;
+  double historyBytes() override;
   std::vector<std::pair<std::string, long long>> sizes() const override;
 
  private:
+  std::unique_ptr<Scene> own_;  ///< null where another owns it
   Scene& scene_;
   int takenBack_ = 0;
 };

@@ -42,7 +42,7 @@ void Scene::makeTools() {
 }
 
 void Scene::addContacts(fem::FeModel& model) {
-  makeTools();
+  if (tools_.empty()) makeTools();
   const BodySize body = bodySize();
   // A body that only its contacts hold needs the law of far points too.
   const bool heldByContacts =
@@ -61,10 +61,17 @@ void Scene::addContacts(fem::FeModel& model) {
                      !deck_.path.imperfections.empty();
     measureGaps(contact, entry);
     choosePressure(contact, body, entry);
+    entry.hardFaces = entry.pressure.hard && contact.points == deck::Contact::Points::Quadrature;
     for (std::size_t t = 0; t < entry.points.size(); ++t) {
       entry.terms.push_back(static_cast<int>(model.terms.size()));
       const auto& references = entry.references[t];
-      if (entry.pressure.hard) {
+      if (entry.hardFaces) {
+        try {
+          entry.tool->addHardFaces(model, entry.points[t]);
+        } catch (const std::invalid_argument& e) {
+          fail("contact/" + contact.name + "/law", e.what());
+        }
+      } else if (entry.pressure.hard) {
         entry.tool->addHard(model, entry.points[t]);
       } else if (contact.unknown == deck::Contact::Unknown::Curve) {
         try {

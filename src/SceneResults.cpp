@@ -64,6 +64,8 @@ std::vector<std::vector<double>> weightsNear(const ContactPoints& contact,
 }  // namespace
 
 void Scene::addMonitors() {
+  displacementWeights_.clear();
+  contactWeights_.clear();
   for (const deck::Monitor& monitor : deck_.output.monitors) {
     linear::RCP<path::Vector> weights;
     if (const auto* m = std::get_if<deck::DisplacementMonitor>(&monitor.quantity)) {
@@ -125,7 +127,8 @@ ContactState Scene::contactState(const ContactPoints& contact, const path::Vecto
   ContactState state;
   forEachContactPoint(contact, u, lambda, [&](std::size_t t, int p, const double* gapAndPressure) {
     const double gap = gapAndPressure[0], pressure = gapAndPressure[1];
-    state.active += gap <= contact.closedGaps[t][p];
+    // Around an active corner the mean gap vanishes, and the gaps of its points have both signs.
+    state.active += contact.hardFaces ? pressure > 0 : gap <= contact.closedGaps[t][p];
     state.normalForce += contact.points[t].weights[p] * pressure;
   });
   return state;

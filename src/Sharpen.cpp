@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <Tpetra_Map.hpp>
+#include <Tpetra_Vector.hpp>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -15,13 +17,15 @@ namespace {
 /// A term of another problem at a load factor that stays.
 class TermAtLoadFactor final : public fem::Term {
  public:
-  TermAtLoadFactor(fem::Term& term, double loadFactor) : term_(term), loadFactor_(loadFactor) {}
+  TermAtLoadFactor(std::unique_ptr<fem::Term> term, double loadFactor)
+      : owned_(std::move(term)), term_(*owned_), loadFactor_(loadFactor) {}
 
   int numEntities() const override { return term_.numEntities(); }
   int nodesPerEntity() const override { return term_.nodesPerEntity(); }
   const std::vector<int>& nodes() const override { return term_.nodes(); }
   bool symmetric() const override { return term_.symmetric(); }
   bool seesLoadFactor() const override { return false; }
+  void keep(const fem::TermPart& part) override { term_.keep(part); }
   void setPositions(const std::vector<int>& positions) override { term_.setPositions(positions); }
   double addResidual(const fem::ConstField& u, double, const fem::Field& f) const override {
     return term_.addResidual(u, loadFactor_, f);
@@ -43,9 +47,19 @@ class TermAtLoadFactor final : public fem::Term {
   std::size_t historyBytes(int maxOrder) const override { return term_.historyBytes(maxOrder); }
 
  private:
+  std::unique_ptr<fem::Term> owned_;
   fem::Term& term_;
   double loadFactor_;
 };
+
+/// A vector of the numbers of all dofs, which every rank has.
+linear::RCP<path::Vector> onMap(const std::vector<double>& values, const linear::RCP<const path::Map>& map) {
+  const auto u = Teuchos::rcp(new path::Vector(map));
+  const auto own = u->getLocalViewHost(Tpetra::Access::OverwriteAll);
+  for (std::size_t i = 0; i < own.extent(0); ++i)
+    own(i, 0) = values[map->getGlobalElement(static_cast<linear::LocalIndex>(i))];
+  return u;
+}
 
 class Writer final : public path::Observer {
  public:
@@ -80,8 +94,9 @@ class Writer final : public path::Observer {
 }  // namespace
 
 void Scene::sharpen(double loadFactor) {
-  const fem::FeModel& from = problem_->model();
+  fem::FeModel from = makeModel();
   fem::FeModel model;
+  model.comm = from.comm;
   model.numNodes = from.numNodes;
   model.supports = fem::Supports(from.numNodes);
   for (fem::Coupling coupling : from.couplings.all()) {
@@ -90,35 +105,43 @@ void Scene::sharpen(double loadFactor) {
     model.couplings.add(std::move(coupling));
   }
   model.numMultipliers = from.numMultipliers;
+  const std::size_t numDofs = 3 * static_cast<std::size_t>(from.numNodes);
+  from.load.resize(numDofs, 0.0);
+  from.constantLoad.resize(numDofs, 0.0);
+  model.dofName = from.dofName;
   model.constantLoad = from.constantLoad;
-  for (std::size_t d = 0; d < from.load.size(); ++d) {
+  for (std::size_t d = 0; d < numDofs; ++d) {
     model.constantLoad[d] += loadFactor * from.load[d];
     const int dof = static_cast<int>(d);
     if (from.supports.fixed(dof))
       model.supports.prescribe(dof / 3, dof % 3,
                                from.supports.value(dof) + loadFactor * from.supports.perLoadFactor(dof), 0);
   }
-  for (const auto& term : from.terms)
-    model.terms.push_back(std::make_unique<TermAtLoadFactor>(*term, loadFactor));
-  for (const ContactPoints& contact : contacts_)
+  for (auto& term : from.terms)
+    model.terms.push_back(std::make_unique<TermAtLoadFactor>(std::move(term), loadFactor));
+  for (ContactPoints& contact : contacts_) {
     for (std::size_t t = 0; t < contact.terms.size(); ++t) {
       if (!contact.pressure.regularised)
         throw std::logic_error("Scene::sharpen: the law of contact '" + contact.name + "' has no eta");
       model.terms[contact.terms[t]] = contact.tool->sharpened(
           *contact.pressure.regularised, contact.points[t], contact.references[t], loadFactor);
     }
+    contact.near.clear();  // all points carry the law
+  }
   loaded_ = std::move(problem_);
   problem_ = std::make_unique<fem::FeProblem>(std::move(model));
+  addMonitors();
 }
 
 Sharpened sharpen(Scene& scene, const path::State& state, double factor, path::Options options,
                   linear::TangentSolver& solver, const std::string& file) {
+  const std::vector<double> u = fem::FeProblem::values(*state.u);
   scene.sharpen(state.lambda);
   path::Stops stops;
   stops.loadFactors = {-std::log(factor)};
   options.direction = 1;
   Writer writer(scene, file);
-  const path::State start{state.u, 0.0};
+  const path::State start{onMap(u, scene.problem().map()), 0.0};
   writer.write(start, 0);
   path::PathFollower follower(scene.problem(), solver, options, stops);
   const path::Outcome outcome = follower.run(start, writer);

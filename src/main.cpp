@@ -6,51 +6,30 @@
 
 #include <CLI/CLI.hpp>
 #include <Kokkos_Core.hpp>
-#include <Tpetra_Core.hpp>
-#include <cstdlib>
+#include <cstdio>
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "Check.hpp"
+#include "JoinCommand.hpp"
 #include "MapCommand.hpp"
 #include "MeshCommand.hpp"
 #include "ModelCase.hpp"
 #include "Ranks.hpp"
 #include "Run.hpp"
+#include "Runtime.hpp"
 #include "SceneCase.hpp"
+#include "SplitCommand.hpp"
+#include "Threads.hpp"
 #include "Version.hpp"
 #include "atrapos/exodus/MeshFile.hpp"
-#include "atrapos/linear/BlasThreads.hpp"
 
 namespace {
 
 constexpr int kBadInput = 2, kCannotContinue = 3, kInternalError = 1;
-
-/// MPI, Kokkos and Tpetra for as long as it lives.
-class Runtime {
- public:
-  explicit Runtime(int threads) {
-    // Without it Kokkos warns at every start; binding is the user's choice.
-    setenv("OMP_PROC_BIND", "false", 0);
-    MPI_Init(nullptr, nullptr);
-    Kokkos::InitArguments arguments;
-    arguments.disable_warnings = true;
-    if (threads > 0) arguments.num_threads = threads;
-    Kokkos::initialize(arguments);
-    Tpetra::initialize(nullptr, nullptr);
-    // Small fronts: a threaded BLAS costs more than it gives (docs/install.md).
-    atrapos::linear::setBlasThreads(1);
-    atrapos::ranks::open();
-  }
-  ~Runtime() {
-    atrapos::ranks::close();
-    Tpetra::finalize();
-    Kokkos::finalize();
-    MPI_Finalize();
-  }
-};
 
 /// The exit code of f, or what its error means; its one line has been told to the user then.
 template <class F>
@@ -75,13 +54,8 @@ int reported(const std::string& named, const F& f) {
 /// The same with MPI and Kokkos, which must still be there for errors of several ranks.
 template <class F>
 int withRuntime(int threads, const std::string& named, const F& f) {
-  Runtime runtime(threads);
+  atrapos::Runtime runtime(threads);
   return reported(named, f);
-}
-
-void requireOneRank(const std::string& what) {
-  if (atrapos::ranks::count() > 1)
-    throw atrapos::deck::DeckError(fmt::format("atrapos: {} on one rank only: start without mpirun", what));
 }
 
 std::string defaultDirectory(const std::string& deck) {
@@ -90,10 +64,25 @@ std::string defaultDirectory(const std::string& deck) {
 
 struct RunWords {
   std::string deck, output, restart;
-  int fromStep = -1;  ///< -1: not given
+  std::string from;  ///< STEP or BRANCH:STEP; empty: not given
   int threads = 0;
   bool quiet = false;
 };
+
+atrapos::RestartPlace placeOf(const std::string& word) {
+  atrapos::RestartPlace place;
+  int end = 0;
+  const char* text = word.c_str();
+  const bool onBranch = std::sscanf(text, "%d:%d%n", &place.branch, &place.step, &end) == 2;
+  if (!onBranch) {
+    place.branch = end = 0;
+    if (std::sscanf(text, "%d%n", &place.step, &end) != 1) place.step = 0;
+  }
+  if (end != static_cast<int>(word.size()) || place.branch < 0 || place.step < 1)
+    throw atrapos::deck::DeckError(
+        fmt::format("atrapos: --from '{}': expected a step from 1, or branch:step", word));
+  return place;
+}
 
 int run(const RunWords& words) {
   const int threads = words.threads;
@@ -103,28 +92,37 @@ int run(const RunWords& words) {
                                                threads, Kokkos::DefaultExecutionSpace::name()));
   atrapos::RunOptions options;
   options.restart = words.restart;
-  if (words.fromStep >= 0) options.fromStep = words.fromStep;
+  if (!words.from.empty()) options.from = placeOf(words.from);
   options.directory = !words.output.empty()    ? words.output
                       : !words.restart.empty() ? words.restart
                                                : defaultDirectory(words.deck);
   const bool quiet = words.quiet || !atrapos::ranks::isFirst();
   options.progress = quiet ? nullptr : &std::cout;
+  const std::string sharing =
+      atrapos::threads::describe(MPI_COMM_WORLD) +
+      (deck.problem && atrapos::ranks::count() > 1 ? "; the model problem runs on the first rank" : "");
+  const bool alone = atrapos::ranks::count() == 1 && Kokkos::DefaultExecutionSpace::concurrency() == 1;
   const auto follow = [&](atrapos::PathCase& pathCase, const std::string& about) {
     if (!quiet) std::cout << fmt::format("{}\n{}\n", deck.title, about);
+    if (!quiet && !alone) std::cout << sharing << '\n';
     const auto result = atrapos::runPath(pathCase, options);
     if (!quiet || (!result.reachedStop && atrapos::ranks::isFirst()))
       (result.reachedStop ? std::cout : std::cerr)
           << fmt::format("{}\nresults in {}\n", result.text, options.directory);
     return result.reachedStop ? 0 : kCannotContinue;
   };
-  if (deck.problem) {
-    requireOneRank("problem: model problems run");
-    atrapos::ModelCase model(deck);
-    return follow(model, model.about());
-  }
-  atrapos::Scene scene(deck, atrapos::readDeckMesh(deck));
+  if (deck.problem)  // small: one rank follows it
+    return atrapos::ranks::onFirst([&] {
+      return reported(words.deck + ": ", [&] {
+        atrapos::ModelCase model(deck);
+        return follow(model, model.about());
+      });
+    });
+  atrapos::DeckMesh mesh = atrapos::readDeckMesh(deck);
+  const char* const came = mesh.ranks.empty() ? "" : ", a part file for each rank";
+  atrapos::Scene scene(deck, std::move(mesh));
   atrapos::SceneCase pathCase(scene);
-  return follow(pathCase, atrapos::describeMesh(scene.mesh()));
+  return follow(pathCase, atrapos::describeMesh(scene.mesh()) + came);
 }
 
 int map(const atrapos::MapWords& words) {
@@ -132,19 +130,23 @@ int map(const atrapos::MapWords& words) {
   options.progress = words.quiet ? nullptr : &std::cout;
   std::vector<atrapos::deck::Deck> decks;
   for (const std::string& deck : words.decks) decks.push_back(atrapos::deck::readDeck(deck));
-  requireOneRank("map runs");
-  std::vector<std::unique_ptr<atrapos::Scene>> scenes;
-  std::vector<std::unique_ptr<atrapos::PathCase>> cases;
-  for (const auto& deck : decks) {
-    if (deck.problem) {
-      cases.push_back(std::make_unique<atrapos::ModelCase>(deck));
-      continue;
-    }
-    scenes.push_back(std::make_unique<atrapos::Scene>(deck, atrapos::readDeckMesh(deck)));
-    cases.push_back(std::make_unique<atrapos::SceneCase>(*scenes.back()));
-  }
-  atrapos::writeMap(cases, options);
-  return 0;
+  // Many short runs, one after another: one rank makes them.
+  return atrapos::ranks::onFirst([&] {
+    return reported("atrapos: ", [&] {
+      std::vector<std::unique_ptr<atrapos::Scene>> scenes;
+      std::vector<std::unique_ptr<atrapos::PathCase>> cases;
+      for (const auto& deck : decks) {
+        if (deck.problem) {
+          cases.push_back(std::make_unique<atrapos::ModelCase>(deck));
+          continue;
+        }
+        scenes.push_back(std::make_unique<atrapos::Scene>(deck, atrapos::readDeckMesh(deck)));
+        cases.push_back(std::make_unique<atrapos::SceneCase>(*scenes.back()));
+      }
+      atrapos::writeMap(cases, options);
+      return 0;
+    });
+  });
 }
 
 int makeMesh(const std::string& deckFile, const std::string& output, bool quiet) {
@@ -158,13 +160,14 @@ int makeMesh(const std::string& deckFile, const std::string& output, bool quiet)
 
 int check(const std::string& deckFile) {
   const auto deck = atrapos::deck::readDeck(deckFile);
-  requireOneRank("check runs");
+  std::ostream nowhere(nullptr);
+  std::ostream& out = atrapos::ranks::isFirst() ? std::cout : nowhere;
   if (deck.problem) {
-    atrapos::printCheck(atrapos::ModelCase(deck), std::cout);
+    atrapos::printCheck(atrapos::ModelCase(deck), out);
     return 0;
   }
   atrapos::Scene scene(deck, atrapos::readDeckMesh(deck));
-  atrapos::printCheck(scene, std::cout);
+  atrapos::printCheck(scene, out);
   return 0;
 }
 
@@ -172,7 +175,9 @@ int check(const std::string& deckFile) {
 
 int main(int argc, char** argv) {
   CLI::App app{"Traces solution paths of nonlinear finite-element problems with high-order Taylor series"};
-  app.set_version_flag("--version", std::string("atrapos ") + atrapos::kVersion);
+  bool version = false, verbose = false;
+  auto* versionFlag = app.add_flag("--version", version, "print the version");
+  app.add_flag("--verbose", verbose, "with --version: libraries, ranks and threads too")->needs(versionFlag);
   // A missing command and stray words are found below: CLI11 would not name them.
   app.require_subcommand(0, 1);
   app.allow_extras();
@@ -184,19 +189,40 @@ int main(int argc, char** argv) {
   auto* runCommand = app.add_subcommand("run", "follow the path of a deck");
   runCommand->add_option("DECK", deck, "YAML deck (docs/deck.md)")->required();
   runCommand->add_option("-o,--output", output, "folder for the results (default: <deck>_results here)");
-  runCommand->add_option("-t,--threads", threads, "threads of the element loops (default: OMP_NUM_THREADS)")
+  runCommand
+      ->add_option(
+          "-t,--threads", threads,
+          "threads of the element loops a rank (default: OMP_NUM_THREADS, or the rank's share of the "
+          "processors)")
       ->check(CLI::Range(1, 4096));
   runCommand->add_flag("-q,--quiet", quiet, "no progress lines");
   auto* restartOption = runCommand->add_option(
       "--restart", words.restart, "go on with the run whose results are in this folder (default output)");
-  runCommand->add_option("--from", words.fromStep, "with --restart: behind this step (default: its last)")
-      ->check(CLI::Range(1, 1000000000))
+  runCommand
+      ->add_option("--from", words.from,
+                   "with --restart: behind this STEP, or BRANCH:STEP (default: its last)")
       ->needs(restartOption);
 
   auto* meshCommand = app.add_subcommand("mesh", "make the mesh file that a deck describes");
   meshCommand->add_option("DECK", deck, "YAML deck with mesh/generate")->required();
   meshCommand->add_option("-o,--output", output, "Exodus file (default: the deck's mesh/file)");
   meshCommand->add_flag("-q,--quiet", quiet, "print nothing");
+
+  std::string meshFile;
+  int parts = 0;
+  auto* splitCommand = app.add_subcommand("split", "cut a mesh into part files for several ranks");
+  splitCommand->add_option("MESH", meshFile, "Exodus file")->required();
+  splitCommand->add_option("PARTS", parts, "number of parts: that of the ranks")
+      ->required()
+      ->check(CLI::Range(1, 1000000));
+  splitCommand->add_option("-o,--output", output, "name before the parts' numbers (default: MESH)");
+  splitCommand->add_flag("-q,--quiet", quiet, "print nothing");
+
+  std::vector<std::string> partFiles;
+  auto* joinCommand = app.add_subcommand("join", "make one file of the part files of a mesh or of results");
+  joinCommand->add_option("FILE", partFiles, "part files, as results.exo.4.*, or results.exo")->required();
+  joinCommand->add_option("-o,--output", output, "Exodus file (default: the parts' name without numbers)");
+  joinCommand->add_flag("-q,--quiet", quiet, "print nothing");
 
   auto* checkCommand =
       app.add_subcommand("check", "validate a deck and its mesh, print what would be solved");
@@ -224,19 +250,30 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& e) {
-    return app.exit(e);  // --help, --version
+    return app.exit(e);  // --help
   } catch (const CLI::ParseError& e) {
     std::cerr << fmt::format("atrapos: {} (see atrapos --help)\n", e.what());
     return kBadInput;
   }
 
+  if (version && !verbose) {
+    std::cout << fmt::format("atrapos {}\n", atrapos::kVersion);
+    return 0;
+  }
+  if (version)
+    return withRuntime(0, "atrapos: ", [] {
+      const std::string text = atrapos::threads::describeAll(MPI_COMM_WORLD);
+      if (atrapos::ranks::isFirst()) std::cout << text;
+      return 0;
+    });
   const bool hasCommand = !app.get_subcommands().empty();
   const auto extras = app.remaining(true);
   if (!hasCommand || !extras.empty()) {
-    std::cerr << (extras.empty() ? "atrapos: a command is needed: run, mesh, check or map"
-                  : hasCommand   ? fmt::format("atrapos: '{}' is not expected", extras.front())
-                                 : fmt::format("atrapos: '{}' is not a command: run, mesh, check or map",
-                                               extras.front()))
+    std::cerr << (extras.empty() ? "atrapos: a command is needed: run, mesh, split, join, check or map"
+                  : hasCommand
+                      ? fmt::format("atrapos: '{}' is not expected", extras.front())
+                      : fmt::format("atrapos: '{}' is not a command: run, mesh, split, join, check or map",
+                                    extras.front()))
               << " (see atrapos --help)\n";
     return kBadInput;
   }
@@ -250,6 +287,15 @@ int main(int argc, char** argv) {
       return withRuntime(threads, named, [&] { return run(words); });
     }
     if (*meshCommand) return makeMesh(deck, output, quiet);
+    std::ostream* const progress = quiet ? nullptr : &std::cout;
+    if (*splitCommand) {
+      atrapos::splitMesh(meshFile, parts, output, progress);
+      return 0;
+    }
+    if (*joinCommand) {
+      atrapos::joinParts(partFiles, output, progress);
+      return 0;
+    }
     if (*checkCommand) return withRuntime(0, named, [&] { return check(deck); });
     if (*mapCommand) return withRuntime(0, named, [&] { return map(mapWords); });
     return kInternalError;

@@ -24,8 +24,8 @@ PANELS = [("stvk_bar", "shortening"), ("von_mises_truss", "sinking"), ("truss_on
           ("shallow_arch_imperfect", "mode_1"), ("pitchfork", "mode_1"), ("pitchfork_side_branch", "mode_1"),
           ("transcritical", "mode_1"), ("two_modes", "mode_1"), ("square_plate", "mode_x"),
           ("strut_on_foundation", "mode_1"), ("branch_trap", "mode_1"), ("euler_column_solid", "top_uz"),
-          ("arch_solid", "sinking"), ("hill_top", "sway"), ("hinged_roof", "centre_uz"),
-          ("euler_column_both", "tip_rotation")]
+          ("arch_solid", "sinking"), ("hill_top", "sway"), ("three_modes", "mode_1"),
+          ("euler_column_both", "tip_rotation"), ("partial_follower", "tip_uz")]
 COLOURS = ["#1f5fa8", "#c0392b", "#2e8b57", "#8e44ad", "#d68910", "#117a8b", "#7f8c8d", "#b03a6f", "#5d6d1e"]
 
 

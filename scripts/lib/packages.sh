@@ -6,7 +6,7 @@ buildPackages=(
   openmpi-bin libopenmpi-dev
   libtrilinos-teuchos-dev libtrilinos-kokkos-dev libtrilinos-kokkos-kernels-dev libtrilinos-tpetra-dev
   libtrilinos-sacado-dev libtrilinos-shards-dev libtrilinos-intrepid2-dev
-  libtrilinos-amesos2-dev libtrilinos-belos-dev
+  libtrilinos-amesos2-dev libtrilinos-anasazi-dev libtrilinos-belos-dev libtrilinos-ifpack2-dev
   # Amesos2's headers and package file reach into these.
   libtrilinos-epetra-dev libtrilinos-epetraext-dev libtrilinos-triutils-dev
   libtrilinos-trilinosss-dev libtrilinos-shylu-dev
@@ -17,6 +17,8 @@ buildPackages=(
   liblapack-dev libopenblas0-pthread
   libcli11-dev libfmt-dev nlohmann-json3-dev
   libgtest-dev libbenchmark-dev libadolc-dev
+  # STEP and IGES files of tools.
+  libocct-data-exchange-dev
   gnuplot-nox
 )
 # What a Trilinos of our own links besides.

@@ -33,8 +33,9 @@ using Generate = std::variant<fem::BoxOptions, fem::StripOptions, fem::CylinderP
                               fem::ShellAnnulusOptions, fem::ShellSphereOptions>;
 
 struct MeshInput {
-  std::string file;  ///< as written in the deck
-  std::string path;  ///< the same, relative names resolved against the deck's folder
+  std::string file;         ///< as written in the deck
+  std::string path;         ///< the same, relative names resolved against the deck's folder
+  bool decomposed = false;  ///< read from part files even where the whole file is there
   std::optional<Generate> generate;
 };
 
@@ -267,7 +268,7 @@ struct Contact {
     Power,        ///< (R + eta) ((h + R/alpha)/Delta)^m = eta
     Exponential,  ///< R = R_0 (exp(-h/l) - exp(-Delta/l))
     Penalty,      ///< alpha max(-h, 0), its corner smoothed over l
-    Hard          ///< h >= 0, R >= 0, h R = 0: the set of active points changes at events; nodes only
+    Hard          ///< h >= 0, R >= 0, h R = 0: the active set changes at events; at nodes, or over faces
   };
   /// What part of R, eta and alpha a node has.
   enum class Shares {
@@ -343,9 +344,13 @@ struct Path {
   path::Follow branches = path::Follow::none;
   int branchDepth = 4;   ///< bifurcations between the first path and a branch
   int branchCount = 20;  ///< half-branches followed besides the first path
-  /// Sizes of imperfections, each of which adds a path: the largest displacement of a constant force's linear
-  /// response at the start, in the shape of the first bifurcation point's null vector.
+  /// Sizes of imperfections in the shape of the first bifurcation point's null vector, each of which adds a
+  /// path.
   std::vector<double> imperfections;
+  /// Load: a small constant force, whose linear response at the start has that size as its largest
+  /// displacement; Geometry: the nodes of the undeformed mesh are moved, the farthest by it.
+  enum class Imperfection { Load, Geometry };
+  Imperfection imperfectionsAs = Imperfection::Load;
   bool restart = true;  ///< keeps what a restart needs at every step
   /// In (0, 1): at the path's end eta of all contacts falls by this factor; empty: does not.
   std::optional<double> sharpen;
@@ -354,11 +359,20 @@ struct Path {
 };
 
 struct Solver {
-  enum class Type { Mumps, Amesos2 };
+  enum class Type { Mumps, Amesos2, Belos, Auto };
+  enum class Preconditioner { SingleFactor, Ilu };
   Type type = Type::Mumps;
-  std::string name;  ///< Amesos2's own name of a solver, e.g. klu2; empty with MUMPS
-  /// As linear::makeTangentSolver takes it: "mumps" or "amesos2:<name>".
-  std::string spec() const { return type == Type::Mumps ? "mumps" : "amesos2:" + name; }
+  std::string name;  ///< Amesos2's own name of a solver, e.g. klu2; empty with others
+  Preconditioner preconditioner = Preconditioner::SingleFactor;  ///< with Belos
+  std::optional<double> lowRank;  ///< in (0, 1): what a single-precision factor drops; empty: nothing
+  std::optional<double> memory;   ///< GB that Auto may take; empty: what the machine has free
+  /// As linear::makeTangentSolver takes it: "mumps", "belos", "auto" or "amesos2:<name>".
+  std::string spec() const {
+    return type == Type::Amesos2 ? "amesos2:" + name
+           : type == Type::Belos ? "belos"
+           : type == Type::Auto  ? "auto"
+                                 : "mumps";
+  }
 };
 
 // --------------------------------------------------------------------------------------------- output
@@ -408,6 +422,7 @@ struct Output {
   int pointsPerStep = 5;            ///< states written per step, its end included
   std::vector<OutputField> fields;  ///< never empty after readDeck
   Shells shells = Shells::Surface;
+  bool parts = false;  ///< each of several ranks writes its part of the results
   std::vector<Monitor> monitors;
 };
 

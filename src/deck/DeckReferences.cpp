@@ -159,6 +159,18 @@ void checkMethod(const Value& root, Deck& deck) {
   deck.output.pointsPerStep = 1;
 }
 
+namespace {
+
+void checkSolver(const Value& root, const Deck& deck) {
+  if (deck.solver.type != Solver::Type::Belos && deck.solver.type != Solver::Type::Auto) return;
+  for (const auto& contact : deck.contacts)
+    if (contact.law == Contact::Law::Hard)
+      root.at("solver").fail("iterations do not converge on the tangents of hard contact (contact/" +
+                             contact.name + "); expected mumps");
+}
+
+}  // namespace
+
 void checkReferences(const Value& root, const Deck& deck) {
   checkMaterials(root.at("materials"), deck);
   checkSections(root, deck);
@@ -170,6 +182,7 @@ void checkReferences(const Value& root, const Deck& deck) {
   }
   checkStop(root.at("path").at("stop"), deck);
   checkBranches(root, deck);
+  checkSolver(root, deck);
   if (deck.path.sharpen) {
     const auto hasEta = [](const Contact& c) {
       return (c.law == Contact::Law::Hyperbola || c.law == Contact::Law::Barrier) &&

@@ -48,15 +48,20 @@ const Table<Output>& outputTable() {
   static const Table<Output> table{integer("points_per_step", optional, &Output::pointsPerStep, check::count,
                                            "states written per step, its end included"),
                                    outputFieldList(), outputShells(),
+                                   flag("parts", &Output::parts, "on several ranks, a result file for each"),
                                    entries("monitors", optional, &Output::monitors, monitorVariants(),
                                            "each with type, ...", "numbers followed along the path")};
   return table;
 }
 
+/// Also a type alone, as in `solver: auto`.
 Field<Deck> solverField() {
   auto solver = block("solver", optional, &Deck::solver, solverTable(), "factors the tangent");
   solver.read = [inner = solver.read](const Value& v, Deck& deck) {
-    inner(v, deck);
+    if (v.isText())
+      solverTable().front().read(v, deck.solver);
+    else
+      inner(v, deck);
     if (deck.solver.type == Solver::Type::Amesos2 && deck.solver.name.empty()) {
       v.failMissing("name", "Amesos2's name of a solver, for example klu2");
     }

@@ -146,6 +146,18 @@ Field<S> integer(std::string key, Need need, int S::*member, const Check& check,
           }};
 }
 
+template <class S>
+Field<S> flag(std::string key, bool S::*member, std::string meaning) {
+  return {std::move(key),
+          false,
+          "true or false",
+          std::move(meaning),
+          [=](const Value& v, S& s) { s.*member = v.boolean(); },
+          [=](const S& s) {
+            return Node{s.*member ? "true" : "false", {}};
+          }};
+}
+
 /// A name or id in the mesh, or the name of another entry.
 template <class S>
 Field<S> name(std::string key, Need need, std::string S::*member, std::string accepts, std::string meaning) {

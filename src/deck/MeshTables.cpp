@@ -255,6 +255,7 @@ const Variants<GenerateInput, Generate>& generateVariants() {
 const Table<MeshInput>& meshTable() {
   static const Table<MeshInput> table{
       text("file", required, &MeshInput::file, "a file name", "Exodus file, relative to the deck's folder"),
+      flag("decomposed", &MeshInput::decomposed, "read from part files, <file>.<ranks>.<rank>"),
       {"generate", false, "a map with shape, ...", "how `atrapos mesh` makes the file",
        [](const Value& v, MeshInput& mesh) {
          GenerateInput input;

@@ -53,18 +53,6 @@ Field<EdgeLoad> edgeVector(const std::string& key, EdgeLoad::Kind kind, std::str
           }};
 }
 
-template <class S>
-Field<S> flag(std::string key, bool S::*member, std::string meaning) {
-  return {std::move(key),
-          false,
-          "true or false",
-          std::move(meaning),
-          [=](const Value& v, S& s) { s.*member = v.boolean(); },
-          [=](const S& s) {
-            return Node{s.*member ? "true" : "false", {}};
-          }};
-}
-
 void requireExactlyOne(const Value& map, const std::vector<std::string>& keys) {
   std::vector<std::string> given;
   for (const auto& key : keys) {
@@ -264,13 +252,6 @@ const Table<Contact>& contactTable() {
         v.fail(fmt::format("must be above regularisation/stiffness = {}, got {}", least, v.shown()));
       }
     };
-    auto law = choice("law", optional, &Contact::law, contactLaws(), "pressure as a function of the gap");
-    law.read = [inner = law.read](const Value& v, Contact& s) {
-      inner(v, s);
-      if (s.law == ContactLaw::Hard && s.points != Contact::Points::Nodes) {
-        v.fail("hard contact acts at nodes; expected points: nodes beside it");
-      }
-    };
     auto shares =
         choice("shares", optional, &Contact::shares,
                Choices<Contact::Shares>{{"equal", Contact::Shares::Equal},
@@ -307,7 +288,7 @@ const Table<Contact>& contactTable() {
         choice("points", optional, &Contact::points, points, "where the law acts"),
         choice("at", optional, &Contact::at, shellPlaces(), "where in the thickness of shells"),
         degree,
-        law,
+        choice("law", optional, &Contact::law, contactLaws(), "pressure as a function of the gap"),
         ofLaws(shares, withDelta),
         ofLaws(contactStiffness(), {Law::Hyperbola, Law::Power, Law::Penalty}),
         ofLaws(positiveOr("regularisation", &Contact::regularisation, "auto",

@@ -1,4 +1,6 @@
 // Keys of the blocks that say how to go along the path and what to write: path, solver, output.
+#include <fmt/format.h>
+
 #include <vector>
 
 #include "deck/DeckTables.hpp"
@@ -136,10 +138,28 @@ Field<Path> imperfections() {
   return {"imperfections",
           false,
           "a number or a list of numbers, different from zero",
-          "each adds a path with a small constant force in the shape of the first bifurcation point's null "
+          "each adds the path of an imperfect structure, in the shape of the first bifurcation point's null "
           "vector",
           [](const Value& v, Path& s) { s.imperfections = oneOrMore(v, check::nonzero); },
           [](const Path& s) { return s.imperfections.empty() ? Node{} : oneOrMore(s.imperfections); }};
+}
+
+Field<Path> imperfectionsAs(bool ofModel) {
+  static const Choices<Path::Imperfection> kinds{{"load", Path::Imperfection::Load},
+                                                 {"geometry", Path::Imperfection::Geometry}};
+  auto field =
+      choice("imperfections_as", optional, &Path::imperfectionsAs, kinds,
+             "what imperfections are: a small constant force, or nodes of the undeformed mesh moved by "
+             "the null vector");
+  if (ofModel) {
+    field.read = [inner = field.read](const Value& v, Path& s) {
+      inner(v, s);
+      if (s.imperfectionsAs == Path::Imperfection::Geometry) {
+        v.fail("geometry needs a mesh, which a model problem does not have; expected load");
+      }
+    };
+  }
+  return field;
 }
 
 Field<Path> keepsRestart() {
@@ -194,7 +214,7 @@ Table<Stop> stopKeys(Field<Stop> monitors) {
           std::move(monitors)};
 }
 
-Table<Path> pathKeys(const Table<Stop>& stops, Need needStop) {
+Table<Path> pathKeys(const Table<Stop>& stops, Need needStop, bool ofModel) {
   static const Choices<Path::Critical> searches{{"off", Path::Critical::Off},
                                                 {"automatic", Path::Critical::Automatic},
                                                 {"every_step", Path::Critical::EveryStep}};
@@ -228,6 +248,7 @@ Table<Path> pathKeys(const Table<Stop>& stops, Need needStop) {
       ofSeries(integer("branch_count", optional, &Path::branchCount, check::natural,
                        "most branches followed besides the first path")),
       ofSeries(imperfections()),
+      ofSeries(imperfectionsAs(ofModel)),
       keepsRestart(),
       ofSeries(real("sharpen", &Path::sharpen, check::fraction,
                     "at the path's end eta of all contacts falls by this factor, towards hard contact")),
@@ -266,32 +287,54 @@ const Table<Stop>& stopTable() {
 }
 
 const Table<Path>& pathTable() {
-  static const Table<Path> table = pathKeys(stopTable(), required);
+  static const Table<Path> table = pathKeys(stopTable(), required, false);
   return table;
 }
 
 const Table<Path>& modelPathTable() {
   static const Table<Stop> stop =
       stopKeys(stopMonitors("monitor", "a map of the problem's monitors to values, or to lists of values"));
-  static const Table<Path> table = pathKeys(stop, optional);
+  static const Table<Path> table = pathKeys(stop, optional, true);
   return table;
 }
 
+namespace {
+
+const Choices<Solver::Type>& solverTypes() {
+  using Type = Solver::Type;
+  static const Choices<Type> types{
+      {"mumps", Type::Mumps}, {"amesos2", Type::Amesos2}, {"belos", Type::Belos}, {"auto", Type::Auto}};
+  return types;
+}
+
+/// A key that only solvers of one type have.
+Field<Solver> onlyWith(Solver::Type type, Field<Solver> field) {
+  field.read = [=, inner = field.read](const Value& v, Solver& s) {
+    if (s.type != type) {
+      v.fail(fmt::format("has no meaning with type: {}; it belongs to type: {}",
+                         wordOf(s.type, solverTypes()), wordOf(type, solverTypes())));
+    }
+    inner(v, s);
+  };
+  field.print = [=, inner = field.print](const Solver& s) { return s.type == type ? inner(s) : Node{}; };
+  return field;
+}
+
+}  // namespace
+
 const Table<Solver>& solverTable() {
   using Type = Solver::Type;
-  static const Choices<Type> types{{"mumps", Type::Mumps}, {"amesos2", Type::Amesos2}};
-  static const Table<Solver> table = [] {
-    auto amesos =
-        text("name", optional, &Solver::name, "a text", "Amesos2's name of a solver, with type: amesos2");
-    amesos.read = [inner = amesos.read](const Value& v, Solver& s) {
-      if (s.type == Type::Mumps) {
-        v.fail("has no meaning with type: mumps");
-      }
-      inner(v, s);
-    };
-    return Table<Solver>{choice("type", optional, &Solver::type, types, "package that factors the tangent"),
-                         amesos};
-  }();
+  using Preconditioner = Solver::Preconditioner;
+  static const Choices<Preconditioner> preconditioners{{"single_factor", Preconditioner::SingleFactor},
+                                                       {"ilu", Preconditioner::Ilu}};
+  static const Table<Solver> table{
+      choice("type", optional, &Solver::type, solverTypes(), "package that solves with the tangent"),
+      onlyWith(Type::Amesos2, text("name", optional, &Solver::name, "a text", "Amesos2's name of a solver")),
+      onlyWith(Type::Belos, choice("preconditioner", optional, &Solver::preconditioner, preconditioners,
+                                   "a factor in single precision, or an incomplete one")),
+      onlyWith(Type::Belos, real("low_rank", &Solver::lowRank, check::fraction,
+                                 "part of dense blocks that the single-precision factor drops")),
+      onlyWith(Type::Auto, real("memory", &Solver::memory, check::positive, "GB that the solver may take"))};
   return table;
 }
 

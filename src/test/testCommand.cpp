@@ -37,7 +37,7 @@ TEST_F(CommandTest, HelpNamesTheSubcommands) {
   const CommandResult r = runAtrapos({"--help"}, folder_.path());
   EXPECT_EQ(r.exitCode, 0);
   EXPECT_EQ(r.err, "");
-  for (const char* word : {"run", "mesh", "check", "--version"})
+  for (const char* word : {"run", "mesh", "split", "join", "check", "--version"})
     EXPECT_NE(r.out.find(word), std::string::npos) << r.out;
   const CommandResult run = runAtrapos({"run", "--help"}, folder_.path());
   EXPECT_EQ(run.exitCode, 0);

@@ -89,6 +89,8 @@ TEST(Deck, goodDeckGivesItsValues) {
   EXPECT_EQ(deck.title, "Strip on a roll");
   EXPECT_EQ(deck.mesh.file, "strip.exo");
   EXPECT_EQ(deck.mesh.path, "some/folder/strip.exo");
+  EXPECT_FALSE(deck.mesh.decomposed);
+  EXPECT_FALSE(deck.output.parts);
   ASSERT_TRUE(deck.mesh.generate);
   const auto& box = std::get<fem::BoxOptions>(*deck.mesh.generate);
   EXPECT_EQ(box.lengths, (Vector3{10, 2, 1}));
@@ -164,7 +166,7 @@ TEST(Deck, goodDeckGivesItsValues) {
 
 TEST(Deck, everyOtherKindOfEntry) {
   const Deck deck = readDeckText(R"(
-mesh: {file: /data/a.exo}
+mesh: {file: /data/a.exo, decomposed: true}
 materials:
   soft: {law: saint_venant_kirchhoff, youngs_modulus: 1, poissons_ratio: -0.5, blocks: [1, 2]}
   hard:
@@ -191,6 +193,7 @@ path: {direction: -1, accuracy: 1e-8, residual: 1.0e-7, order: 60,
 solver: {type: amesos2, name: klu2}
 output:
   points_per_step: 1
+  parts: true
   fields: [contact, displacement]
   monitors:
     u: {type: displacement, set: n, component: z, reduce: sum}
@@ -202,6 +205,8 @@ output:
                                  "all.yaml");
   EXPECT_EQ(deck.title, "all");  // the file's stem
   EXPECT_EQ(deck.mesh.path, "/data/a.exo");
+  EXPECT_TRUE(deck.mesh.decomposed);
+  EXPECT_TRUE(deck.output.parts);
   EXPECT_FALSE(deck.mesh.generate);
   EXPECT_EQ(deck.materials[0].blocks, (std::vector<std::string>{"1", "2"}));
   EXPECT_EQ(std::get<SaintVenantKirchhoff>(deck.materials[0].law).poissonsRatio, -0.5);
@@ -261,20 +266,21 @@ TEST(Deck, pathKeys) {
   const Deck plain = readDeckText(goodDeck, "solid.yaml");
   EXPECT_FALSE(plain.path.autoOrder);
   EXPECT_FALSE(plain.path.weight);
-  EXPECT_EQ(plain.path.pade, path::PadeUse::off);
+  EXPECT_EQ(plain.path.pade, path::PadeUse::automatic);
   EXPECT_EQ(plain.path.criticalPoints, Path::Critical::Automatic);
   EXPECT_EQ(plain.path.branches, path::Follow::none);
   EXPECT_TRUE(plain.path.restart);
-  std::string text =
-      changed("  order: 15\n",
-              "  order: auto\n  weight: 0.25\n  pade: automatic\n  critical_points: every_step\n"
-              "  branches: stable\n  branch_depth: 2\n  branch_count: 7\n  restart: false\n");
+  std::string text = changed("  order: 15\n",
+                             "  order: auto\n  weight: 0.25\n  pade: off\n  critical_points: every_step\n"
+                             "  imperfections: 0.5\n  imperfections_as: geometry\n  branches: stable\n  "
+                             "branch_depth: 2\n  branch_count: 7\n  restart: false\n");
   text.replace(text.find("{load_factor: 0.25}"), 19,
                "{load_factor: [0.5, -0.25], displacement: {tip_uz: [-5, 5]}}");
   const Deck deck = readDeckText(text, "solid.yaml");
   EXPECT_TRUE(deck.path.autoOrder);
   EXPECT_EQ(deck.path.weight, 0.25);
-  EXPECT_EQ(deck.path.pade, path::PadeUse::automatic);
+  EXPECT_EQ(deck.path.pade, path::PadeUse::off);
+  EXPECT_EQ(deck.path.imperfectionsAs, Path::Imperfection::Geometry);
   EXPECT_EQ(deck.path.criticalPoints, Path::Critical::EveryStep);
   EXPECT_EQ(deck.path.branches, path::Follow::stable);
   EXPECT_EQ(deck.path.branchDepth, 2);
@@ -578,6 +584,7 @@ TEST(BadDeck, valuesOutOfRange) {
               "contact/lower/reference_gap: must be above regularisation/stiffness = 0.0001, got 0.0001", {});
   expectError("regularisation: 0.1", "regularisation: 0.1, quadrature_degree: 0",
               "contact/lower/quadrature_degree: must be from 1", {});
+  expectError("output:", "output:\n  parts: some", "output/parts: expected true or false", {"'some'"});
   expectError("output:", "output:\n  points_per_step: 0", "output/points_per_step: must be at least 1, got 0",
               {});
   const std::string box = "shape: box, lengths: [10, 2.0, 1]";
@@ -759,6 +766,8 @@ TEST(BadDeck, keysThatContradictEachOther) {
               "contact/lower/quadrature_degree: has no meaning with points: nodes", {});
   expectError("path:", "solver: {type: mumps, name: klu2}\npath:",
               "solver/name: has no meaning with type: mumps", {});
+  expectError("stiffness: 1.0e3, regularisation: 0.1}\npath:", "law: hard}\nsolver: belos\npath:", "solver: ",
+              {"contact/lower", "expected mumps"});
 }
 
 TEST(BadDeck, references) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <thread>
 
 #include "atrapos/exodus/ResultReader.hpp"
@@ -132,6 +133,153 @@ TEST_F(Restart, OfHardContact) {
   }
 }
 
+/// branches.csv without the column of factorizations, which counts from the restart on.
+std::string branchRows(const std::filesystem::path& folder) {
+  std::istringstream in(readFile(folder / "branches.csv"));
+  std::string all;
+  for (std::string line; std::getline(in, line);) {
+    std::istringstream words(line);
+    std::string word;
+    for (int column = 0; std::getline(words, word, ','); ++column)
+      if (column != 8) all += word + ',';
+    all += '\n';
+  }
+  return all;
+}
+
+/// Diagrams: a run of `deck` is cut behind steps of every branch and goes on in another folder.
+class BranchRestart : public testing::Test {
+ protected:
+  void run(const std::vector<std::string>& words) {
+    std::vector<std::string> all{"run", "-q", "deck.yaml"};
+    all.insert(all.end(), words.begin(), words.end());
+    const CommandResult r = runAtrapos(all, folder_.path());
+    ASSERT_EQ(r.exitCode, 0) << r.err;
+  }
+  /// (branch, step) of all finished steps.
+  std::vector<std::pair<int, int>> places() const {
+    std::istringstream in(readFile(folder_ / "whole" / "path.csv"));
+    std::string line;
+    std::getline(in, line);
+    const auto columns = std::count(line.begin(), line.end(), ',');
+    std::vector<std::pair<int, int>> all;
+    while (std::getline(in, line)) {
+      std::istringstream words(line);
+      std::string word;
+      std::vector<std::string> row;
+      while (std::getline(words, word, ',')) row.push_back(word);
+      const std::pair<int, int> place{std::stoi(row.at(columns - 1)), std::stoi(row.at(0))};
+      if (place.second > 0 && (all.empty() || all.back() != place)) all.push_back(place);
+    }
+    return all;
+  }
+  void expectSame(const std::string& results) {
+    for (const char* name : {"path.csv", "points.csv"})
+      EXPECT_TRUE(readFile(folder_ / results / name) == readFile(folder_ / "whole" / name)) << name;
+    EXPECT_EQ(branchRows(folder_ / results), branchRows(folder_ / "whole"));
+    for (const auto& entry : std::filesystem::directory_iterator(folder_ / "whole")) {
+      if (entry.path().extension() != ".exo") continue;
+      const exodus::ResultReader x(entry.path().string());
+      const exodus::ResultReader y((folder_ / results / entry.path().filename().string()).string());
+      ASSERT_EQ(x.numSteps(), y.numSteps()) << entry.path();
+      for (int s = 0; s < x.numSteps(); ++s) {
+        EXPECT_EQ(x.globals(s), y.globals(s)) << entry.path() << " state " << s;
+        for (const auto& name : x.nodalNames()) EXPECT_EQ(x.nodal(s, name), y.nodal(s, name)) << entry.path();
+      }
+    }
+  }
+  void goesOnFromEvery(int stride, const std::string& deck) {
+    writeFile(folder_ / "deck.yaml", deck);
+    run({"-o", "whole"});
+    const auto all = places();
+    for (std::size_t i = 0; i < all.size(); i += stride) {
+      const std::string place = std::to_string(all[i].first) + ":" + std::to_string(all[i].second);
+      SCOPED_TRACE(place);
+      run({"--restart", "whole", "--from", place, "-o", "again"});
+      expectSame("again");
+    }
+  }
+  TemporaryFolder folder_;
+};
+
+constexpr const char* kArch = "problem: {name: shallow_arch}\npath: {branches: all}\n";
+
+TEST_F(BranchRestart, ArchWithBothLoops) { goesOnFromEvery(3, kArch); }
+
+TEST_F(BranchRestart, ColumnWithBranchesAndImperfectPaths) {
+  goesOnFromEvery(4, "problem: {name: euler_column}\npath: {branches: all, imperfections: [0.01, -0.01]}\n");
+}
+
+TEST_F(BranchRestart, ImperfectPathsWithoutBranches) {
+  goesOnFromEvery(2, "problem: {name: euler_column}\npath: {imperfections: [0.01, -0.02]}\n");
+}
+
+TEST_F(BranchRestart, KilledOnABranchGoesOnBitForBit) {
+  writeFile(folder_ / "deck.yaml", kArch);
+  run({"-o", "whole"});
+  const auto all = places();
+  Command command({"run", "-q", "deck.yaml", "-o", "killed"}, folder_.path());
+  const auto table = folder_ / "killed" / "path.csv";
+  const auto limit = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+  // Four rows a step from the fourth step of the first branch on.
+  const auto rows = [&] {
+    const std::string text = readFile(table);
+    return std::count(text.begin(), text.end(), '\n');
+  };
+  const auto enough = 1 + 5 * static_cast<long>(std::count_if(all.begin(), all.end(), [](const auto& p) {
+                            return p.first == 0 || p.second < 5;
+                          }));
+  while (!(std::filesystem::exists(table) && rows() > enough)) {
+    ASSERT_LT(std::chrono::steady_clock::now(), limit);
+    std::this_thread::sleep_for(std::chrono::microseconds(200));
+  }
+  if (command.running()) command.send(SIGKILL);
+  // Where the run was over before the signal it is cut by hand, in the middle of a record.
+  if (command.wait().signal != SIGKILL) {
+    const std::string states = readFile(folder_ / "killed" / "restart.bin");
+    writeFile(folder_ / "killed" / "restart.bin", states.substr(0, states.size() / 2));
+  }
+  run({"--restart", "killed"});
+  expectSame("killed");
+}
+
+// A diagram that is complete has nothing left to do; from a step of its first path on it goes on with other
+// settings.
+TEST_F(BranchRestart, OfACompleteDiagram) {
+  writeFile(folder_ / "deck.yaml", kArch);
+  run({"-o", "whole"});
+  const auto before = readFile(folder_ / "whole" / "branches.csv");
+  run({"--restart", "whole", "-o", "again"});
+  expectSame("again");
+  EXPECT_EQ(readFile(folder_ / "again" / "branches.csv"), before);
+  writeFile(folder_ / "deck.yaml", "problem: {name: shallow_arch}\npath: {branches: all, order: 12}\n");
+  run({"--restart", "whole", "--from", "2", "-o", "other"});
+  const auto other = readFile(folder_ / "other" / "path.csv"),
+             whole = readFile(folder_ / "whole" / "path.csv");
+  EXPECT_EQ(rowsUpTo(other, 2), rowsUpTo(whole, 2));
+  EXPECT_NE(rowsUpTo(other, 3), rowsUpTo(whole, 3));
+}
+
+TEST_F(BranchRestart, WhatDoesNotFitIsRefused) {
+  writeFile(folder_ / "deck.yaml", "problem: {name: euler_column}\npath: {imperfections: 0.01}\n");
+  run({"-o", "whole"});
+  const auto refuses = [&](const std::string& deck, const std::vector<std::string>& words,
+                           const std::vector<std::string>& expected) {
+    writeFile(folder_ / "deck.yaml", deck);
+    std::vector<std::string> all{"run", "-q", "deck.yaml", "--restart", "whole"};
+    all.insert(all.end(), words.begin(), words.end());
+    const CommandResult r = runAtrapos(all, folder_.path());
+    EXPECT_EQ(r.exitCode, 2);
+    ASSERT_EQ(r.errorLines().size(), 1u) << r.err;
+    for (const auto& word : expected) EXPECT_NE(r.err.find(word), std::string::npos) << word << ": " << r.err;
+  };
+  refuses("problem: {name: euler_column}\npath: {branches: all}\n", {}, {"path/branches", "no branches"});
+  refuses("problem: {name: euler_column}\npath: {imperfections: 0.02}\n", {}, {"path/imperfections", "0.01"});
+  refuses("problem: {name: euler_column}\npath: {imperfections: 0.01}\n", {"--from", "3:1"},
+          {"no step 1 of branch 3"});
+  refuses("problem: {name: euler_column}\npath: {imperfections: 0.01}\n", {"--from", "x"}, {"--from 'x'"});
+}
+
 TEST_F(Restart, WithOtherSettingsFromTheMiddle) {
   writeFile(folder_ / "deck.yaml",
             edited(edited(kSmallDeck, "order: 15", "order: 8"), "{load_factor: 0.5}", "{load_factor: 0.7}"));
@@ -153,7 +301,7 @@ TEST_F(Restart, FinishedRunGoesFurther) {
 TEST_F(Restart, WhatCannotGoOnIsRefused) {
   refuses({"--restart", "nowhere"}, {"nowhere/restart.bin", "cannot be read"});
   refuses({"--restart", "whole", "--from", "1000"},
-          {"no step 1000", "last one is " + std::to_string(steps_)});
+          {"no step 1000 of branch 0", "last one is " + std::to_string(steps_)});
   refuses({"--from", "2"}, {"--restart"});
   writeFile(folder_ / "whole" / "restart.bin", "not one");
   refuses({"--restart", "whole"}, {"not a restart file"});

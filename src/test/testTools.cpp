@@ -1,8 +1,11 @@
 // Decks with every kind of tool: tools that are the same surface give the same path.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <sstream>
+#include <vector>
 
 #include "support/Command.hpp"
 #include "support/Folder.hpp"
@@ -212,6 +215,149 @@ TEST_F(Laws, SharpenedIsTheRunWithTheSmallerEta) {
   same(e, sharp);
   EXPECT_GT(rows, 2);
   EXPECT_NE(readFile(folder_ / "deck_results" / "summary.json").find("\"sharpened\""), std::string::npos);
+}
+
+/// Decks of a block over a floor.
+class Floor : public Tools {
+ protected:
+  /// Values of the last row of path.csv behind the load factor.
+  std::vector<double> last(const std::string& deck, const std::string& name = "floor.yaml") {
+    writeFile(folder_ / name, deck);
+    EXPECT_EQ(runAtrapos({"mesh", "-q", name}, folder_.path()).exitCode, 0);
+    const CommandResult r = runAtrapos({"run", "-q", name}, folder_.path());
+    EXPECT_EQ(r.exitCode, 0) << r.err;
+    return lastRow(name.substr(0, name.size() - 5) + "_results/path.csv");
+  }
+  std::vector<double> lastRow(const std::string& file) {
+    std::istringstream lines(readFile(folder_ / file));
+    std::string line, row, cell;
+    while (std::getline(lines, line)) row = line;
+    std::vector<double> values;
+    for (std::istringstream cells(row); std::getline(cells, cell, ',');) values.push_back(std::stod(cell));
+    return values;
+  }
+  int rowsOf(const std::string& file) {
+    const std::string text = readFile(folder_ / file);
+    return static_cast<int>(std::count(text.begin(), text.end(), '\n')) - 1;
+  }
+};
+
+// The points that carry the law cross a border where the curvature of the tool jumps, as all of them do; what
+// is left out is less than eta a unit of area.
+TEST_F(Floor, NearPointsCrossTheBorderOfPatches) {
+  const std::string deck = R"(mesh:
+  file: block.exo
+  generate: {shape: box, lengths: [1, 1, 1], divisions: [3, 3, 2], cell: HEX8}
+materials:
+  rubber: {law: saint_venant_kirchhoff, youngs_modulus: 10, poissons_ratio: 0.3, blocks: [body]}
+supports:
+  top: {set: z_max, x: {per_load_factor: 0.5}, y: 0, z: {per_load_factor: -0.1}}
+tools:
+  floor:
+    type: patches
+    surfaces:
+      plate: {degree: [1, 1], points: [[-1, -1, -0.65], [-1, 2, 0.25], [0.55, -1, -0.65], [0.55, 2, 0.25]]}
+      arc: {degree: [2, 1], points: [[0.55, -1, -0.65], [0.55, 2, 0.25], [1.3, -1, -0.65], [1.3, 2, 0.25],
+                                     [2, -1, -0.3], [2, 2, 0.6]]}
+contact:
+  lower: {tool: floor, set: z_min, quadrature_degree: 2, carried: all, stiffness: 1.0e3, regularisation: 1.0e-4}
+path:
+  order: 15
+  residual: 1.0e-8
+  stop: {load_factor: 1}
+output:
+  monitors:
+    force: {type: contact_force, contact: lower}
+    aside: {type: contact_force, contact: lower, component: x}
+)";
+  const auto all = last(deck), near = last(edited(deck, "carried: all", "carried: near"), "near.yaml");
+  ASSERT_GT(all.size(), 4u);
+  EXPECT_GT(all[3], 0.2);
+  EXPECT_LT(all[4], -0.03);  // pressed against the arc
+  const auto carried =
+      nlohmann::json::parse(readFile(folder_ / "near_results/summary.json"))["contacts"]["lower"];
+  EXPECT_LT(carried["points_carried"], carried["points"]);
+  EXPECT_EQ(near[2], 1.0);
+  for (int i = 3; i < 5; ++i) EXPECT_NEAR(near[i], all[i], 1e-4) << i;
+}
+
+/// Pressed flat on a plane by 1 % of its height, without Poisson's ratio.
+const std::string kFlat = R"(mesh:
+  file: block.exo
+  generate: {shape: box, lengths: [4, 4, 1], divisions: [4, 4, 2], cell: HEX20}
+materials:
+  rubber: {law: saint_venant_kirchhoff, youngs_modulus: 1000, poissons_ratio: 0, blocks: [body]}
+supports:
+  left: {set: x_min, x: 0}
+  front: {set: y_min, y: 0}
+  top: {set: z_max, z: {per_load_factor: -0.02}}
+tools:
+  floor: {type: plane, point: [0, 0, -0.01], normal: [0, 0, 1]}
+contact:
+  lower: {tool: floor, set: z_min, law: hard}
+path:
+  stop: {load_factor: 1}
+output:
+  fields: [displacement, contact]
+  monitors:
+    force: {type: contact_force, contact: lower}
+)";
+
+// The force of Saint Venant-Kirchhoff's law at the stretch 0.99 on 16, E l (1 - l^2)/2; 25 corners close.
+TEST_F(Floor, QuadraticCellsAreFlatUnderHardContact) {
+  const double exact = 16 * 1000 * 0.99 * (1 - 0.99 * 0.99) / 2;
+  const auto end = last(kFlat);
+  ASSERT_GT(end.size(), 3u);
+  EXPECT_NEAR(end[3], exact, 1e-6 * exact);  // bound of the residual: 1e-6 of the forces
+  EXPECT_LE(end[0], 3);
+  EXPECT_EQ(rowsOf("floor_results/events.csv"), 25);
+}
+
+// What only touches its tool at the start is held by it while it is pressed.
+TEST_F(Floor, HardContactHoldsWhatTouches) {
+  for (const char* points : {"quadrature", "nodes"}) {
+    std::string deck = edited(kFlat, "cell: HEX20", "cell: HEX8");
+    deck = edited(deck, "point: [0, 0, -0.01]", "point: [0, 0, 0]");
+    deck = edited(deck, "law: hard", std::string("law: hard, points: ") + points);
+    deck = edited(deck, "  top: {set: z_max, z: {per_load_factor: -0.02}}\n",
+                  "loads:\n  top: {type: surface, set: z_max, total: [0, 0, -50]}\n");
+    const auto end = last(deck);
+    ASSERT_GT(end.size(), 3u);
+    EXPECT_NEAR(end[3], 50, 1e-4) << points;  // bound of the residual: 1e-6 of the forces
+  }
+}
+
+// A sphere pressed into the block: corners close one after the other, and a restart from any step has the
+// same path and events.
+TEST_F(Floor, RestartsOverFacesHaveTheSameEvents) {
+  std::string deck = edited(kFlat, "{type: plane, point: [0, 0, -0.01], normal: [0, 0, 1]}",
+                            "{type: sphere, center: [1.7, 1.6, -10.02], radius: 10}");
+  deck = edited(deck, "per_load_factor: -0.02", "per_load_factor: -0.1");
+  const auto end = last(deck, "whole.yaml");
+  ASSERT_GT(end.size(), 3u);
+  EXPECT_GE(rowsOf("whole_results/events.csv"), 4);
+  for (int step = 1; step < end[0]; ++step) {
+    ASSERT_EQ(runAtrapos({"run", "-q", "whole.yaml", "--restart", "whole_results", "--from",
+                          std::to_string(step), "-o", "again"},
+                         folder_.path())
+                  .exitCode,
+              0);
+    for (const char* file : {"path.csv", "events.csv"})
+      EXPECT_EQ(readFile(folder_ / "again" / file), readFile(folder_ / "whole_results" / file)) << step;
+  }
+}
+
+TEST_F(Floor, HardFacesAreNotForPatches) {
+  writeFile(folder_ / "floor.yaml",
+            edited(kFlat, "{type: plane, point: [0, 0, -0.01], normal: [0, 0, 1]}",
+                   "{type: patches, surfaces: {s: {degree: [1, 1], points: [[-1, -1, -0.01], [-1, 5, -0.01], "
+                   "[5, -1, -0.01], [5, 5, -0.01]]}}}"));
+  ASSERT_EQ(runAtrapos({"mesh", "-q", "floor.yaml"}, folder_.path()).exitCode, 0);
+  const CommandResult r = runAtrapos({"run", "-q", "floor.yaml"}, folder_.path());
+  EXPECT_EQ(r.exitCode, 2);
+  EXPECT_NE(r.err.find("contact/lower/law: hard contact with tools of type patches acts at nodes"),
+            std::string::npos)
+      << r.err;
 }
 
 }  // namespace

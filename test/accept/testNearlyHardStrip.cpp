@@ -16,13 +16,15 @@ Edits withLaw(const std::string& law) {
     return side + ": {tool: roll, set: " + set + ", points: nodes, " + text + "}";
   };
   return {{contact("right", "y_min", kLaw), contact("right", "y_min", law)},
-          {contact("left", "y_max", kLaw), contact("left", "y_max", law)}};
+          {contact("left", "y_max", kLaw), contact("left", "y_max", law)},
+          {"stop: {load_factor: 0.25}", "pade: off\n  stop: {load_factor: 0.25}"}};
 }
 
 // Half the steps that displacements and load need for the same law, three times those of a soft law (1e3 N/mm
-// and 0.1 N a station) at most; the same path.
+// and 0.1 N a station) at most; the same path. With polynomials: rational series, the default, take the plain
+// law's branch points out by themselves (82 steps for 117) and do not shorten the curve's 55.
 TEST(NearlyHardStrip, HalfTheSteps) {
-  const StripRun curve("nearly_hard.yaml"),
+  const StripRun curve("nearly_hard.yaml", withLaw(kLaw)),
       plain("nearly_hard.yaml", withLaw("stiffness: 5.0e5, regularisation: 5.0e-6")),
       soft("nearly_hard.yaml", withLaw("stiffness: 500, regularisation: 0.05"));
   const int steps = curve.summary.at("steps");

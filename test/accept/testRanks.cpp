@@ -186,6 +186,29 @@ int linesWith(const CommandResult& r, const std::string& text) {
   }));
 }
 
+/// The number behind a text.
+int numberAfter(const std::string& all, const std::string& text) {
+  const auto at = all.find(text);
+  if (at == std::string::npos) throw std::runtime_error("no '" + text + "' in:\n" + all);
+  return std::stoi(all.substr(at + text.size()));
+}
+
+TEST(Ranks, ThreadsOfAllFitTheMachine) {
+  const DeckOnRanks deck(block());
+  for (const int ranks : {1, 2, 3}) {
+    SCOPED_TRACE(ranks);
+    const CommandResult r = runAtraposOnRanks(ranks, {"--version", "--verbose"}, deck.folder.path());
+    ASSERT_EQ(r.exitCode, 0) << r.err;
+    EXPECT_EQ(numberAfter(r.out, "ranks       "), ranks);
+    EXPECT_EQ(r.out.find("ranks       "), r.out.rfind("ranks       "));  // said once
+    const int processors = numberAfter(r.out, "processors  ");
+    const int loops = numberAfter(r.out, "element loops ");
+    EXPECT_LE(ranks * loops, std::max(ranks, processors));
+    EXPECT_EQ(numberAfter(r.out, "BLAS and MUMPS "), 1);
+    EXPECT_EQ(summaryOf(deck, deck.run(ranks)).at("threads"), loops);
+  }
+}
+
 TEST(Ranks, ErrorOfAllIsToldOnce) {
   TemporaryFolder folder;
   writeFile(folder / "deck.yaml", edited(block(), "x_min", "no_such_set"));
@@ -203,16 +226,96 @@ TEST(Ranks, ErrorOfOneEndsAll) {
   EXPECT_EQ(linesWith(r, "cannot be made"), 1) << r.err;
 }
 
+/// Nodes under the block close one by one on a roll that lies askew.
+std::string hardBlock() {
+  std::string deck = edited(block(), "stiffness: 1000, regularisation: 1.0e-3", "law: hard, points: nodes");
+  deck = edited(deck, "divisions: [4, 1, 1]", "divisions: [8, 3, 2]");
+  deck = edited(deck, "-1.25], axis: [0, 1, 0]", "-1.05], axis: [0.05, 1, 0.02]");
+  return edited(deck, "stop: {load_factor: 0.5}", "stop: {load_factor: 2}");
+}
+
+TEST(Ranks, HardContactFollowsTheSamePath) {
+  const DeckOnRanks deck(hardBlock());
+  const std::string alone = deck.run(1);
+  const Table path(deck.file(alone, "path.csv"));
+  EXPECT_EQ(summaryOf(deck, alone).at("contact_events"), 4);
+  for (const int ranks : {2, 3}) {
+    SCOPED_TRACE(ranks);
+    const std::string run = deck.run(ranks);
+    expectSameTable(path, Table(deck.file(run, "path.csv")), kSame);
+    expectSameEvents(Table(deck.file(alone, "events.csv")), Table(deck.file(run, "events.csv")));
+    expectSameFields(deck.file(alone, "results.exo"), deck.file(run, "results.exo"), 10 * kSame);
+  }
+}
+
+TEST(Ranks, HardContactGoesOnWithAnotherNumberOfRanks) {
+  const DeckOnRanks whole(hardBlock()),
+      parts(edited(hardBlock(), "{load_factor: 2}", "{load_factor: 2, steps: 3}"));
+  const std::string two = parts.run(2);
+  writeFile(parts.folder / "deck.yaml", hardBlock());
+  const std::string one = parts.run(1, {"--restart", two});
+  expectSameTable(Table(whole.file(whole.run(1), "path.csv")), Table(parts.file(one, "path.csv")), kSame);
+}
+
+TEST(Ranks, SharpenedContactIsTheSame) {
+  const DeckOnRanks deck(edited(block(), "  order: 15", "  order: 15\n  sharpen: 0.1"));
+  const std::string alone = deck.run(1), shared = deck.run(2);
+  const Table one(deck.file(alone, "sharpen.csv"));
+  EXPECT_GT(one.numRows(), 1);
+  expectSameTable(one, Table(deck.file(shared, "sharpen.csv")), kSame);
+  EXPECT_EQ(summaryOf(deck, alone).at("sharpened").at("reached"), true);
+}
+
+TEST(Ranks, CheckForeseesTheMemoryOfAll) {
+  const DeckOnRanks deck(block());
+  const CommandResult one = runAtrapos({"check", "deck.yaml"}, deck.folder.path()),
+                      two = runAtraposOnRanks(2, {"check", "deck.yaml"}, deck.folder.path());
+  ASSERT_EQ(one.exitCode, 0) << one.err;
+  ASSERT_EQ(two.exitCode, 0) << two.err;
+  const auto upTo = [](const std::string& text, const char* end) { return text.substr(0, text.find(end)); };
+  EXPECT_EQ(upTo(one.out, "# memory"), upTo(two.out, "# ranks"));
+  EXPECT_EQ(two.out.find("# unknowns"), two.out.rfind("# unknowns"));  // said once
+  // All in MB: so small a block is nothing beside the program, which is there twice.
+  const int programOnce = numberAfter(one.out, "#   set up"),
+            programTwice = numberAfter(two.out, "#   set up");
+  EXPECT_GT(programTwice, 1.5 * programOnce);
+  EXPECT_LT(programTwice, 3 * programOnce);
+}
+
+TEST(Ranks, ModelProblemRunsOnTheFirst) {
+  TemporaryFolder folder;
+  writeFile(folder / "deck.yaml", "problem: {name: bratu_1d}\npath:\n  stop: {steps: 5}\n");
+  const CommandResult one = runAtrapos({"run", "-q", "deck.yaml", "-o", "one"}, folder.path()),
+                      two = runAtraposOnRanks(2, {"run", "deck.yaml", "-o", "two"}, folder.path());
+  ASSERT_EQ(one.exitCode, 0) << one.err;
+  ASSERT_EQ(two.exitCode, 0) << two.err;
+  EXPECT_EQ(readFile(folder / "one" / "path.csv"), readFile(folder / "two" / "path.csv"));
+  EXPECT_NE(two.out.find("the model problem runs on the first rank"), std::string::npos) << two.out;
+  // An error there is told once and ends all ranks with its exit code.
+  writeFile(folder / "deck.yaml",
+            "problem: {name: bratu_1d, parameters: {nonsense: 1}}\npath:\n  stop: {steps: 5}\n");
+  const CommandResult bad = runAtraposOnRanks(2, {"run", "-q", "deck.yaml"}, folder.path());
+  EXPECT_EQ(bad.exitCode, 2);
+  EXPECT_EQ(linesWith(bad, "nonsense"), 1) << bad.err;
+}
+
+TEST(Ranks, MapRunsOnTheFirst) {
+  const DeckOnRanks deck(block());
+  const std::vector<std::string> words{"map",      "deck.yaml", "--orders", "10",
+                                       "--deltas", "1e-4",      "--pade",   "off"};
+  const CommandResult r = runAtraposOnRanks(2, words, deck.folder.path());
+  ASSERT_EQ(r.exitCode, 0) << r.err;
+  EXPECT_EQ(Table(deck.folder / "map.csv").numRows(), 1);
+}
+
 TEST(Ranks, WhatRunsOnOneRankSaysSo) {
   const DeckOnRanks deck(edited(block(),
-                                "lower: {tool: roll, set: z_min, stiffness: 1000, regularisation: 1.0e-3}",
-                                "lower: {tool: roll, set: z_min, law: hard, points: nodes}"));
-  const CommandResult hard = runAtraposOnRanks(2, {"run", "-q", "deck.yaml"}, deck.folder.path());
-  EXPECT_EQ(hard.exitCode, 2);
-  EXPECT_EQ(linesWith(hard, "contact/lower/law: hard works on one rank only"), 1) << hard.err;
-  const CommandResult check = runAtraposOnRanks(2, {"check", "deck.yaml"}, deck.folder.path());
-  EXPECT_EQ(check.exitCode, 2);
-  EXPECT_EQ(linesWith(check, "check runs on one rank only"), 1) << check.err;
+                                "{type: cylinder, center: [4, 0, -1.25], axis: [0, 1, 0], radius: 1}",
+                                "{type: patches, surfaces: {floor: {degree: [1, 1], points: [[3, -1, -0.5], "
+                                "[3, 2, -0.5], [6, -1, -0.5], [6, 2, -0.5]]}}}"));
+  const CommandResult r = runAtraposOnRanks(2, {"run", "-q", "deck.yaml"}, deck.folder.path());
+  EXPECT_EQ(r.exitCode, 2);
+  EXPECT_EQ(linesWith(r, "contact/lower/tool: a tool of patches works on one rank only"), 1) << r.err;
 }
 
 }  // namespace

@@ -1,10 +1,12 @@
-// The strip on the roll with the roll as the implicit cylinder, as a NURBS surface and as Bezier patches: one
-// path.
+// The strip on the roll with the roll as the implicit cylinder, as a NURBS surface, as Bezier patches and
+// from a STEP file: one path.
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdlib>
 #include <sstream>
 
+#include "support/Folder.hpp"
 #include "support/StripRun.hpp"
 
 namespace atrapos::test {
@@ -80,20 +82,38 @@ std::string bezierRoll(int p) {
   return "{type: patches, surfaces: {" + surfaces + "}}";
 }
 
-TEST(RollThreeWays, OnePath) {
-  const StripRun cylinder = runWith(kRoll), nurbs = runWith(nurbsRoll()), bezier = runWith(bezierRoll(7));
-  EXPECT_GT(cylinder.path->column("force").back(), 20.0);
-  EXPECT_EQ(cylinder.summary.at("contact_events"),
-            8);  // stations 210, 220, 230 in turn, at the edges or the middle
-  const auto same = [&](const StripRun& run, double tolerance) {
+class RollThreeWays : public testing::Test {
+ protected:
+  const StripRun cylinder = runWith(kRoll);
+
+  void expectSame(const StripRun& run, double tolerance) {
     for (const char* name : {"tip_ux", "tip_uz", "force"})
       EXPECT_NEAR(run.path->column(name).back(), cylinder.path->column(name).back(), tolerance) << name;
     EXPECT_EQ(run.summary.at("contact_events"), cylinder.summary.at("contact_events"));
     // Step lengths are rounded to 7 bits: now and then rounding makes another one.
     EXPECT_NEAR(run.summary.at("steps"), cylinder.summary.at("steps"), 2);
-  };
-  same(nurbs, 1e-7);   // 1e-9 mm measured: rounding of a path whose residuals are below 1e-8
-  same(bezier, 1e-5);  // 4e-7 mm measured: the Bezier roll is off by 7e-7 mm
+  }
+};
+
+TEST_F(RollThreeWays, OnePath) {
+  EXPECT_GT(cylinder.path->column("force").back(), 20.0);
+  EXPECT_EQ(cylinder.summary.at("contact_events"),
+            8);  // stations 210, 220, 230 in turn, at the edges or the middle
+  expectSame(runWith(nurbsRoll()),
+             1e-7);  // 1e-9 mm measured: rounding of a path whose residuals are below 1e-8
+  expectSame(runWith(bezierRoll(7)), 1e-5);  // 4e-7 mm measured: the Bezier roll is off by 7e-7 mm
+}
+
+TEST_F(RollThreeWays, FromAStepFile) {
+#ifndef ATRAPOS_SURFACES
+  GTEST_SKIP() << "built without OpenCASCADE";
+#else
+  const TemporaryFolder folder;
+  const std::string file = (folder / "roll.yaml").string();
+  const std::string line = ATRAPOS_SURFACES " " ATRAPOS_ACCEPT_DATA "/roll.step --faces 1 > " + file;
+  ASSERT_EQ(std::system(line.c_str()), 0);
+  expectSame(runWith("{type: patches, file: " + file + "}"), 1e-7);  // exact as the NURBS above
+#endif
 }
 
 // Nodes that never come near the roll carry no law, and what they would add is below eta.

@@ -102,13 +102,15 @@ TEST_F(StripOnRoll, PaysOneFactorizationAStep) {
                        s.at("retreats").get<int>() + s.at("closings").get<int>() +
                        s.at("critical_factorizations").get<int>();
   EXPECT_EQ(s.at("factorizations"), expected);
-  // Where steps shrink suddenly two more series are spent on the suspicion of a bifurcation point: 5 of 286
-  // here. Eigenvalues that may vanish soon want eight orders more each.
+  // Where steps shrink suddenly two more series are spent on the suspicion of a bifurcation point.
+  // Eigenvalues that may vanish soon want eight orders more each, and in longer steps more of them may: 10 %
+  // here.
   EXPECT_GE(s.at("orders_computed"), 20 * steps());
-  EXPECT_LE(s.at("orders_computed"), 1.05 * 20 * steps());
+  EXPECT_LE(s.at("orders_computed"), 1.15 * 20 * steps());
   EXPECT_TRUE(s.at("reached_stop"));
-  // 286 measured; a law or a radius that went wrong shows first in the number of steps.
-  EXPECT_LT(steps(), 350);
+  // 194 measured (286 with polynomials alone); a law or a radius that went wrong shows first in the number of
+  // steps.
+  EXPECT_LT(steps(), 240);
   EXPECT_LE(s.at("corrections").get<int>(), 0.02 * steps());
 }
 

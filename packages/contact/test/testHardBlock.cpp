@@ -1,4 +1,5 @@
-// Tangent, series and event functions of a whole problem with hard contact, points free and active.
+// Tangent, series and event functions of a whole problem with hard contact at nodes and over faces,
+// conditions free and active.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -27,20 +28,23 @@ MovingTool<Cylinder> turning() {
 }
 
 template <class Tool>
-fem::FeModel onTool(const fem::Mesh& mesh, const Tool& tool) {
+fem::FeModel onTool(const fem::Mesh& mesh, const Tool& tool, Where where) {
   fem::FeModel model = solidModel(mesh, 10, 0.3);
-  addHardContact(model, contactPoints(mesh, "z_min", Where::Nodes), tool);
+  if (where == Where::Nodes)
+    addHardContact(model, contactPoints(mesh, "z_min", where), tool);
+  else
+    addHardFaceContact(model, contactPoints(mesh, "z_min", where), tool);
   return model;
 }
 
-/// Every other point is active.
+/// Every other condition is active.
 void alternate(fem::FeProblem& problem) {
   auto conditions = problem.conditions();
   for (std::size_t i = 0; i < conditions.size(); ++i) conditions[i] = i % 2 == 0;
   problem.setConditions(conditions);
 }
 
-/// Displacements and multipliers of some size; those of free points are zero, as on any path.
+/// Displacements and multipliers of some size; those of free conditions are zero, as on any path.
 Numbers someState(const fem::FeProblem& problem, const fem::Mesh& mesh) {
   const std::size_t dofs = fem::FeProblem::values(*problem.initialState(0)).size();
   Numbers u = fem::test::randomNumbers(dofs, 0.08, 5);
@@ -54,9 +58,9 @@ Numbers someState(const fem::FeProblem& problem, const fem::Mesh& mesh) {
 }
 
 template <class Tool>
-void tangentIsDerivative(const Tool& tool, bool symmetric) {
+void tangentIsDerivative(const Tool& tool, bool symmetric, Where where) {
   const auto mesh = fem::test::distorted(fem::test::box(fem::Topology::Hex20, {2, 2, 2}, {1, 1, 1}), 0.02);
-  fem::FeProblem problem(onTool(mesh, tool));
+  fem::FeProblem problem(onTool(mesh, tool, where));
   EXPECT_EQ(problem.symmetric(), symmetric);
   alternate(problem);
   const double lambda = 0.3;
@@ -65,14 +69,16 @@ void tangentIsDerivative(const Tool& tool, bool symmetric) {
 
   const auto K = fem::test::tangent(problem, u, lambda);
   const double largest = fem::test::largest(K.value);
-  if (symmetric)
+  if (symmetric) {
     for (std::size_t i = 0; i + 1 < K.start.size(); ++i)
-      for (std::size_t e = K.start[i]; e < K.start[i + 1]; ++e)
+      for (std::size_t e = K.start[i]; e < K.start[i + 1]; ++e) {
         // Sums of some 100 rounded products.
         ASSERT_NEAR(K.value[e], K.at(K.column[e], static_cast<int>(i)), 1e-13 * largest);
+      }
+  }
 
   // Central differences along random directions, lambda included: the error falls by 4. The multipliers of
-  // free points stay zero: their force is left out of the tangent, so that it is symmetric.
+  // free conditions stay zero: their force is left out of the tangent, so that it is symmetric.
   for (unsigned seed = 6; seed < 9; ++seed) {
     Numbers v = fem::test::randomNumbers(u.size(), 1, seed);
     for (std::size_t p = 0; p < conditions.size(); ++p) {
@@ -87,19 +93,21 @@ void tangentIsDerivative(const Tool& tool, bool symmetric) {
 }  // namespace
 
 TEST(HardBlock, TangentIsTheDerivativeOfTheResidual) {
-  tangentIsDerivative(roll(), true);
-  tangentIsDerivative(turning(), true);
+  for (const Where where : {Where::Nodes, Where::Quadrature}) {
+    tangentIsDerivative(roll(), true, where);
+    tangentIsDerivative(turning(), true, where);
+  }
   RadialRoll<TaperedProfile> taper;
   taper.center[2] = -2.005;
   taper.profile.radius = 2;
-  tangentIsDerivative(taper, false);  // its normal is not the gradient of its gap
+  tangentIsDerivative(taper, false, Where::Nodes);  // its normal is not the gradient of its gap
 }
 
 // The residual along a series of order K at an equilibrium falls as a^(K+1), and the event functions are the
 // gaps and multipliers along it.
 TEST(HardBlock, SeriesAndEventFunctions) {
   const auto mesh = fem::test::box(fem::Topology::Hex20, {2, 2, 2}, {1, 1, 1});
-  auto model = onTool(mesh, turning());
+  auto model = onTool(mesh, turning(), Where::Nodes);
   for (int n : fem::test::nodesOfSet(mesh, "z_max"))
     for (int i = 0; i < 3; ++i) model.supports.prescribe(n, i, 0, i == 2 ? -1.0 : 0.3);
   fem::FeProblem problem(std::move(model));

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "atrapos/contact/PatchSearch.hpp"
+#include "atrapos/path/Imperfect.hpp"
 #include "support/ContactModel.hpp"
 #include "support/PatchSurfaces.hpp"
 
@@ -63,7 +64,10 @@ struct Result {
 Result pathEnd(fem::FeModel model) {
   fem::FeProblem problem(std::move(model));
   const path::State start{problem.initialState(0), 0.0};
-  const auto outcome = follow(problem, start, 1.0);
+  // Rational forms magnify rounding, here to a fifth of the residual: numbers of steps are compared.
+  path::Options options = test::tightOptions();
+  options.pade = path::PadeUse::off;
+  const auto outcome = follow(problem, start, 1.0, options);
   Result result;
   result.u = fem::FeProblem::values(*outcome.final.u);
   result.steps = outcome.steps;
@@ -257,11 +261,34 @@ TEST_F(Slide, BreaksAreAtTheBorderAndRestart) {
 /// Keeps how every step ended.
 struct Ends final : path::Observer {
   std::vector<path::Start> next;
+  int breaks = 0;
   bool onStep(const path::StepReport& report, const path::Series&) override {
     next.push_back(report.next);
+    breaks += report.events.empty() ? 0 : 1;
     return true;
   }
 };
+
+// The path of an imperfect body, a force on the perfect one, is that of the body with this force among its
+// dead loads; breaks too.
+TEST_F(Slide, ImperfectPathsCrossTheBorder) {
+  const auto set = setOf(plateAndArc(0));
+  Numbers force(mesh.coordinates.size(), 0.0);
+  for (int n : fem::test::nodesOfSet(mesh, "x_max")) force[3 * n + 1] = 0.01;
+  for (int n : fem::test::nodesOfSet(mesh, "z_max")) force[3 * n + 1] = 0;  // held
+  fem::FeModel perfect = slid(mesh), loaded = slid(mesh);
+  addContact(perfect, points, set, 1e-3);
+  addContact(loaded, points, set, 1e-3);
+  loaded.constantLoad = force;
+  fem::FeProblem problem(std::move(perfect)), other(std::move(loaded));
+  path::ImperfectProblem imperfect(problem, fem::test::vectorOf(problem, force));
+  Ends ends, otherEnds;
+  const auto a = follow(imperfect, {problem.initialState(0), 0.0}, 1.0, ends);
+  const auto b = follow(other, {other.initialState(0), 0.0}, 1.0, otherEnds);
+  EXPECT_GE(ends.breaks, 2);
+  const Numbers u = fem::FeProblem::values(*a.final.u), v = fem::FeProblem::values(*b.final.u);
+  for (std::size_t i = 0; i < u.size(); ++i) EXPECT_NEAR(u[i], v[i], 1e-8);  // residuals of 1e-10
+}
 
 // Another problem that begins at the end of a step in the middle goes on with the same bits: which patch a
 // point is over is no matter of where it came from.
@@ -285,7 +312,7 @@ TEST_F(Slide, GoesOnBitByBitFromTheMiddle) {
   start.state = {whole.initialState(0), 0.0};
   const auto outcome = run(whole, start, ends);
   ASSERT_EQ(outcome.reason, path::EndReason::stopReached) << outcome.text;
-  ASSERT_GT(ends.next.size(), 4u);
+  ASSERT_GT(ends.next.size(), 2u);
   fem::FeProblem other = problem();
   const auto again = run(other, ends.next[ends.next.size() / 2], rest);
   EXPECT_EQ(again.steps, outcome.steps);

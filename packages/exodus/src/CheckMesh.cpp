@@ -18,17 +18,18 @@ constexpr long long maxId = std::numeric_limits<int>::max();  // integers in a 6
 
 class Checker {
  public:
-  Checker(const fem::Mesh& mesh, const std::string& file) : mesh_(mesh), file_(file) {}
+  Checker(const fem::Mesh& mesh, const std::string& file, Extent extent)
+      : mesh_(mesh), file_(file), isPart_(extent == Extent::part) {}
 
   void operator()() {
     require(mesh_.title.size() <= maxTitle, "the title has more than 80 characters");
     require(mesh_.coordinates.size() % 3 == 0, "the number of coordinates is not a multiple of three");
-    require(mesh_.numNodes() > 0, "the mesh has no nodes");
+    require(isPart_ || mesh_.numNodes() > 0, "the mesh has no nodes");
     require(std::all_of(mesh_.coordinates.begin(), mesh_.coordinates.end(),
                         [](double x) { return std::isfinite(x); }),
             "a node has a coordinate that is not a finite number");
     for (const fem::Block& block : mesh_.blocks) checkBlock(block);
-    require(!sidesOfElement_.empty(), "the mesh has no elements");
+    require(isPart_ || !sidesOfElement_.empty(), "the mesh has no elements");
     for (const fem::NodeSet& set : mesh_.nodeSets) {
       checkNodes(set.nodes, describe("node set", set));
       require(set.factors.empty() || set.factors.size() == set.nodes.size(),
@@ -108,11 +109,14 @@ class Checker {
 
   const fem::Mesh& mesh_;
   const std::string& file_;
+  bool isPart_;
   std::vector<char> sidesOfElement_;
 };
 
 }  // namespace
 
-void checkMesh(const fem::Mesh& mesh, const std::string& file) { Checker(mesh, file)(); }
+void checkMesh(const fem::Mesh& mesh, const std::string& file, Extent extent) {
+  Checker(mesh, file, extent)();
+}
 
 }  // namespace atrapos::exodus

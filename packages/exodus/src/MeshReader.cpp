@@ -5,7 +5,9 @@
 #include "CheckMesh.hpp"
 #include "ElementTypes.hpp"
 #include "File.hpp"
+#include "PartRecords.hpp"
 #include "atrapos/exodus/MeshFile.hpp"
+#include "atrapos/exodus/MeshPart.hpp"
 
 namespace atrapos::exodus {
 
@@ -17,12 +19,37 @@ class MeshReader {
       : file_(File::open(name)),
         nameLength_(static_cast<std::size_t>(ex_inquire_int(file_.id(), EX_INQ_MAX_READ_NAME_LENGTH))) {}
 
-  fem::Mesh operator()() {
+  fem::Mesh whole() {
+    read();
+    mesh_.nodeIds = trivialDropped(idMap(EX_NODE_MAP, init_.num_nodes));
+    mesh_.elementIds = trivialDropped(idMap(EX_ELEM_MAP, init_.num_elem));
+    checkMesh(mesh_, file_.name());
+    return std::move(mesh_);
+  }
+
+  MeshPart part(const PartName& name) {
+    extent_ = Extent::part;
+    read();
+    mesh_.nodeIds = idMap(EX_NODE_MAP, init_.num_nodes);
+    mesh_.elementIds = idMap(EX_ELEM_MAP, init_.num_elem);
+    checkMesh(mesh_, file_.name(), extent_);
+    MeshPart part;
+    part.part = name.part;
+    part.parts = name.parts;
+    part.mesh = std::move(mesh_);
+    readPartRecords(file_, part);
+    return part;
+  }
+
+ private:
+  void read() {
     file_.check(ex_get_init_ext(file_.id(), &init_), "reading the sizes");
     require(init_.num_dim == 3,
             "the mesh has " + std::to_string(init_.num_dim) + " dimensions; three are needed");
-    require(init_.num_nodes > 0, "the mesh has no nodes");
-    require(init_.num_elem > 0, "the mesh has no elements");
+    if (extent_ == Extent::whole) {
+      require(init_.num_nodes > 0, "the mesh has no nodes");
+      require(init_.num_elem > 0, "the mesh has no elements");
+    }
     constexpr int64_t most = std::numeric_limits<int>::max() / 3;
     require(init_.num_nodes < most && init_.num_elem < most, "the mesh is too large");
     mesh_.title = init_.title;
@@ -33,19 +60,15 @@ class MeshReader {
             "the blocks have " + std::to_string(firstSide_.size()) + " elements, the file announces " +
                 std::to_string(init_.num_elem));
     readSideSets();
-    mesh_.nodeIds = idMap(EX_NODE_MAP, init_.num_nodes);
-    mesh_.elementIds = idMap(EX_ELEM_MAP, init_.num_elem);
-    checkMesh(mesh_, file_.name());
-    return std::move(mesh_);
   }
 
- private:
   void require(bool condition, const std::string& message) const {
     if (!condition) throw Error(file_.name() + ": " + message);
   }
 
   void readCoordinates() {
     const auto n = static_cast<std::size_t>(init_.num_nodes);
+    if (n == 0) return;
     std::vector<double> x(n), y(n), z(n);
     file_.check(ex_get_coord(file_.id(), x.data(), y.data(), z.data()), "reading the coordinates");
     mesh_.coordinates.resize(3 * n);
@@ -77,7 +100,13 @@ class MeshReader {
       param.id = id;
       param.type = EX_ELEM_BLOCK;
       file_.check(ex_get_block_param(file_.id(), &param), "reading " + owner);
-      if (param.num_entry == 0) continue;
+      if (param.num_entry == 0) {
+        if (extent_ == Extent::whole) continue;
+        fem::Block& empty = mesh_.blocks.emplace_back();
+        empty.name = name;
+        empty.id = id;
+        continue;
+      }
       const auto topology = topologyOf(param.topology, static_cast<int>(param.num_nodes_per_entry));
       require(topology.has_value(), owner + ": element type '" + param.topology + "' with " +
                                         std::to_string(param.num_nodes_per_entry) +
@@ -176,18 +205,23 @@ class MeshReader {
     }
   }
 
-  /// Empty where the file has no map or the trivial one.
+  /// 1, 2, ... where the file has no map.
   std::vector<long long> idMap(ex_entity_type type, int64_t count) const {
     std::vector<int64_t> ids(static_cast<std::size_t>(count));
+    if (ids.empty()) return {};
     file_.check(ex_get_id_map(file_.id(), type, ids.data()), "reading the node and element ids");
-    bool trivial = true;
-    for (std::size_t i = 0; i < ids.size(); ++i) trivial = trivial && ids[i] == static_cast<int64_t>(i) + 1;
-    if (trivial) return {};
     return {ids.begin(), ids.end()};
+  }
+
+  static std::vector<long long> trivialDropped(std::vector<long long> ids) {
+    for (std::size_t i = 0; i < ids.size(); ++i)
+      if (ids[i] != static_cast<long long>(i) + 1) return ids;
+    return {};
   }
 
   File file_;
   std::size_t nameLength_;
+  Extent extent_ = Extent::whole;
   ex_init_params init_{};
   std::vector<int> firstSide_;  // [element] of the sides in the file
   fem::Mesh mesh_;
@@ -195,6 +229,11 @@ class MeshReader {
 
 }  // namespace
 
-fem::Mesh readMesh(const std::string& file) { return MeshReader(file)(); }
+fem::Mesh readMesh(const std::string& file) { return MeshReader(file).whole(); }
+
+MeshPart readPart(const std::string& name) {
+  const PartName parsed = parsePartName(name);
+  return MeshReader(name).part(parsed);
+}
 
 }  // namespace atrapos::exodus

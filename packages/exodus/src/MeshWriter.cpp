@@ -9,6 +9,7 @@
 
 #include "CheckMesh.hpp"
 #include "FileCheck.hpp"
+#include "PartRecords.hpp"
 #include "atrapos/exodus/InfoRecords.hpp"
 #include "atrapos/exodus/MeshFile.hpp"
 
@@ -45,6 +46,7 @@ class MeshWriter {
     writeRecords();
     writeIds(EX_NODE_MAP, mesh_.nodeIds);
     writeIds(EX_ELEM_MAP, mesh_.elementIds);
+    if (contents_.part) definePart(file_, *contents_.part);
     // Definitions first: each one that comes after data makes NetCDF move all of them.
     for (const fem::Block& block : mesh_.blocks) defineBlock(block);
     writeSets();
@@ -54,6 +56,7 @@ class MeshWriter {
     writeNames(EX_SIDE_SET, mesh_.sideSets);
     writeCoordinates();
     for (const fem::Block& block : mesh_.blocks) writeBlock(block);
+    if (contents_.part) writePartMaps(file_, *contents_.part);
   }
 
  private:
@@ -91,6 +94,7 @@ class MeshWriter {
 
   void writeCoordinates() const {
     const auto n = static_cast<std::size_t>(mesh_.numNodes());
+    if (n == 0) return;
     std::array<std::vector<double>, 3> x;
     for (std::size_t d = 0; d < 3; ++d) {
       x[d].resize(n);
@@ -200,7 +204,7 @@ class Draft {
 }  // namespace
 
 File createFile(const std::string& name, const FileContents& contents) {
-  checkMesh(contents.mesh, name);
+  checkMesh(contents.mesh, name, contents.part ? Extent::part : Extent::whole);
   Draft draft(name);
   File file = File::create(draft.path());
   file.rename(name);  // messages speak of the file that was asked for
@@ -213,6 +217,10 @@ File createFile(const std::string& name, const FileContents& contents) {
 
 void writeMesh(const fem::Mesh& mesh, const std::string& file) {
   createFile(file, {mesh, {}, {}, 0, {}}).close();
+}
+
+void writePart(const MeshPart& part, const std::string& file) {
+  createFile(partName(file, part.parts, part.part), {part.mesh, {}, {}, 0, {}, &part}).close();
 }
 
 }  // namespace atrapos::exodus

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "File.hpp"
+#include "atrapos/exodus/MeshPart.hpp"
 #include "atrapos/exodus/ResultWriter.hpp"
 #include "atrapos/fem/Mesh.hpp"
 
@@ -17,6 +18,7 @@ struct FileContents {
   std::vector<std::string> info;          ///< lines of any length
   std::size_t longestName = 0;            ///< of names that `more` defines
   std::function<void(const File&)> more;  ///< defines results; may be empty
+  const MeshPart* part = nullptr;         ///< whose mesh it is; null: a whole mesh
 };
 
 /// Makes the file beside its place and moves it there once complete; it stays open for steps.

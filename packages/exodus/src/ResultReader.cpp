@@ -76,6 +76,7 @@ std::vector<double> ResultReader::nodal(int step, const std::string& name) const
   const int number = impl_->number(step);
   const auto variable = impl_->find(impl_->nodal, name, "nodal");
   std::vector<double> values(impl_->numNodes);
+  if (values.empty()) return values;  // a part without nodes
   file.check(ex_get_var(file.id(), number, EX_NODAL, static_cast<int>(variable) + 1, 1,
                         static_cast<int64_t>(values.size()), values.data()),
              "reading nodal variable '" + name + "'");

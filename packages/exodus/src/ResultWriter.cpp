@@ -40,13 +40,13 @@ struct ResultWriter::Impl {
     std::size_t count;
   };
 
-  Impl(const std::string& name, const fem::Mesh& mesh, const ResultNames& names)
+  Impl(const std::string& name, const fem::Mesh& mesh, const ResultNames& names, const MeshPart* part)
       : numNodal(names.nodal.size()),
         numElement(names.element.size()),
         numGlobal(names.global.size()),
         numNodes(static_cast<std::size_t>(mesh.numNodes())),
         numElements(static_cast<std::size_t>(mesh.numElements())) {
-    FileContents contents{mesh, names.qa, names.info, 0, {}};
+    FileContents contents{mesh, names.qa, names.info, 0, {}, part};
     for (const auto& [list, kind] :
          {std::make_pair(&names.nodal, "nodal"), std::make_pair(&names.element, "element"),
           std::make_pair(&names.global, "global")}) {
@@ -58,9 +58,11 @@ struct ResultWriter::Impl {
       blocks.push_back({block.id, block.nodes.size() / fem::nodesPerElement(block.topology)});
     contents.more = [&](const File& created) {
       defineVariables(created, EX_GLOBAL, names.global);
-      defineVariables(created, EX_NODAL, names.nodal);
+      // The library has no variables on nothing.
+      if (numNodes > 0) defineVariables(created, EX_NODAL, names.nodal);
+      if (numElements == 0 || numElement == 0) return;
       defineVariables(created, EX_ELEM_BLOCK, names.element);
-      if (numElement > 0) writeTruthTable(created);
+      writeTruthTable(created);
     };
     file.emplace(createFile(name, contents));
   }
@@ -99,7 +101,7 @@ struct ResultWriter::Impl {
       file->check(
           ex_put_var(file->id(), number, EX_GLOBAL, 1, 0, static_cast<int64_t>(numGlobal), global.data),
           doing);
-    for (std::size_t v = 0; v < numNodal; ++v)
+    for (std::size_t v = 0; v < numNodal && numNodes > 0; ++v)
       file->check(ex_put_var(file->id(), number, EX_NODAL, static_cast<int>(v) + 1, 1,
                              static_cast<int64_t>(numNodes), nodal.data + v * numNodes),
                   doing);
@@ -126,7 +128,9 @@ struct ResultWriter::Impl {
 };
 
 ResultWriter::ResultWriter(const std::string& file, const fem::Mesh& mesh, const ResultNames& names)
-    : impl_(std::make_unique<Impl>(file, mesh, names)) {}
+    : impl_(std::make_unique<Impl>(file, mesh, names, nullptr)) {}
+ResultWriter::ResultWriter(const std::string& file, const MeshPart& part, const ResultNames& names)
+    : impl_(std::make_unique<Impl>(partName(file, part.parts, part.part), part.mesh, names, &part)) {}
 ResultWriter::~ResultWriter() = default;
 ResultWriter::ResultWriter(ResultWriter&&) noexcept = default;
 ResultWriter& ResultWriter::operator=(ResultWriter&&) noexcept = default;

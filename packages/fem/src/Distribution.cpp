@@ -43,6 +43,7 @@ Distribution::Distribution(const FeModel& model, const std::vector<Coupling>& co
                            linear::RCP<const Comm> comm)
     : comm_(std::move(comm)) {
   if (alone()) {
+    for (const auto& term : model.terms) ranksOf_.emplace_back(term->numEntities(), 0);
     numOwned_ = numLocal_ = model.numNodes;
     nodes_.resize(model.numNodes);
     std::iota(nodes_.begin(), nodes_.end(), 0);
@@ -54,6 +55,7 @@ Distribution::Distribution(const FeModel& model, const std::vector<Coupling>& co
   Partition p;
   together([&] { p = partition(model, couplings, comm_->getSize()); });
   cutRows(model, couplings, p);
+  ranksOf_ = std::move(p.entities);
 }
 
 void Distribution::cutRows(const FeModel& model, const std::vector<Coupling>& couplings, const Partition& p) {
@@ -265,16 +267,17 @@ void Distribution::sum(std::vector<double>& x) const {
   Teuchos::reduceAll(*comm_, Teuchos::REDUCE_SUM, static_cast<int>(x.size()), own.data(), x.data());
 }
 
-void Distribution::agree(const std::string& what, const std::exception_ptr& own) const {
+void Distribution::agree(const std::string& what, const std::exception_ptr& own, bool ofInput) const {
   const int mine = own ? rank() : comm_->getSize();
   int first = 0;
   Teuchos::reduceAll(*comm_, Teuchos::REDUCE_MIN, mine, Teuchos::outArg(first));
   if (first == comm_->getSize()) return;
-  int length = static_cast<int>(what.size());
-  Teuchos::broadcast(*comm_, first, 1, &length);
-  std::string text = first == rank() ? what : std::string(length, ' ');
-  Teuchos::broadcast(*comm_, first, length, text.data());
+  int about[2] = {static_cast<int>(what.size()), ofInput};
+  Teuchos::broadcast(*comm_, first, 2, about);
+  std::string text = first == rank() ? what : std::string(about[0], ' ');
+  Teuchos::broadcast(*comm_, first, about[0], text.data());
   if (first == rank()) std::rethrow_exception(own);
+  if (about[1] != 0) throw std::invalid_argument(text);
   throw std::runtime_error(text);
 }
 

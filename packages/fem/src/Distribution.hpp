@@ -2,6 +2,7 @@
 
 #include <Teuchos_Comm.hpp>
 #include <exception>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -37,6 +38,7 @@ class Distribution {
   int localOf(int node) const { return localOf_[node]; }               ///< -1: none of this rank
   const std::vector<std::vector<int>>& rows() const { return rows_; }  ///< [local] columns, ascending
   const std::vector<std::vector<int>>& entities() const { return entities_; }  ///< [term] this rank's
+  const std::vector<int>& ranksOf(int term) const { return ranksOf_[term]; }   ///< [entity] rank
   /// The couplings that this rank eliminates, with its own dofs.
   const std::vector<Coupling>& couplings() const { return couplings_; }
 
@@ -59,13 +61,15 @@ class Distribution {
     if (alone()) return f();
     std::string what;
     std::exception_ptr own;
+    bool ofInput = false;
     try {
       f();
     } catch (const std::exception& error) {
       what = error.what();
       own = std::current_exception();
+      ofInput = dynamic_cast<const std::invalid_argument*>(&error) != nullptr;
     }
-    agree(what, own);
+    agree(what, own, ofInput);
   }
 
  private:
@@ -86,12 +90,12 @@ class Distribution {
   void cutRows(const FeModel& model, const std::vector<Coupling>& couplings, const Partition& p);
   void findNeighbours(const std::vector<std::vector<int>>& ranksAt, const Partition& p);
   void matchRows();
-  void agree(const std::string& what, const std::exception_ptr& own) const;
+  void agree(const std::string& what, const std::exception_ptr& own, bool ofInput) const;
 
   linear::RCP<const Comm> comm_;
   int numOwned_ = 0, numLocal_ = 0;
   std::vector<int> nodes_, localOf_;
-  std::vector<std::vector<int>> rows_, entities_;
+  std::vector<std::vector<int>> rows_, entities_, ranksOf_;
   std::vector<Coupling> couplings_;
   std::vector<Neighbour> neighbours_;  ///< by ascending rank
 };

@@ -141,6 +141,7 @@ struct FeProblem::Impl {
             part.nodes.push_back(ranks->localOf(term.nodes()[static_cast<std::size_t>(e) * N + n]));
         term.keep(part);
       }
+      events.share(*ranks);
     });
   }
 
@@ -528,6 +529,12 @@ int FeProblem::constraintPivots() const {
   return impl_->model.numMultipliers + impl_->events.constraintPivots() +
          static_cast<int>(impl_->model.parameters.size());
 }
+
+std::string FeProblem::name(long long unknown) const {
+  if (impl_->model.dofName) return impl_->model.dofName(static_cast<int>(unknown));
+  return std::string("component ") + "xyz"[unknown % 3] + " of node " + std::to_string(unknown / 3 + 1);
+}
+
 std::vector<int> FeProblem::conditions() const {
   std::vector<int> all = impl_->events.conditions();
   const auto preferred = impl_->pieces.conditions();
@@ -595,6 +602,8 @@ std::vector<double> FeProblem::values(const Vector& u) { return linear::onAllRan
 
 const FeModel& FeProblem::model() const { return impl_->model; }
 const Term& FeProblem::term(int i) const { return *impl_->model.terms.at(i); }
+const std::vector<int>& FeProblem::ranksOf(int i) const { return impl_->ranks->ranksOf(i); }
+
 int FeProblem::numTerms() const { return static_cast<int>(impl_->model.terms.size()); }
 int FeProblem::numFreeDofs() const { return impl_->numFree; }
 

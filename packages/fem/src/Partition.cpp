@@ -1,13 +1,12 @@
 #include "atrapos/fem/Partition.hpp"
 
-#include <metis.h>
-
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 #include <stdexcept>
 #include <string>
 #include <utility>
+
+#include "GraphCut.hpp"
 
 namespace atrapos::fem {
 namespace {
@@ -97,58 +96,52 @@ std::vector<int> groupsOf(const Elements& elements, const std::vector<Coupling>&
   return group;
 }
 
-/// [group] rank.
+/// [group] rank, by METIS.
 std::vector<int> cut(const FeModel& model, const Elements& elements, const std::vector<int>& group,
                      int numGroups, int numRanks) {
+  detail::WeightedGraph graph;
+  graph.neighbours.resize(numGroups);
+  graph.cost.assign(numGroups, 0.0);
   // Edges weigh as many nodes as they share.
-  std::vector<std::vector<int>> neighbours(numGroups);
   for (std::size_t e = 0; e < group.size(); ++e) {
+    graph.cost[group[e]] += elements.cost[e];
     const int* nodes = nodesOf(model, elements.entity[e]);
     for (int n = 0; n < model.terms[elements.entity[e].term]->nodesPerEntity(); ++n) {
       if (elements.at[nodes[n]].size() > mostNeighbours) continue;
       for (const int other : elements.at[nodes[n]])
-        if (group[other] != group[e]) neighbours[group[e]].push_back(group[other]);
+        if (group[other] != group[e]) graph.neighbours[group[e]].push_back(group[other]);
     }
   }
-  std::vector<idx_t> start{0}, adjacent, edgeWeight, weight(numGroups, 1);
-  for (auto& list : neighbours) {
-    std::sort(list.begin(), list.end());
-    for (std::size_t i = 0; i < list.size(); ++i) {
-      if (i == 0 || list[i] != list[i - 1]) {
-        adjacent.push_back(list[i]);
-        edgeWeight.push_back(0);
-      }
-      ++edgeWeight.back();
-    }
-    start.push_back(static_cast<idx_t>(adjacent.size()));
-    list = {};
-  }
-  std::vector<double> cost(numGroups, 0.0);
-  for (std::size_t e = 0; e < group.size(); ++e) cost[group[e]] += elements.cost[e];
-  const double largest = numGroups > 0 ? *std::max_element(cost.begin(), cost.end()) : 0;
-  // Whole numbers whose sum METIS' 32 bits can hold.
-  const double scale = largest > 0 ? std::min(1000.0, 1e9 / numGroups) / largest : 0;
-  for (int g = 0; g < numGroups; ++g) weight[g] += static_cast<idx_t>(scale * cost[g]);
+  return detail::cut(std::move(graph), numRanks);
+}
 
-  std::vector<idx_t> rank(numGroups, 0);
-  if (adjacent.empty() || numGroups < numRanks) {  // nothing for METIS to decide
-    for (int g = 0; g < numGroups; ++g)
-      rank[g] = static_cast<idx_t>(static_cast<long long>(g) * numRanks / numGroups);
-    return {rank.begin(), rank.end()};
+/// [group] rank that the model gives to its first element that has one, or the rank of a neighbour.
+std::vector<int> given(const FeModel& model, const Elements& elements, const std::vector<int>& group,
+                       int numGroups, int numRanks) {
+  const auto rankOf = [&](int e) {
+    const Entity& entity = elements.entity[e];
+    const auto term = static_cast<std::size_t>(entity.term);
+    if (term >= model.ranks.size() || model.ranks[term].empty()) return -1;
+    if (model.ranks[term].size() != static_cast<std::size_t>(model.terms[term]->numEntities()))
+      throw std::invalid_argument("FeModel: not every entity of a term has a rank");
+    const int rank = model.ranks[term][entity.number];
+    if (rank < 0 || rank >= numRanks)
+      throw std::invalid_argument("FeModel: an element is given to rank " + std::to_string(rank) + " of " +
+                                  std::to_string(numRanks));
+    return rank;
+  };
+  std::vector<int> rank(numGroups, -1);
+  for (std::size_t e = 0; e < group.size(); ++e)
+    if (rank[group[e]] < 0) rank[group[e]] = rankOf(static_cast<int>(e));
+  for (std::size_t e = 0; e < group.size(); ++e) {
+    if (rank[group[e]] >= 0) continue;
+    const int* nodes = nodesOf(model, elements.entity[e]);
+    for (int n = 0; n < model.terms[elements.entity[e].term]->nodesPerEntity(); ++n)
+      for (const int other : elements.at[nodes[n]])
+        if (rank[group[e]] < 0) rank[group[e]] = rankOf(other);
   }
-  idx_t options[METIS_NOPTIONS], vertices = numGroups, constraints = 1, parts = numRanks, edgeCut = 0;
-  METIS_SetDefaultOptions(options);
-  options[METIS_OPTION_NUMBERING] = 0;
-  options[METIS_OPTION_SEED] = 1;
-  // METIS' manual: bisection for few parts, where it balances better.
-  const auto method = numRanks <= 8 ? METIS_PartGraphRecursive : METIS_PartGraphKway;
-  const int status = method(&vertices, &constraints, start.data(), adjacent.data(), weight.data(), nullptr,
-                            edgeWeight.data(), &parts, nullptr, nullptr, options, &edgeCut, rank.data());
-  if (status != METIS_OK)
-    throw std::runtime_error("METIS: cutting " + std::to_string(numGroups) + " elements into " +
-                             std::to_string(numRanks) + " parts failed (code " + std::to_string(status) +
-                             ")");
-  return {rank.begin(), rank.end()};
+  for (int& r : rank) r = std::max(r, 0);
+  return rank;
 }
 
 }  // namespace
@@ -157,7 +150,8 @@ Partition partition(const FeModel& model, const std::vector<Coupling>& couplings
   const Elements elements = elementsOf(model);
   int numGroups = 0;
   const auto group = groupsOf(elements, couplings, numGroups);
-  const auto rankOfGroup = cut(model, elements, group, numGroups, numRanks);
+  const auto rankOfGroup = model.ranks.empty() ? cut(model, elements, group, numGroups, numRanks)
+                                               : given(model, elements, group, numGroups, numRanks);
 
   Partition result;
   std::vector<std::vector<std::pair<int, int>>> ranksAt(model.numNodes);  // rank, number of entities
@@ -188,6 +182,30 @@ Partition partition(const FeModel& model, const std::vector<Coupling>& couplings
   }
   for (const Coupling& c : couplings) result.couplings.push_back(result.nodes[c.dof / 3]);
   return result;
+}
+
+std::vector<int> partition(const Mesh& mesh, int numParts) {
+  std::vector<std::vector<int>> at(mesh.numNodes());  // [node] elements
+  const auto forEachNode = [&](const auto& f) {
+    int element = 0;
+    for (const Block& block : mesh.blocks) {
+      const int N = nodesPerElement(block.topology), count = static_cast<int>(block.nodes.size()) / N;
+      for (int e = 0; e < count; ++e, ++element)
+        for (int n = 0; n < N; ++n) f(element, block.nodes[static_cast<std::size_t>(e) * N + n]);
+    }
+  };
+  detail::WeightedGraph graph;
+  graph.neighbours.resize(mesh.numElements());
+  graph.cost.assign(mesh.numElements(), 0.0);
+  forEachNode([&](int e, int node) {
+    at[node].push_back(e);
+    graph.cost[e] += 1;
+  });
+  forEachNode([&](int e, int node) {
+    for (const int other : at[node])
+      if (other != e) graph.neighbours[e].push_back(other);
+  });
+  return detail::cut(std::move(graph), numParts);
 }
 
 }  // namespace atrapos::fem

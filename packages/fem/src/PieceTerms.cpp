@@ -71,6 +71,7 @@ std::vector<path::Break> PieceTerms::breaks(const path::Series& series, double e
       const double lambda = series.evaluate(to, u);
       const auto places = entry.term->places(field(u), lambda);
       for (int p = 0; p < numPoints; ++p) {
+        if (before[p] == PointPieces::any) continue;  // has no part in the series
         const int last = entry.pieces->pieceAt(p, &places[static_cast<std::size_t>(p) * stride]);
         double from = end * (j - 1) / intervals;
         for (int n = 0; before[p] != last && n < mostBetween; ++n) {

@@ -45,4 +45,17 @@ void PointPieces::setPreferred(const std::vector<int>& preferred) {
   preferred_ = preferred;
 }
 
+void PointPieces::lend(const std::vector<int>& of, PointPieces& part) const {
+  for (std::size_t p = 0; p < of.size(); ++p) part.preferred_.at(p) = preferred_.at(of[p]);
+  part.hold(held_);
+}
+
+void PointPieces::beginSeriesOf(const std::vector<int>& of, const PointPieces* part) {
+  const std::size_t each = search_.numData;
+  ofSeries_ = data_;
+  for (std::size_t p = 0; p < preferred_.size(); ++p) ofSeries_[p * each + search_.piece] = any;
+  for (std::size_t p = 0; p < of.size(); ++p)
+    std::copy_n(part->ofSeries_.begin() + p * each, each, ofSeries_.begin() + of[p] * each);
+}
+
 }  // namespace atrapos::fem

@@ -113,3 +113,52 @@ TEST(Partition, MoreRanksThanElements) {
   const Partition p = partition(model, {}, 5);
   EXPECT_NE(p.entities[0][0], p.entities[0][1]);
 }
+
+TEST(Partition, KeepsTheRanksThatTheModelGives) {
+  const Mesh mesh = box(Topology::Hex8, {6, 1, 1});
+  FeModel model = boxModel(mesh);
+  for (const PointSet& points : facePoints(mesh, sideSet(mesh, "z_min"), 2))
+    model.terms.push_back(std::make_unique<LawTerm<CentralForce, CurrentPosition>>(CentralForce{}, points));
+  model.ranks = {{2, 0, 1, 1, 0, 2}};  // faces follow their elements
+  const Partition p = partition(model, {}, 3);
+  EXPECT_EQ(p.entities[0], model.ranks[0]);
+  EXPECT_EQ(p.entities[1], model.ranks[0]);
+  model.ranks[0][3] = 3;
+  EXPECT_THROW(partition(model, {}, 3), std::invalid_argument);
+  model.ranks[0].pop_back();
+  EXPECT_THROW(partition(model, {}, 3), std::invalid_argument);
+}
+
+TEST(Partition, GivenRanksYieldWhereASlaveNeedsItsElementsTogether) {
+  const Mesh mesh = box(Topology::Hex8, {2, 2, 1});
+  FeModel model = boxModel(mesh);
+  Couplings couplings;
+  couplePlane(couplings, nodesOfSet(mesh, "x_max"), {1, 0, 0});
+  const auto resolved = couplings.resolved(model.supports);
+  model.ranks = {{0, 1, 0, 1}};
+  const Partition p = partition(model, resolved, 2);
+  const Term& term = *model.terms[0];
+  int moved = 0;
+  for (int e = 0; e < term.numEntities(); ++e) {
+    const auto slave = [&](int node) {
+      return std::any_of(resolved.begin(), resolved.end(), [&](const auto& c) { return c.dof / 3 == node; });
+    };
+    const int* nodes = &term.nodes()[e * 8];
+    if (std::none_of(nodes, nodes + 8, slave)) {
+      EXPECT_EQ(p.entities[0][e], model.ranks[0][e]);
+    } else {
+      EXPECT_EQ(p.entities[0][e], p.couplings[0]);
+    }
+    moved += p.entities[0][e] != model.ranks[0][e];
+  }
+  EXPECT_LE(moved, 1);
+}
+
+TEST(Partition, MeshIsCutIntoEqualParts) {
+  const Mesh mesh = box(Topology::Hex20, {12, 2, 2}, {12, 2, 2});
+  for (const int parts : {2, 3, 4})
+    for (const int count : countOf(partition(mesh, parts), parts)) EXPECT_EQ(count, 48 / parts);
+  const auto mixed = countOf(partition(mixedMesh(), 2), 2);
+  EXPECT_GT(*std::min_element(mixed.begin(), mixed.end()), 0);
+  EXPECT_EQ(partition(mesh, 1), std::vector<int>(48, 0));
+}

@@ -4,6 +4,7 @@
 #include <mpi.h>
 
 #include <Teuchos_DefaultMpiComm.hpp>
+#include <Tpetra_Map.hpp>
 #include <cmath>
 #include <functional>
 
@@ -216,6 +217,35 @@ TEST(Ranks, SamePath) {
       EXPECT_LT(largest(sum(shared.states[s], -1, whole.states[s])), 1e-10 * largest(whole.states[s]));
     }
   }
+}
+
+// Two communicators in one process, of several ranks each: the halves of the program follow two problems at
+// the same time, then all of it a third, while the others' factors are still there.
+TEST(Ranks, HalvesOfTheProgramWorkAtTheSameTime) {
+  int rank = 0, size = 1;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  MPI_Comm_size(MPI_COMM_WORLD, &size);
+  const int half = rank < (size + 1) / 2 ? 0 : 1;
+  MPI_Comm split;
+  MPI_Comm_split(MPI_COMM_WORLD, half, rank, &split);
+  const auto make = half == 0 ? heldTerms : coupledBox;
+  const auto expectSame = [](const Ends& a, const Ends& b) {
+    ASSERT_EQ(a.states.size(), b.states.size());
+    for (std::size_t s = 0; s < b.states.size(); ++s)  // as in SamePath
+      EXPECT_LT(largest(sum(a.states[s], -1, b.states[s])), 1e-10 * largest(b.states[s]));
+  };
+  {
+    FeModel model = make();
+    model.comm = linear::rcp(new Teuchos::MpiComm<int>(split));
+    FeProblem ours(std::move(model)), all(heldTerms()), mine(Both::alone(make())),
+        whole(Both::alone(heldTerms()));
+    EXPECT_LE(ours.map()->getComm()->getSize(), (size + 1) / 2);
+    const Ends first = follow(ours, "mumps"), together = follow(all, "mumps"), second = follow(ours, "mumps");
+    expectSame(first, follow(mine, "mumps"));
+    expectSame(second, first);
+    expectSame(together, follow(whole, "mumps"));
+  }
+  MPI_Comm_free(&split);
 }
 
 // Nothing in the problem's sums depends on when messages arrive. (MUMPS' do on several ranks; KLU2 works on

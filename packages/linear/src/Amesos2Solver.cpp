@@ -5,13 +5,13 @@
 
 #include <Trilinos_version.h>
 #include <Amesos2.hpp>
-#include <Teuchos_CommHelpers.hpp>
 #include <Tpetra_CrsMatrix.hpp>
 #include <Tpetra_RowMatrixTransposer.hpp>
 #include <algorithm>
 #include <cctype>
 
 #include "AnalysedGraph.hpp"
+#include "Collectively.hpp"
 #include "ReferenceVector.hpp"
 #include "RowNumbering.hpp"
 #include "atrapos/linear/Error.hpp"
@@ -75,23 +75,9 @@ struct Amesos2Solver::Impl {
     return Tpetra::RowMatrixTransposer<double, LocalIndex, GlobalIndex>(matrix).createTranspose();
   }
 
-  // Runs a phase; an exception on any rank becomes a SolverError on all.
   template <class Phase>
-  void collectively(const char* what, Phase&& phase) {
-    std::string message;
-    int failed = 0, any = 0;
-    try {
-      phase();
-    } catch (const std::exception& e) {
-      failed = 1;
-      message = e.what();
-    }
-    Teuchos::reduceAll(*graph->rowMap()->getComm(), Teuchos::REDUCE_MAX, 1, &failed, &any);
-    if (!any) return;
-    // Teuchos' messages span lines; the last one that says something is the reason.
-    while (!message.empty() && std::isspace(static_cast<unsigned char>(message.back()))) message.pop_back();
-    message = message.substr(message.rfind('\n') + 1);
-    throw SolverError(fmt::format("{}: {} failed{}{}", label, what, failed ? ": " : "", message));
+  void collectively(const char* what, const Phase& phase) {
+    linear::collectively(*graph->rowMap()->getComm(), label, what, phase);
   }
 };
 

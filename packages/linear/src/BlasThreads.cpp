@@ -40,4 +40,11 @@ int blasThreads() {
   return 0;
 }
 
+std::string blasName() {
+  if (loaded<void(int)>("openblas_set_num_threads")) return "OpenBLAS";
+  if (loaded<void(int)>("MKL_Set_Num_Threads")) return "MKL";
+  if (loaded<void(long)>("bli_thread_set_num_threads")) return "BLIS";
+  return "";
+}
+
 }  // namespace atrapos::linear

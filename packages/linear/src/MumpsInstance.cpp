@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "atrapos/linear/BlasThreads.hpp"
 #include "atrapos/linear/Error.hpp"
 
 namespace atrapos::linear {
@@ -51,6 +54,7 @@ MumpsInstance::MumpsInstance(MPI_Comm comm, int sym) {
   if (run(-1) < 0) fail("initialisation");
   for (int stream = 1; stream <= 3; ++stream) icntl(stream) = -1;
   icntl(4) = 0;
+  icntl(16) = std::max(1, blasThreads());  // of its own OpenMP regions, where it has any
 }
 
 MumpsInstance::~MumpsInstance() {

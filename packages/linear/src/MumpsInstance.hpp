@@ -29,6 +29,7 @@ class MumpsInstance {
   MUMPS_INT& icntl(int i) { return data_.icntl[i - 1]; }
   double& cntl(int i) { return data_.cntl[i - 1]; }
   int infog(int i) const { return data_.infog[i - 1]; }
+  int info(int i) const { return data_.info[i - 1]; }  ///< of this rank
   double rinfog(int i) const { return data_.rinfog[i - 1]; }
   /// An INFOG that counts millions where it is negative.
   double count(int i) const { return infog(i) < 0 ? -1e6 * infog(i) : infog(i); }

@@ -5,9 +5,10 @@
 #include <Teuchos_DefaultMpiComm.hpp>
 #include <Tpetra_CrsMatrix.hpp>
 #include <Tpetra_Vector.hpp>
-#include <limits>
+#include <algorithm>
+#include <numeric>
 
-#include "NestedDissection.hpp"
+#include "OrderingOnRoot.hpp"
 #include "RowNumbering.hpp"
 #include "atrapos/linear/Error.hpp"
 
@@ -21,18 +22,14 @@ MPI_Comm mpiComm(const Map& map) {
   throw SolverError("MUMPS: the matrix' communicator is not an MPI one");
 }
 
-// All ranks' parts, one after another, on rank 0; empty on the others.
-std::vector<MUMPS_INT> gather(const std::vector<MUMPS_INT>& part, MPI_Comm comm) {
-  int rank = 0, size = 1;
-  MPI_Comm_rank(comm, &rank);
-  MPI_Comm_size(comm, &size);
-  const int count = static_cast<int>(part.size());
-  std::vector<int> counts(rank == 0 ? size : 0), offsets(counts.size(), 0);
-  MPI_Gather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, 0, comm);
-  for (std::size_t r = 1; r < counts.size(); ++r) offsets[r] = offsets[r - 1] + counts[r - 1];
-  std::vector<MUMPS_INT> all(counts.empty() ? 0 : offsets.back() + counts.back());
-  MPI_Gatherv(part.data(), count, MPI_INT, all.data(), counts.data(), offsets.data(), MPI_INT, 0, comm);
-  return all;
+/// The columns of b one behind another.
+void copyColumns(const MultiVector& b, std::vector<double>& to) {
+  to.clear();
+  for (std::size_t j = 0; j < b.getNumVectors(); ++j) {
+    const auto bj = b.getVector(j);
+    const auto view = bj->getLocalViewHost(Tpetra::Access::ReadOnly);
+    to.insert(to.end(), view.data(), view.data() + view.extent(0));
+  }
 }
 
 // The work space was estimated too small: enlarge ICNTL(14) and repeat (users' guide, error diagnostics).
@@ -53,6 +50,7 @@ void MumpsSolver::analyze(const RCP<const CrsMatrix>& K) {
   const double start = MPI_Wtime();
   factored_ = false;
   inertia_.reset();
+  determinantSign_.reset();
   estimate_.reset();
   spent_.reset();
   graph_.reset();
@@ -61,18 +59,15 @@ void MumpsSolver::analyze(const RCP<const CrsMatrix>& K) {
   auto graph = std::make_unique<AnalysedGraph>("MUMPS", *K);
   comm_ = mpiComm(*graph->rowMap());
   auto mumps = std::make_unique<MumpsInstance>(comm_, options_.symmetric ? 2 : 0);
-  int size = 1;
-  MPI_Comm_rank(comm_, &rank_);
-  MPI_Comm_size(comm_, &size);
-
-  const int localRows = static_cast<int>(K->getNodeNumRows());
-  counts_.assign(rank_ == 0 ? size : 0, 0);
-  offsets_ = counts_;
-  MPI_Gather(&localRows, 1, MPI_INT, counts_.data(), 1, MPI_INT, 0, comm_);
-  for (std::size_t r = 1; r < counts_.size(); ++r) offsets_[r] = offsets_[r - 1] + counts_[r - 1];
+  MPI_Comm_size(comm_, &size_);
 
   // The owner of the lower triangle's row passes an entry, so that every one is passed once.
+  const int localRows = static_cast<int>(K->getNodeNumRows());
   const RowNumbering numbering(*K);
+  firstRows_.assign(size_ + 1, static_cast<GlobalIndex>(K->getGlobalNumRows()));
+  MPI_Allgather(&numbering.first, 1, MPI_LONG_LONG, firstRows_.data(), 1, MPI_LONG_LONG, comm_);
+  ownRows_.resize(localRows);
+  std::iota(ownRows_.begin(), ownRows_.end(), static_cast<MUMPS_INT>(numbering.first + 1));
   const auto local = K->getCrsGraph()->getLocalGraphHost();
   rows_.clear();
   columns_.clear();
@@ -101,8 +96,13 @@ void MumpsSolver::analyze(const RCP<const CrsMatrix>& K) {
   mumps->icntl(24) = 1;  // null pivots are found and counted, not fatal: we decide
   mumps->cntl(3) = options_.nullPivotTolerance;
   // A ScaLAPACK root would hide its pivots' signs from INFOG(12).
-  if (options_.symmetric && size > 1) mumps->icntl(13) = 1;
-  auto ordering = orderingOnRoot(data.n);
+  if (options_.symmetric && size_ > 1) mumps->icntl(13) = 1;
+  if (size_ > 1) {
+    mumps->icntl(20) = 10;  // right-hand sides distributed
+    mumps->icntl(21) = 1;   // solutions distributed
+  }
+  if (!options_.symmetric) mumps->icntl(33) = 1;  // det K, of which the sign tells
+  auto ordering = orderingOnRoot(data.n, rows_, columns_, comm_);
   data.perm_in = ordering.data();
   if (mumps->run(1) < 0) mumps->fail("analysis");
   data.perm_in = nullptr;
@@ -112,26 +112,6 @@ void MumpsSolver::analyze(const RCP<const CrsMatrix>& K) {
   mumps_ = std::move(mumps);
   ++counters_.analyses;
   counters_.analysisSeconds += MPI_Wtime() - start;
-}
-
-// Ours, because ICNTL(7)=5 silently becomes another ordering where MUMPS was built without METIS (Debian 12).
-std::vector<MUMPS_INT> MumpsSolver::orderingOnRoot(int n) const {
-  long long entries = static_cast<long long>(rows_.size()), allEntries = 0;
-  MPI_Allreduce(&entries, &allEntries, 1, MPI_LONG_LONG, MPI_SUM, comm_);
-  if (allEntries > std::numeric_limits<int>::max())
-    throw SolverError(fmt::format("MUMPS: {} entries are too many for the ordering on one rank", allEntries));
-  const auto allRows = gather(rows_, comm_), allColumns = gather(columns_, comm_);
-  std::vector<MUMPS_INT> ordering;
-  std::string message;
-  if (rank_ == 0) try {
-      ordering = nestedDissection(n, allRows, allColumns);
-    } catch (const SolverError& e) {
-      message = e.what();
-    }
-  int failed = !message.empty();
-  MPI_Bcast(&failed, 1, MPI_INT, 0, comm_);
-  if (failed) throw SolverError(rank_ == 0 ? message : "MUMPS: the ordering failed on rank 0");
-  return ordering;
 }
 
 double MumpsSolver::ownBytes() const {
@@ -148,6 +128,8 @@ void MumpsSolver::factor(const RCP<const CrsMatrix>& K) {
   const double start = MPI_Wtime();
   factored_ = false;
   inertia_.reset();
+  for (auto& exchange : exchange_) exchange.reset();
+  determinantSign_.reset();
   graph_->checkMatrix(*K);
   if (options_.symmetric) graph_->checkSymmetry(*K);
 
@@ -171,6 +153,8 @@ void MumpsSolver::factor(const RCP<const CrsMatrix>& K) {
   spent_ = FactorCost{mumps_->count(29), 1e6 * mumps_->infog(19) + ownBytes(), mumps_->rinfog(3)};
   const int nullPivots = mumps_->infog(28);
   if (options_.symmetric) inertia_ = Inertia{mumps_->infog(12), nullPivots};
+  // Its mantissa; the exponent is another number.
+  if (!options_.symmetric && nullPivots == 0) determinantSign_ = mumps_->rinfog(12) < 0 ? -1 : 1;
   ++counters_.factorizations;
   counters_.factorSeconds += MPI_Wtime() - start;
   if (nullPivots > 0)
@@ -186,32 +170,57 @@ void MumpsSolver::solveWith(const MultiVector& b, MultiVector& x, bool transpose
   graph_->checkVectors(b, x);
   const std::size_t columns = b.getNumVectors();
   if (columns == 0) return;
-  auto& data = mumps_->data();
-  const std::size_t n = static_cast<std::size_t>(data.n);
-  if (rank_ == 0) rhs_.resize(n * columns);
-  const auto column = [&](std::size_t j) { return rank_ == 0 ? rhs_.data() + j * n : nullptr; };
-
-  for (std::size_t j = 0; j < columns; ++j) {
-    const auto bj = b.getVector(j);
-    const auto view = bj->getLocalViewHost(Tpetra::Access::ReadOnly);
-    MPI_Gatherv(view.data(), static_cast<int>(view.extent(0)), MPI_DOUBLE, column(j), counts_.data(),
-                offsets_.data(), MPI_DOUBLE, 0, comm_);
-  }
-
-  data.rhs = rhs_.data();
-  data.nrhs = static_cast<MUMPS_INT>(columns);
-  data.lrhs = data.n;
+  mumps_->data().nrhs = static_cast<MUMPS_INT>(columns);
   mumps_->icntl(9) = transposed ? 0 : 1;
+  if (size_ == 1)
+    solveHere(b, x);
+  else
+    solveDistributed(b, x, transposed);
+  counters_.solves += static_cast<long long>(columns);
+  counters_.solveSeconds += MPI_Wtime() - start;
+}
+
+void MumpsSolver::solveHere(const MultiVector& b, MultiVector& x) const {
+  auto& data = mumps_->data();
+  copyColumns(b, rhs_);
+  data.rhs = rhs_.data();
+  data.lrhs = data.n;
+  if (mumps_->run(3) < 0) mumps_->fail("solve");
+  const std::size_t n = static_cast<std::size_t>(data.n);
+  for (std::size_t j = 0; j < b.getNumVectors(); ++j) {
+    const auto xj = x.getVectorNonConst(j);
+    const auto view = xj->getLocalViewHost(Tpetra::Access::OverwriteAll);
+    std::copy_n(rhs_.data() + j * n, n, view.data());
+  }
+}
+
+void MumpsSolver::solveDistributed(const MultiVector& b, MultiVector& x, bool transposed) const {
+  auto& data = mumps_->data();
+  const std::size_t columns = b.getNumVectors();
+  copyColumns(b, rhs_);
+  data.rhs_loc = rhs_.data();
+  data.irhs_loc = const_cast<MUMPS_INT*>(ownRows_.data());  // read only
+  data.nloc_rhs = data.lrhs_loc = static_cast<MUMPS_INT>(ownRows_.size());
+  const std::size_t here = mumps_->info(23);
+  solved_.resize(here);
+  solution_.resize(here * columns);
+  data.sol_loc = solution_.data();
+  data.isol_loc = solved_.data();
+  data.lsol_loc = static_cast<MUMPS_INT>(here);
   if (mumps_->run(3) < 0) mumps_->fail("solve");
 
+  // The lists of K^T are others than those of K, and both change with the pivots.
+  auto& exchange = exchange_[transposed];
+  if (!exchange) {
+    std::vector<GlobalIndex> rows;
+    for (const MUMPS_INT row : solved_) rows.push_back(row - 1);
+    exchange = std::make_unique<RowExchange>(comm_, rows, firstRows_);
+  }
   for (std::size_t j = 0; j < columns; ++j) {
     const auto xj = x.getVectorNonConst(j);
     const auto view = xj->getLocalViewHost(Tpetra::Access::OverwriteAll);
-    MPI_Scatterv(column(j), counts_.data(), offsets_.data(), MPI_DOUBLE, view.data(),
-                 static_cast<int>(view.extent(0)), MPI_DOUBLE, 0, comm_);
+    exchange->toOwners(solution_.data() + j * here, view.data());
   }
-  counters_.solves += static_cast<long long>(columns);
-  counters_.solveSeconds += MPI_Wtime() - start;
 }
 
 }  // namespace atrapos::linear

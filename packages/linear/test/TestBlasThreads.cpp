@@ -9,6 +9,7 @@ namespace {
 TEST(BlasThreads, SetAndGetAgree) {
   EXPECT_THROW(setBlasThreads(0), SolverError);
   const int before = blasThreads();
+  EXPECT_EQ(before == 0, blasName().empty());
   if (before == 0) {
     EXPECT_FALSE(setBlasThreads(1));
     GTEST_SKIP() << "the BLAS at hand has no thread control";

@@ -22,8 +22,9 @@ struct Case {
 std::vector<Case> cases() {
   std::vector<Case> all;
   for (const auto& type : availableTangentSolvers())
+    // What iterations do is in TestKrylov.cpp: their accuracy is a choice, and they find no singular matrix.
     for (bool symmetric : {true, false})
-      if (symmetric || type != "amesos2:tacho") all.push_back({type, symmetric});
+      if (type != "belos" && (symmetric || type != "amesos2:tacho")) all.push_back({type, symmetric});
   return all;
 }
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <deque>
 #include <optional>
 #include <stdexcept>
 
@@ -37,61 +36,54 @@ Augmented augmented(const PathTangent& t, double sense = 1) {
   return x;
 }
 
-/// Half a branch at a bifurcation point.
-struct Half {
-  int point = 0;
-  int tangent = 0;  ///< in CriticalPoint::tangents
-  int sense = 1;
-  int parent = 0, depth = 1;
-  bool taken = false;  ///< followed, or passed by a path
-};
+}  // namespace
 
 /// The diagram as it grows.
-class Tracer final : public Observer {
+class BranchFollower::Tracer final : public Observer {
  public:
-  Tracer(BranchDiagram& diagram, BranchObserver& observer) : diagram_(diagram), observer_(observer) {}
+  Tracer(BranchProgress& progress, BranchObserver& observer) : progress(progress), observer_(observer) {}
 
-  std::deque<Half> halves;
-  int current = 0;  ///< the branch under way
-  BranchEnd end = BranchEnd::path;
-  bool stopped = false;          ///< the caller's observer wants no more
-  const State* start = nullptr;  ///< of the branch under way
+  BranchProgress& progress;
+  bool stopped = false;  ///< the caller's observer wants no more
+
+  Branch& branch() { return progress.diagram.branches[progress.current]; }
 
   bool onStep(const StepReport& report, const Series& series) override {
-    if (!observer_.onStep(current, report, series)) {
-      stopped = true;
-      return false;
-    }
-    for (const auto& point : report.criticalPoints)
-      if (!pass(point, report, series)) {
-        end = BranchEnd::joined;
-        return false;
-      }
-    if (!passKnown(report, series)) {
-      end = BranchEnd::joined;
-      return false;
-    }
-    if (report.step > 1 && passes(*start, report, series)) {
-      end = BranchEnd::closed;
-      return false;
-    }
-    return true;
+    stopped = !observer_.onStep(progress.current, report, series);
+    branch().end = endOn(report, series);
+    progress.path = report.next;
+    observer_.onProgress(progress);
+    return !stopped && branch().end == BranchEnd::path;
   }
 
-  /// The outcome's text in the diagram's terms.
-  void explain(Outcome& outcome) const {
-    if (end == BranchEnd::joined) outcome.text = "arrived at a bifurcation point from where all is followed";
-    if (end == BranchEnd::closed) outcome.text = "came back to its start";
+  /// The branch under way is over.
+  void finish(Outcome outcome) {
+    // The outcome's text in the diagram's terms.
+    if (branch().end == BranchEnd::joined)
+      outcome.text = "arrived at a bifurcation point from where all is followed";
+    if (branch().end == BranchEnd::closed) outcome.text = "came back to its start";
+    branch().outcome = std::move(outcome);
+    if (stopped) return;
+    progress.path.reset();
+    observer_.onProgress(progress);
   }
 
  private:
+  BranchEnd endOn(const StepReport& report, const Series& series) {
+    for (const auto& point : report.criticalPoints)
+      if (!pass(point, report, series)) return BranchEnd::joined;
+    if (!passKnown(report, series)) return BranchEnd::joined;
+    if (report.step > 1 && passes(branch().start, report, series)) return BranchEnd::closed;
+    return BranchEnd::path;
+  }
+
   /// A bifurcation point on the branch under way: a new one, or one known. False where what lies ahead is
   /// taken.
   bool pass(const CriticalPoint& point, const StepReport& report, const Series& series) {
     const double w = series.weight();
-    const int depth = diagram_.branches.at(current).depth;
-    for (std::size_t i = 0; i < diagram_.points.size(); ++i) {
-      const auto& known = diagram_.points[i].point;
+    auto& points = progress.diagram.points;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const auto& known = points[i].point;
       Augmented gap{Teuchos::rcp(new Vector(*point.state.u, Teuchos::Copy)),
                     point.state.lambda - known.state.lambda};
       gap.u->update(-1, *known.state.u, 1);
@@ -103,18 +95,17 @@ class Tracer final : public Observer {
       take(static_cast<int>(i), augmented(point.tangents[0], -1), w);
       return take(static_cast<int>(i), augmented(point.tangents[0]), w);
     }
-    const int index = static_cast<int>(diagram_.points.size());
-    diagram_.points.push_back({point, current, report.step});
-    for (int t = 0; t < static_cast<int>(point.tangents.size()); ++t)
-      for (const int sense : {1, -1}) halves.push_back({index, t, sense, current, depth + 1, t == 0});
+    points.push_back({point, progress.current, report.step});
+    progress.addHalves(static_cast<int>(points.size()) - 1);
     return true;
   }
 
   /// Known points on the step that the search did not find there: from a side branch of a multiple point no
   /// eigenvalue tells. False where what lies ahead is taken.
   bool passKnown(const StepReport& report, const Series& series) {
-    for (std::size_t i = 0; i < diagram_.points.size(); ++i) {
-      const auto& known = diagram_.points[i].point;
+    const auto& points = progress.diagram.points;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const auto& known = points[i].point;
       if (known.tangents.empty()) continue;
       const auto a = passes(known.state, report, series);
       if (!a) continue;
@@ -132,11 +123,11 @@ class Tracer final : public Observer {
 
   /// Marks the half-branch in that direction; false where it was marked already.
   bool take(int point, const Augmented& direction, double w) {
-    Half* best = nullptr;
+    HalfBranch* best = nullptr;
     double cosine = 0;
-    for (Half& half : halves) {
+    for (HalfBranch& half : progress.halves) {
       if (half.point != point) continue;
-      const auto t = augmented(diagram_.points[point].point.tangents[half.tangent], half.sense);
+      const auto t = augmented(progress.diagram.points[point].point.tangents[half.tangent], half.sense);
       const double c = dot(t, direction, w) / std::sqrt(dot(t, t, w) * dot(direction, direction, w));
       if (c > cosine) {
         cosine = c;
@@ -173,11 +164,24 @@ class Tracer final : public Observer {
     return std::nullopt;
   }
 
-  BranchDiagram& diagram_;
   BranchObserver& observer_;
 };
 
-}  // namespace
+BranchProgress::BranchProgress(const State& start) {
+  diagram.branches.emplace_back();
+  diagram.branches[0].start = start;
+  path.emplace();
+  path->state = start;
+}
+
+void BranchProgress::addHalves(int first) {
+  for (int p = first; p < static_cast<int>(diagram.points.size()); ++p) {
+    const BranchPoint& found = diagram.points[p];
+    const int depth = diagram.branches.at(found.branch).depth + 1;
+    for (int t = 0; t < static_cast<int>(found.point.tangents.size()); ++t)
+      for (const int sense : {1, -1}) halves.push_back({p, t, sense, found.branch, depth, t == 0});
+  }
+}
 
 BranchFollower::BranchFollower(Problem& problem, linear::TangentSolver& solver, Options options, Stops stops,
                                BranchOptions branches)
@@ -198,29 +202,54 @@ void BranchFollower::watch(std::vector<Monitor> monitors) {
 }
 
 BranchDiagram BranchFollower::run(const State& start, BranchObserver& observer) {
-  BranchDiagram diagram;
-  Tracer tracer(diagram, observer);
+  BranchProgress progress(start);
+  observer.onBranch(progress.diagram, 0);
+  goOn(progress, observer);
+  return std::move(progress.diagram);
+}
+
+void BranchFollower::follow(const Start& from, Tracer& tracer) {
   PathFollower follower(problem_, solver_, options_, stops_);
   follower.watch(monitors_);
-  diagram.branches.emplace_back();
-  diagram.branches[0].start = start;
-  observer.onBranch(diagram, 0);
-  const State first = start;
-  tracer.start = &first;
-  diagram.branches[0].outcome = follower.run(start, tracer);
-  diagram.branches[0].end = tracer.end;
-  tracer.explain(diagram.branches[0].outcome);
+  tracer.finish(follower.runFrom(from, tracer));
+}
+
+namespace {
+
+/// Of a branch that was found to end where it was interrupted.
+Outcome endOf(const Start& at) {
+  Outcome outcome;
+  outcome.reason = EndReason::observerStopped;
+  outcome.steps = at.steps;
+  outcome.weight = at.weight.value_or(0);
+  outcome.pathLength = at.pathLength;
+  outcome.final = at.state;
+  return outcome;
+}
+
+}  // namespace
+
+void BranchFollower::goOn(BranchProgress& progress, BranchObserver& observer) {
+  Tracer tracer(progress, observer);
+  BranchDiagram& diagram = progress.diagram;
+  if (progress.path) {
+    const Start from = *progress.path;
+    if (tracer.branch().end == BranchEnd::path)
+      follow(from, tracer);
+    else
+      tracer.finish(endOf(from));
+  }
   const double weight = diagram.branches[0].outcome.weight;
 
-  int followed = 0;
-  for (std::size_t next = 0; next < tracer.halves.size() && !tracer.stopped; ++next) {
-    if (tracer.halves[next].taken || branches_.follow == Follow::none) continue;
-    if (tracer.halves[next].depth > branches_.maxDepth || followed == branches_.maxBranches) {
+  while (progress.next < static_cast<int>(progress.halves.size()) && !tracer.stopped) {
+    HalfBranch& turn = progress.halves[progress.next++];
+    if (turn.taken || branches_.follow == Follow::none) continue;
+    if (turn.depth > branches_.maxDepth || progress.followed == branches_.maxBranches) {
       diagram.complete = false;
       continue;
     }
-    tracer.halves[next].taken = true;
-    const Half half = tracer.halves[next];
+    turn.taken = true;
+    const HalfBranch half = turn;
     const CriticalPoint point = diagram.points[half.point].point;
     Branch branch;
     branch.parent = half.parent;
@@ -239,31 +268,26 @@ BranchDiagram BranchFollower::run(const State& start, BranchObserver& observer) 
       branch.end = BranchEnd::noStart;
     else if (branches_.follow == Follow::stable && (!switched.inertia || switched.inertia->negative > 0))
       branch.end = BranchEnd::notStable;
+    progress.current = static_cast<int>(diagram.branches.size());
     if (branch.end != BranchEnd::path) {
       branch.outcome.reason = EndReason::observerStopped;
       branch.outcome.text = branch.end == BranchEnd::noStart ? "no equilibrium found next to the point"
                                                              : "not followed: it is not stable";
       diagram.branches.push_back(std::move(branch));
-      observer.onBranch(diagram, static_cast<int>(diagram.branches.size()) - 1);
+      observer.onBranch(diagram, progress.current);
+      observer.onProgress(progress);
       continue;
     }
-    ++followed;
+    ++progress.followed;
     Start from;
     from.state = branch.start = *switched.state;
     from.tangent = branch.direction;
     from.weight = weight;
-    tracer.current = static_cast<int>(diagram.branches.size());
-    tracer.end = BranchEnd::path;
-    const State begin = *switched.state;
-    tracer.start = &begin;
     diagram.branches.push_back(std::move(branch));
-    observer.onBranch(diagram, tracer.current);
-    Outcome outcome = follower.runFrom(from, tracer);
-    tracer.explain(outcome);
-    diagram.branches[tracer.current].outcome = std::move(outcome);
-    diagram.branches[tracer.current].end = tracer.end;
+    progress.path = from;
+    observer.onBranch(diagram, progress.current);
+    follow(from, tracer);
   }
-  return diagram;
 }
 
 }  // namespace atrapos::path

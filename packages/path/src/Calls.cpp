@@ -43,9 +43,7 @@ RCP<const CrsMatrix> Calls::tangent(const State& state, Vector& F) {
   return problemCall([&] { return problem_.tangent(*state.u, state.lambda, F); });
 }
 
-void Calls::factor(const State& state, Vector& F) {
-  factor(tangent(state, F));
-}
+void Calls::factor(const State& state, Vector& F) { factor(tangent(state, F)); }
 
 void Calls::factor(const RCP<const CrsMatrix>& K) {
   Stopwatch watch(work_.seconds.factor);
@@ -60,6 +58,12 @@ void Calls::factor(const RCP<const CrsMatrix>& K) {
 void Calls::solve(const Vector& b, Vector& x) {
   Stopwatch watch(work_.seconds.solve);
   ++work_.solves;
+  solverCall([&] { solver_.solve(b, x); });
+}
+
+void Calls::solve(const linear::MultiVector& b, linear::MultiVector& x) {
+  Stopwatch watch(work_.seconds.solve);
+  work_.solves += static_cast<int>(b.getNumVectors());
   solverCall([&] { solver_.solve(b, x); });
 }
 

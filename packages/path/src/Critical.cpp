@@ -55,7 +55,8 @@ class Search {
   void search() {
     // A few per cent beyond the step: its ends are where eigenvalues were counted.
     const double L = search_.length, beyond = 0.03 * L;
-    followZeros();
+    lookAtLimitPoints();
+    if (left_ > 0) followZeros();
     // Beyond what they show the count of negative eigenvalues decides.
     int found = 0;
     for (const auto& p : found_.points) found += p.nullity;
@@ -124,6 +125,26 @@ class Search {
       sample(a, samples);
     }
   }
+
+  /// A branch comes to the pitchfork that it left, or to another one, at a limit point of lambda, where its
+  /// own direction is the null vector; the load has no part along it there, as it has at an ordinary limit
+  /// point. The eigenvalue only touches zero, and a search by poles may take it for nothing.
+  void lookAtLimitPoints() {
+    if (search_.certain == 0 || !calls_.problem().symmetric()) return;
+    for (const LimitPoint& limit : search_.limits) {
+      if (left_ <= 0 || !limit.smooth) return;
+      State state{calls_.newVector(), 0};
+      state.lambda = search_.series.evaluate(limit.a, *state.u);
+      auto F = calls_.newVector();
+      calls_.tangent(state, *F);
+      const auto t = search_.series.tangent(limit.a);
+      constexpr double none = 1e-3;
+      if (std::abs(linear::dot(*t.x.u, *F)) > none * t.x.u->norm2() * F->norm2()) continue;
+      simple(limit.a - aside() * search_.length, copyOf(*t.x.u), Held::nothing);
+    }
+  }
+
+  static RCP<Vector> copyOf(const Vector& x) { return Teuchos::rcp(new Vector(x, Teuchos::Copy)); }
 
   /// The eigenvalues followed at a, which the solver holds the factorization of afterwards.
   void sample(double a, std::vector<ModeSample>& samples) {
@@ -236,6 +257,7 @@ class Search {
 
   /// Eigenvalues that vanish near the guess, one by one or together. False where there is at most one.
   bool cluster(double guess, const RCP<Vector>& direction) {
+    if (!calls_.problem().symmetric()) return false;  // its projections are those of symmetric tangents
     guess -= aside() * search_.length;
     ++found_.factorizations;
     NearNull zeros = nearNull(calls_, search_, guess, direction, search_.signChanges + 1);

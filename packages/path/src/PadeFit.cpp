@@ -133,9 +133,9 @@ PadeFit fitPade(const Problem& problem, const Series& series, double delta, doub
   PadeFit result;
   const int N = series.order();
   if (N < 4 || !std::isfinite(series.convergenceRadius())) return result;
-  // What rounding leaves of a path's series after 20 orders is below the first, what it leaves of a fit below
-  // the second.
-  constexpr double newDirection = 1e-11, noise = 1e-13;
+  // Far above what rounding leaves of a well-conditioned problem's series (1e-12) and of a fit (1e-15): which
+  // directions and singular values count, and with them the length of the step, must not depend on it.
+  constexpr double newDirection = 1e-7, noise = 1e-10;
   const auto c = coordinates(problem, series, newDirection);
   const auto P = fit(c, N, noise), Q = fit(c, N - 1, noise);
   if (!P || !Q) return result;

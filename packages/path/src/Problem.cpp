@@ -10,4 +10,6 @@ double Problem::weight(const Increment& Xhat, std::optional<double> given) {
   return given ? *given : 1 / inner(Xhat, Xhat);
 }
 
+std::string Problem::name(long long unknown) const { return "unknown " + std::to_string(unknown); }
+
 }  // namespace atrapos::path

@@ -57,8 +57,12 @@ std::optional<long long> StepReport::negativeAt(double a) const {
       ++limitsPassed;
     }
   }
+  if (a <= 0) return inertia->negative;
+  if (a >= length && inertiaEnd) return inertiaEnd->negative;
+  // What no mark explains has changed somewhere inside.
+  if (unexplained > 0 || (limits == 0 && rest != 0)) return std::nullopt;
   if (passed == 0) return n;
-  if (unexplained > 0 || !inertiaEnd) return std::nullopt;
+  if (!inertiaEnd) return std::nullopt;
   if (passed == marks.size()) return inertiaEnd->negative;
   if (limitsPassed > 0 && !oneWay && !thereAndBack) return std::nullopt;
   return n;

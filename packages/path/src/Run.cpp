@@ -30,6 +30,7 @@ void Run::follow(const Start& start) {
   outcome_.pathLength = start.pathLength;
   r_ = calls_.newVector();
   weight_ = start.weight ? start.weight : options_.weight;
+  outcome_.weight = start.weight.value_or(0);
   tangent_ = start.tangent;
   applied_ = start.events;
   due_ = start.due;
@@ -37,12 +38,17 @@ void Run::follow(const Start& start) {
   order_ = start.order > 0 ? start.order : options_.order;
   padeFailures_ = start.padeFailures;
   padeWait_ = start.padeWait;
+  counted_ = start.expectedNegative;
+  for (const auto& e : start.eigenvalues) modes_.push_back({e.vector, e.value, e.rate});
   try {
     if (!start.conditions.empty()) calls_.setConditions(start.conditions);
     equilibrate();
     if (!tangent_ && applied_.empty()) due_ = calls_.eventsAt(outcome_.final);
-    while (step()) {
-    }
+    if (!start.stop.empty() && stops_.have(start.stop))
+      end(EndReason::stopReached, start.stop);
+    else
+      while (step()) {
+      }
   } catch (const PathError& error) {
     end(error.reason(), error.what());
   }
@@ -55,12 +61,15 @@ bool Run::step() {
   StepReport report;
   Series series = nextSeries(report);
   if (sharpenState(series)) series = nextSeries(report);
-  EndTangent tangent{calls_.inertia(), series.lambdaCoefficient(1), {}};
+  EndTangent tangent;
+  countHere(tangent);
+  tangent.lambda1 = series.lambdaCoefficient(1);
   tangent.modes = modesHere({series.coefficient(1), series.lambdaCoefficient(1)}, series.weight());
   // After an event the tangent is that of the changed problem and says nothing about the step before.
   if (pending_ && !settle(pending_->events.empty() ? &tangent : nullptr))
     return end(EndReason::observerStopped, "ended by the observer");
   modes_ = std::move(tangent.modes);
+  real_ = tangent.real;
   clean(series);
   report.order = series.order();
   report.step = outcome_.steps + 1;
@@ -79,10 +88,10 @@ bool Run::step() {
   }
   report.residualOfSeries = trial.residual;
   correct(series, trial, report, correctAbove());
-  const auto stop = trial.stop;
+  stop_ = trial.stop;
   due_ = trial.events;
   accept(std::move(trial), std::move(report), std::move(series));
-  if (stop) return end(EndReason::stopReached, stop->text);
+  if (stop_) return end(EndReason::stopReached, stop_->text);
   return true;
 }
 
@@ -135,10 +144,29 @@ bool Run::settle(const EndTangent* end) {
     explainStability(report, *end);
   }
   outcome_.worstResidual = std::max(outcome_.worstResidual, report.residual);
-  report.next = {outcome_.final, tangent_, outcome_.steps, outcome_.pathLength,           last_->weight(),
-                 lastLength_,    applied_, due_,           calls_.problem().conditions(), order_,
-                 padeFailures_,  padeWait_};
+  report.next = here();
   return observer_.onStep(report, *last_);
+}
+
+/// All that the next step needs.
+Start Run::here() const {
+  Start next;
+  next.state = outcome_.final;
+  next.tangent = tangent_;
+  next.steps = outcome_.steps;
+  next.pathLength = outcome_.pathLength;
+  next.weight = last_->weight();
+  next.length = lastLength_;
+  next.events = applied_;
+  next.due = due_;
+  next.conditions = calls_.problem().conditions();
+  next.order = order_;
+  next.padeFailures = padeFailures_;
+  next.padeWait = padeWait_;
+  next.expectedNegative = expected_;
+  for (const Mode& m : modes_) next.eigenvalues.push_back({m.x, m.mu, m.rate});
+  if (outcome_.reason == EndReason::stopReached) next.stop = outcome_.text;
+  return next;
 }
 
 /// What a step costs whatever its order, besides the factorization the eigenvalues followed, residuals and
@@ -159,7 +187,7 @@ void Run::chooseOrder() {
 void Run::finish() {
   if (!pending_) return;
   const bool ended = outcome_.reason == EndReason::stopReached || outcome_.reason == EndReason::stepLimit;
-  const bool close = ended && options_.closeEnd && calls_.solver().inertia();
+  const bool close = ended && options_.closeEnd && (calls_.solver().inertia() || pending_->inertia);
   if (!close) {
     settle(nullptr);
     return;

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "Modes.hpp"
+#include "Newton.hpp"
 #include "atrapos/path/Calls.hpp"
 #include "atrapos/path/Monitor.hpp"
 #include "atrapos/path/Options.hpp"
@@ -58,12 +59,14 @@ class Run {
     std::optional<linear::Inertia> inertia;
     double lambda1 = 0;       ///< its load part, of which the sign counts
     std::vector<Mode> modes;  ///< eigenvalues next to zero that are followed
+    int real = 0;             ///< of an unsymmetric tangent: negative eigenvalues that are real
   };
 
   // Run.cpp: the loop.
   bool step();
   void accept(Trial trial, StepReport report, Series series);
   bool settle(const EndTangent* end);
+  Start here() const;
   void finish();
   void chooseOrder();
   bool end(EndReason reason, std::string text);
@@ -79,6 +82,7 @@ class Run {
   bool directionAgrees(const Series& series, const PathTangent& previous) const;
   bool retreat();
   EndTangent closeEnd();
+  void polishEnd(const RCP<Vector>& Uhat);
 
   // RunCritical.cpp: what the step passed.
   std::optional<double> progressionPole(const Series& series) const;
@@ -86,6 +90,7 @@ class Run {
   void clean(Series& series);
   void explainStability(StepReport& report, const EndTangent& end);
   std::vector<Mode> modesHere(const PathTangent& along, double weight);
+  void countHere(EndTangent& tangent);
 
   // RunEvents.cpp: where the Problem changes.
   std::vector<double> falls(const Series& series, double end) const;
@@ -108,6 +113,7 @@ class Run {
   double startPart(double a) const;
   double shorterBy(double a, double residual) const;
   void correct(const Series& series, Trial& trial, StepReport& report, double above);
+  Border borderAt(const Series& series, double a, const std::optional<StopHit>& stop);
 
   double bound() const { return options_.residualBound; }
   /// A residual acts like an imperfection, and one above this makes one branch of two that cross.
@@ -123,17 +129,19 @@ class Run {
   Outcome& outcome_;
   Calls calls_;
 
-  RCP<Vector> r_;          ///< R at the current state
-  double residual_ = 0;    ///< its relative norm
-  double relaxOver_ = 0;   ///< length over which the series under way takes R0 to zero; 0: it keeps R0
-  double lastLength_ = 0;  ///< of the last accepted step; 0 before the first
-  double lastEnd_ = 0;     ///< where the state is on the last series; > lastLength_ after a singularity
-  int order_ = 0;          ///< of the next series
+  std::optional<StopHit> stop_;  ///< that the path has reached
+  RCP<Vector> r_;                ///< R at the current state
+  double residual_ = 0;          ///< its relative norm
+  double relaxOver_ = 0;         ///< length over which the series under way takes R0 to zero; 0: it keeps R0
+  double lastLength_ = 0;        ///< of the last accepted step; 0 before the first
+  double lastEnd_ = 0;           ///< where the state is on the last series; > lastLength_ after a singularity
+  int order_ = 0;                ///< of the next series
   int seriesOrders_ = 0, seriesBuilt_ = 0;  ///< orders of the accepted series in all; how many
   std::optional<double> weight_;
   std::optional<Series> last_;          ///< the last accepted series
   std::optional<StepReport> pending_;   ///< its step, not yet seen by the observer
   std::vector<Mode> modes_;             ///< at the start of the pending step
+  int real_ = 0;                        ///< EndTangent::real there
   std::optional<PathTangent> tangent_;  ///< at the current state, of what led there
   std::vector<int> due_;      ///< event functions that fell to zero at the state and are not applied yet
   std::vector<int> applied_;  ///< applied at the state: their functions start at zero
@@ -142,6 +150,8 @@ class Run {
   int standing_ = 0;          ///< events in a row without a step of sensible length
   int padeFailures_ = 0;      ///< steps in a row that the rational form did not lengthen
   int padeWait_ = 0;          ///< steps until it is tried again
+  int counted_ = 0;           ///< eigenvalues with negative real part when they were counted last
+  int expected_ = 0;          ///< counted_ before that
 };
 
 /// A length with the first 7 bits of its mantissa. Step lengths come from the highest orders, whose last

@@ -8,6 +8,7 @@
 #include "GeometricProgression.hpp"
 #include "Newton.hpp"
 #include "Run.hpp"
+#include "Stability.hpp"
 
 namespace atrapos::path {
 
@@ -127,6 +128,24 @@ std::vector<Mode> Run::modesHere(const PathTangent& along, double weight) {
   }
 }
 
+/// Negative eigenvalues of the tangent at the state, which the solver's factorization belongs to: its
+/// inertia, or a count of those next to zero where it is not symmetric.
+void Run::countHere(EndTangent& tangent) {
+  tangent.inertia = calls_.inertia();
+  if (calls_.problem().symmetric() || !options_.criticalPoints || options_.watchedModes == 0) return;
+  // As many as were unstable at the last step's start, and those that may follow.
+  expected_ = counted_;
+  try {
+    if (const auto unstable = countUnstable(calls_, expected_ + options_.watchedModes + 1)) {
+      counted_ = unstable->all;
+      tangent.inertia = linear::Inertia{unstable->all, 0};
+      tangent.real = unstable->real;
+    }
+  } catch (const PathError&) {
+    // Next to a singular tangent: the numbers are beyond use.
+  }
+}
+
 /// Eigenvalues that changed sign inside the step are those of its limit points, or there are bifurcation
 /// points.
 ///
@@ -141,7 +160,11 @@ void Run::explainStability(StepReport& report, const EndTangent& end) {
   const bool lambdaTurned = (last_->lambdaCoefficient(1) > 0) != (end.lambda1 > 0);
   const bool odd = (change % 2 != 0) != lambdaTurned;
   const long long limits = static_cast<long long>(report.limitPoints.size());
-  const int needed = static_cast<int>(std::max(change - limits, odd ? 1LL : 0LL));
+  // Of an unsymmetric tangent a conjugate pair may cross the imaginary axis, which is no critical point: two
+  // more prove nothing, an odd number does, and real ones are a reason to look.
+  const bool symmetric = calls_.problem().symmetric();
+  const long long realChange = symmetric ? 0 : std::abs(end.real - real_);
+  const int needed = static_cast<int>(std::max(symmetric ? change - limits : 0LL, odd ? 1LL : 0LL));
   // What the eigenvalues followed say beyond the count, in which two may cancel.
   const auto length = [&](const PathTangent& t) {
     return std::sqrt(last_->weight() * calls_.problem().inner(t.x, t.x) + t.lambda * t.lambda);
@@ -149,7 +172,8 @@ void Run::explainStability(StepReport& report, const EndTangent& end) {
   const std::vector<ModeSample> samples{{0, length(last_->tangent(0)), modes_},
                                         {report.length, length(*tangent_), end.modes}};
   const auto evidence = bifurcationZeros(*last_, report.length, samples, report.limitPoints);
-  const int suspected = static_cast<int>(evidence.zeros.size());
+  const int suspected = static_cast<int>(
+      std::max<long long>(static_cast<long long>(evidence.zeros.size()), realChange - limits));
   const int signChanges = std::max(needed, suspected);
   if (signChanges == 0 && !evidence.suspect && !options_.searchEveryStep) return;
   CriticalFound found = findCriticalPoints(

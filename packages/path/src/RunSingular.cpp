@@ -42,7 +42,7 @@ void inverseIterations(Calls& calls, Vector& x, bool transposed) {
 }
 
 /// The largest entries of a null vector, for a message; the same on all ranks.
-std::string largestEntries(const Vector& x) {
+std::string largestEntries(const Problem& problem, const Vector& x) {
   const std::vector<double> data = linear::onAllRanks(x);
   std::vector<int> order(data.size());
   std::iota(order.begin(), order.end(), 0);
@@ -51,7 +51,7 @@ std::string largestEntries(const Vector& x) {
                     [&](int i, int j) { return std::abs(data[i]) > std::abs(data[j]); });
   std::string text = "largest entries of its null vector: ";
   for (int i = 0; i < count; ++i)
-    text += line(i > 0 ? ", " : "", "unknown ", order[i], " (", data[order[i]], ')');
+    text += line(i > 0 ? ", " : "", problem.name(order[i]), " (", data[order[i]], ')');
   return text;
 }
 
@@ -86,7 +86,7 @@ void Run::startAside(const PathError& cause) {
     giveUp("");
   }
   if (!std::isfinite(phi->norm2())) giveUp("");
-  mechanism_ = largestEntries(*phi);
+  mechanism_ = largestEntries(calls_.problem(), *phi);
 
   const double load = linear::dot(*psi, *F), unit = std::max(1.0, std::abs(state.lambda));
   constexpr double none = 1e-6, aside = 1e-4;  // of the load; of the load factor

@@ -110,6 +110,26 @@ Series Run::smoothSeries(StepReport& report) {
   }
 }
 
+/// One Newton iteration where the path has reached its stop, with the factorization made for the inertia
+/// there: the state that is looked at most is better than the bound asks. A path that goes on from a limit of
+/// steps must not differ from one that was not interrupted, so not there.
+void Run::polishEnd(const RCP<Vector>& Uhat) {
+  constexpr double wanted = 1e-2;
+  if (!stop_ || !pending_ || !due_.empty() || residual_ <= wanted * bound()) return;
+  const Border border = borderAt(*last_, lastEnd_, stop_);
+  auto x = calls_.newVector();
+  calls_.solve(*r_, *x);
+  const double dLambda = border.c(x) / (border.c(Uhat) + border.cLambda);
+  x->update(dLambda, *Uhat, -1);
+  State state{copy(*outcome_.final.u), outcome_.final.lambda + dLambda};
+  state.u->update(1, *x, 1);
+  const double residual = calls_.residual(state, *r_).relative();
+  if (!(residual < residual_)) return;
+  outcome_.final = pending_->end = state;
+  pending_->lambdaEnd = state.lambda;
+  residual_ = pending_->residual = residual;
+}
+
 /// The tangent at the path's end: its inertia, and the sense in which lambda goes on.
 Run::EndTangent Run::closeEnd() {
   EndTangent tangent;
@@ -117,11 +137,12 @@ Run::EndTangent Run::closeEnd() {
   ++outcome_.closings;
   try {
     calls_.factor(outcome_.final, *F);
-    tangent.inertia = calls_.inertia();
+    countHere(tangent);
     tangent.modes = modesHere(*tangent_, last_->weight());
     calls_.solve(*F, *Uhat);
     const Increment hat{Uhat, std::vector<double>(tangent_->x.internal.size(), 0.0)};
     tangent.lambda1 = *weight_ * calls_.problem().inner(hat, tangent_->x) + tangent_->lambda;
+    polishEnd(Uhat);
   } catch (const PathError&) {
     tangent.inertia.reset();  // singular at the very end: signs are not known there
   }

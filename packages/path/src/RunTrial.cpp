@@ -31,6 +31,8 @@ double Run::firstLength(double radius) const {
 void Run::evaluate(const Series& series, Trial& trial) {
   trial.state.u = calls_.newVector();
   trial.state.lambda = series.evaluate(trial.a, *trial.state.u);
+  if (trial.stop && trial.stop->kind == StopHit::Kind::loadFactor)  // but for the rounding of the root
+    trial.state.lambda = stops_.loadFactors[trial.stop->index];
   trial.r = calls_.newVector();
   trial.residual = calls_.residual(trial.state, *trial.r).relative();
 }
@@ -192,15 +194,17 @@ Run::Trial Run::polynomialTrial(const Series& series, StepReport& report) {
   }
 }
 
+/// What a correction of the end of a step keeps.
+Border Run::borderAt(const Series& series, double a, const std::optional<StopHit>& stop) {
+  if (!stop || stop->kind == StopHit::Kind::pathLength)
+    return holdPathParameter(calls_.problem(), series.weight(), series.tangent(a));
+  if (stop->kind == StopHit::Kind::loadFactor) return holdLoad();
+  return holdFunctional(stops_.functionals[stop->index].weights);
+}
+
 void Run::correct(const Series& series, Trial& trial, StepReport& report, double above) {
   if (trial.residual <= above || options_.maxCorrections == 0) return;
-  Border border;
-  if (!trial.stop || trial.stop->kind == StopHit::Kind::pathLength)
-    border = holdPathParameter(calls_.problem(), series.weight(), series.tangent(trial.a));
-  else if (trial.stop->kind == StopHit::Kind::loadFactor)
-    border = holdLoad();
-  else
-    border = holdFunctional(stops_.functionals[trial.stop->index].weights);
+  const Border border = borderAt(series, trial.a, trial.stop);
   // The state is under the bound already: where an iteration does not help, it stays as it is.
   const auto result = newton(calls_, trial.state, *trial.r, border, above, options_.maxCorrections,
                              /*maxHalvings*/ 0);

@@ -21,6 +21,16 @@ void Stops::validate() const {
 
 namespace {
 
+std::string reached(const std::string& what, double value) {
+  std::ostringstream text;
+  text.precision(12);
+  text << what << ' ' << value << " reached";
+  return text.str();
+}
+
+constexpr const char* kLoadFactor = "load factor";
+constexpr const char* kPathLength = "path length";
+
 /// First root of p - value in (0, end].
 std::optional<double> firstRoot(const Rational& p, double value, double end, bool atStart) {
   auto q = p.minus(value);
@@ -35,28 +45,33 @@ std::optional<double> firstRoot(const Rational& p, double value, double end, boo
 
 }  // namespace
 
+bool Stops::have(const std::string& text) const {
+  for (const double value : loadFactors)
+    if (text == reached(kLoadFactor, value)) return true;
+  for (const auto& f : functionals)
+    if (text == reached(f.name, f.value)) return true;
+  return text == reached(kPathLength, pathLength);
+}
+
 std::optional<StopHit> firstStop(const Stops& stops, const Series& series, double pathLengthSoFar, double end,
                                  bool atStart) {
   std::optional<StopHit> first;
   const auto offer = [&](std::optional<double> a, StopHit::Kind kind, int index, const std::string& what,
                          double value) {
     if (!a || (first && first->a <= *a)) return;
-    std::ostringstream text;
-    text.precision(12);
-    text << what << ' ' << value << " reached";
-    first = StopHit{*a, kind, index, text.str()};
+    first = StopHit{*a, kind, index, reached(what, value)};
   };
   const auto lambda = series.lambdaFunction();
   for (std::size_t i = 0; i < stops.loadFactors.size(); ++i)
     offer(firstRoot(lambda, stops.loadFactors[i], end, atStart), StopHit::Kind::loadFactor,
-          static_cast<int>(i), "load factor", stops.loadFactors[i]);
+          static_cast<int>(i), kLoadFactor, stops.loadFactors[i]);
   for (std::size_t i = 0; i < stops.functionals.size(); ++i) {
     const auto& f = stops.functionals[i];
     offer(firstRoot(series.functional(*f.weights), f.value, end, atStart), StopHit::Kind::functional,
           static_cast<int>(i), f.name, f.value);
   }
   const double remaining = stops.pathLength - pathLengthSoFar;
-  if (remaining <= end) offer(remaining, StopHit::Kind::pathLength, 0, "path length", stops.pathLength);
+  if (remaining <= end) offer(remaining, StopHit::Kind::pathLength, 0, kPathLength, stops.pathLength);
   return first;
 }
 

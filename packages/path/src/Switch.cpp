@@ -1,13 +1,42 @@
 #include "Switch.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <Tpetra_Vector.hpp>
 
 #include "Augmented.hpp"
 #include "Newton.hpp"
+#include "Stability.hpp"
 
 namespace atrapos::path {
+
+namespace {
+
+/// How far from a pitchfork a residual of this size tells the load on the branch along which lambda turns.
+///
+/// At a distance s along the null vector phi the balance along phi reads s (B/lambda') dlambda = r, with B =
+/// phi . D^2R(t, direction) along the path t that the branch leaves, lambda' its load part: nearer than that
+/// the load on the branch is rounding, and the tangent singular to it.
+double leastDistance(Calls& calls, const CriticalPoint& point, const PathTangent& direction,
+                     double tolerance) {
+  constexpr double turns = 1e-4;
+  if (point.kind != CriticalKind::pitchfork || std::abs(direction.lambda) > turns) return 0;
+  const auto other = std::find_if(point.tangents.begin(), point.tangents.end(),
+                                  [](const PathTangent& t) { return std::abs(t.lambda) > turns; });
+  if (other == point.tangents.end()) return 0;
+  auto r = calls.newVector();
+  const double force = tolerance * calls.residual(point.state, *r).scale;
+  const double B = SecondOrder(calls, point.state, point.nullVectors.front())({other->x.u, other->lambda},
+                                                                              {direction.x.u, 0});
+  constexpr double told = 1e-6;  // of the load factor
+  // Further than that a straight line is no prediction.
+  constexpr double furthest = 1e2;
+  const double unit = std::max(1.0, std::abs(point.state.lambda));
+  return std::min(force * std::abs(other->lambda) / (std::abs(B) * told * unit), furthest * point.stepLength);
+}
+
+}  // namespace
 
 Switched switchBranch(Problem& problem, linear::TangentSolver& solver, const Options& options,
                       const CriticalPoint& point, const PathTangent& direction, double weight) {
@@ -19,8 +48,9 @@ Switched switchBranch(Problem& problem, linear::TangentSolver& solver, const Opt
   const double accepted = options.correctAbove * options.residualBound;
   auto F = calls.newVector(), r = calls.newVector(), trial = calls.newVector();
   auto x1 = calls.newVector(), x2 = calls.newVector();
-  for (const double part : {1e-2, 1e-3}) {
-    const double s = part * point.stepLength;
+  const double usual = 1e-2 * point.stepLength;
+  const double first = std::max(usual, leastDistance(calls, point, direction, tolerance));
+  for (const double s : {first, first > usual ? usual : 0.1 * usual}) {
     State state{Teuchos::rcp(new Vector(*point.state.u, Teuchos::Copy)), point.state.lambda};
     state.u->update(s, *direction.x.u, 1);
     state.lambda += s * direction.lambda;
@@ -56,6 +86,9 @@ Switched switchBranch(Problem& problem, linear::TangentSolver& solver, const Opt
     if (!(cosine > sameDirection)) continue;
     result.state = state;
     result.inertia = calls.inertia();
+    if (!problem.symmetric() && options.watchedModes > 0)
+      if (const auto unstable = countUnstable(calls, options.watchedModes + 1))
+        result.inertia = linear::Inertia{unstable->all, 0};
     return result;
   }
   return result;

@@ -15,7 +15,8 @@ struct Switched {
 };
 
 /// x_c + s t with s a hundredth of the step in which the point was found, corrected in the plane normal to t
-/// (docs/theory/path.md); once more with a shorter s where that fails.
+/// (docs/theory/path.md), or further away where the load would be rounding there; once more with a shorter s
+/// where that fails.
 Switched switchBranch(Problem& problem, linear::TangentSolver& solver, const Options& options,
                       const CriticalPoint& point, const PathTangent& direction, double weight);
 

@@ -23,6 +23,61 @@ struct Tree : BranchObserver {
   }
 };
 
+/// Keeps where a diagram can be gone on with, and the number of steps seen until then.
+struct Interruptions : BranchObserver {
+  struct Step {
+    int branch = 0;
+    StepReport report;
+  };
+  std::vector<Step> steps;
+  std::vector<std::pair<BranchProgress, std::size_t>> places;
+  bool onStep(int branch, const StepReport& report, const Series&) override {
+    steps.push_back({branch, report});
+    return true;
+  }
+  void onProgress(const BranchProgress& progress) override { places.emplace_back(progress, steps.size()); }
+};
+
+/// A diagram interrupted anywhere, between steps and between branches, goes on with the same bits.
+template <class Law>
+void expectGoesOnFromAnywhere(Law law, const std::vector<double>& u, double lambda, const Stops& stops) {
+  Options options;
+  options.maxSteps = 60;
+  JetProblem<Law> problem(law);
+  SymmetricDenseSolver solver;
+  Interruptions whole;
+  const BranchDiagram diagram =
+      BranchFollower(problem, solver, options, stops, {}).run({problem.vector(u), lambda}, whole);
+  ASSERT_GT(diagram.branches.size(), 1u);
+  for (const auto& [place, seen] : whole.places) {
+    SCOPED_TRACE(seen);
+    JetProblem<Law> again(law);
+    SymmetricDenseSolver other;
+    Interruptions rest;
+    BranchProgress progress = place;
+    BranchFollower(again, other, options, stops, {}).goOn(progress, rest);
+    ASSERT_EQ(rest.steps.size(), whole.steps.size() - seen);
+    for (std::size_t i = 0; i < rest.steps.size(); ++i) {
+      const auto &a = rest.steps[i], &b = whole.steps[seen + i];
+      EXPECT_EQ(a.branch, b.branch);
+      EXPECT_EQ(a.report.step, b.report.step);
+      EXPECT_EQ(a.report.length, b.report.length);
+      EXPECT_EQ(a.report.lambdaEnd, b.report.lambdaEnd);
+      EXPECT_EQ(a.report.criticalPoints.size(), b.report.criticalPoints.size());
+      for (std::size_t j = 0; j < a.report.end.u->getLocalLength(); ++j)
+        EXPECT_EQ(a.report.end.u->getData()[j], b.report.end.u->getData()[j]);
+    }
+    ASSERT_EQ(progress.diagram.branches.size(), diagram.branches.size());
+    ASSERT_EQ(progress.diagram.points.size(), diagram.points.size());
+    for (std::size_t b = 0; b < diagram.branches.size(); ++b) {
+      EXPECT_EQ(progress.diagram.branches[b].end, diagram.branches[b].end);
+      EXPECT_EQ(progress.diagram.branches[b].outcome.reason, diagram.branches[b].outcome.reason);
+      EXPECT_EQ(progress.diagram.branches[b].outcome.text, diagram.branches[b].outcome.text);
+      EXPECT_EQ(progress.diagram.branches[b].outcome.steps, diagram.branches[b].outcome.steps);
+    }
+  }
+}
+
 template <class Law>
 struct Traced {
   JetProblem<Law> problem;
@@ -49,6 +104,16 @@ Stops loads(std::vector<double> values) {
 }
 
 double at(const State& state, int i) { return state.u->getData()[i]; }
+
+TEST(Branches, AnInterruptedDiagramGoesOnBitForBit) {
+  SwayTruss sway;
+  Stops stops;
+  stops.functionals.push_back({"x", JetProblem<SwayTruss>(sway).vector({1, 0}), 2.2});
+  expectGoesOnFromAnywhere(sway, {0, 0}, 0, stops);
+  Modes pitchfork;
+  pitchfork.bend = 0.3;
+  expectGoesOnFromAnywhere(pitchfork, {0, 0}, 0, loads({0.9}));
+}
 
 /// The truss's swaying branch is one closed loop through both bifurcation points: followed once, not four
 /// times.

@@ -137,4 +137,28 @@ TEST(TwoFold, AStrutWithEqualBucklingLoads) {
   }
 }
 
+/// More null vectors than two: the point is told with all of them, the path goes on along its own branch, and
+/// none of the others is followed.
+TEST(TwoFold, ThreeModesAtOnceArePassed) {
+  FollowedModel f("three_modes", {});
+  EXPECT_EQ(f.outcome.reason, EndReason::stopReached) << f.outcome.text;
+  const auto points = criticalPoints(f.record);
+  ASSERT_EQ(points.size(), 1u);
+  EXPECT_EQ(points[0].kind, CriticalKind::multiple);
+  EXPECT_EQ(points[0].nullity, 3);
+  EXPECT_EQ(points[0].negativeChange, 3);
+  EXPECT_TRUE(points[0].tangents.empty());
+  // On the path's series: the residual bound over the slope.
+  EXPECT_NEAR(points[0].state.lambda, 0.575, 1e-7);
+  EXPECT_LE(f.outcome.criticalFactorizations, 2);
+  for (const auto& step : f.record.steps) EXPECT_EQ(step.unexplained, 0);
+  for (int i = 1; i <= 3; ++i) EXPECT_NEAR(f.outcome.final.u->getData()[i], 0, 1e-6);
+  EXPECT_EQ(f.record.steps.back().inertiaEnd->negative, 3);
+  // The null vectors span the three modes.
+  double common = 0;
+  for (const auto& phi : points[0].nullVectors)
+    for (int i = 1; i <= 3; ++i) common += std::pow(phi->getData()[i], 2);
+  EXPECT_NEAR(common, 3, 1e-6);  // as good as inverse iterations at 5e-5 of the step from the point
+}
+
 }  // namespace

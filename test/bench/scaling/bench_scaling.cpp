@@ -3,27 +3,30 @@
 //
 //     bench_scaling --csv scaling.csv
 //     bench_scaling --families shell --sizes 5000 15000 --threads 1 --csv small.csv
+//     bench_scaling --threads 1 --ranks 1 2 --csv ranks.csv
 
 #include <fmt/format.h>
 #include <sys/wait.h>
 
 #include <CLI/CLI.hpp>
 #include <Kokkos_Core.hpp>
-#include <Tpetra_Core.hpp>
 #include <Tpetra_Vector.hpp>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <iostream>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "Families.hpp"
 #include "Memory.hpp"
 #include "MeshCommand.hpp"
+#include "Ranks.hpp"
 #include "Run.hpp"
 #include "RunSettings.hpp"
+#include "Runtime.hpp"
 #include "SceneCase.hpp"
-#include "atrapos/linear/BlasThreads.hpp"
 
 namespace {
 
@@ -32,7 +35,7 @@ using namespace atrapos;
 struct Options {
   std::vector<std::string> families = bench::families();
   std::vector<double> sizes{5000, 15000, 50000, 150000, 500000};
-  std::vector<int> threads{1, 2};
+  std::vector<int> threads{1, 2}, ranks{1};
   int steps = 2;
   double longest = 1800;
   std::string csv, folder;
@@ -40,7 +43,7 @@ struct Options {
 };
 
 constexpr const char* header =
-    "family,asked,unknowns,threads,elements,contact_points,steps,factorizations,solves,orders,setup_s,"
+    "family,asked,unknowns,ranks,threads,elements,contact_points,steps,factorizations,solves,orders,setup_s,"
     "tangent_s,"
     "factor_s,solve_s,order_s,contact_s,residual_s,output_s,total_s,matrix_bytes,factor_bytes,factor_entries,"
     "factor_operations,history_bytes,foreseen_bytes,peak_bytes,end";
@@ -48,10 +51,11 @@ constexpr const char* header =
 using Clock = std::chrono::steady_clock;
 double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-/// Seconds of the contact terms in the orders of one series: their share of the sums, on their own.
+/// Seconds of the contact terms in the orders of one series: their share of the sums, on their own, on the
+/// rank that takes longest.
 double contactSeconds(Scene& scene, int order) {
-  const auto u = scene.problem().initialState(0.0);
-  const fem::Field force("force", u->getLocalLength()), coefficient("coefficient", u->getLocalLength());
+  const fem::ConstField u = scene.problem().onRank(*scene.problem().initialState(0.0));
+  const fem::Field force("force", u.size()), coefficient("coefficient", u.size());
   // Any coefficients do: the work does not depend on them.
   Kokkos::deep_copy(coefficient, 1e-6);
   Kokkos::fence();
@@ -59,84 +63,83 @@ double contactSeconds(Scene& scene, int order) {
   for (const ContactPoints& contact : scene.contacts())
     for (const int t : contact.terms) {
       fem::Term& term = *scene.problem().model().terms[t];
-      term.beginSeries(fem::field(*u), 0, order);
+      term.beginSeries(u, 0, order);
       for (int k = 1; k <= order; ++k) term.addOrder(k, coefficient, 0, force);
     }
   Kokkos::fence();
-  return since(start);
+  const double own = since(start);
+  double slowest = 0;
+  MPI_Allreduce(&own, &slowest, 1, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
+  return slowest;
 }
 
-/// One run, here; prints its row.
+/// One run, by this process and the ranks that work with it; the first one prints its row.
 int makeRow(const Options& options) {
   const auto begin = Clock::now();
   const std::string folder = options.folder;
   const auto deck = deck::readDeckText(
       bench::familyDeck(options.families.at(0), options.sizes.at(0), options.steps), folder + "/deck.yaml");
-  setenv("OMP_PROC_BIND", "false", 0);
-  MPI_Init(nullptr, nullptr);
-  Kokkos::InitArguments arguments;
-  arguments.disable_warnings = true;
-  arguments.num_threads = options.threads.at(0);
-  Kokkos::initialize(arguments);
-  Tpetra::initialize(nullptr, nullptr);
-  linear::setBlasThreads(1);
+  const Runtime runtime(options.threads.at(0));
   std::string line;
   {
     Scene scene(deck, generateMesh(deck));
     SceneCase pathCase(scene);
     const double setup = since(begin);
     const int order = historyOrder(deck.path);
+    const double histories = static_cast<double>(scene.problem().historyBytes(order));  // collective
     MemoryEstimate foreseen;
     linear::FactorCost factor;
     {
       const auto solver = tangentSolver(pathCase);
-      foreseen = estimateMemory(scene.problem(), pathCase.start(), deck.path, *solver,
-                                static_cast<double>(scene.problem().historyBytes(order)));
+      foreseen = estimateMemory(scene.problem(), pathCase.start(), deck.path, *solver, histories);
       factor = linear::estimate(*solver).value_or(linear::FactorCost{});
     }
-    const MachineMemory machine = machineMemory();
-    const bool fits = !(machine.available > 0) || foreseen.total() < machine.available + residentMemory().now;
+    const MachineMemory machines = allMachines();
+    const double room = machines.available + residentOfAll().now;
+    const bool fits = !(machines.available > 0) || foreseen.total() < room;
     const auto format = [&](const nlohmann::json& s, double contact, const std::string& end) {
       const auto seconds = s.value("seconds", nlohmann::json::object());
       const auto of = [&](const char* part) { return seconds.value(part, 0.0); };
       const auto count = [&](const char* name) { return s.value(name, 0LL); };
       const auto memory = s.value("memory_bytes", nlohmann::json::object());
       return fmt::format(
-          "{},{:g},{},{},{},{},{},{},{},{},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{:."
+          "{},{:g},{},{},{},{},{},{},{},{},{},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},"
+          "{:."
           "4g},{:"
           ".4g},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{}",
-          options.families[0], options.sizes[0], scene.problem().numFreeDofs(), options.threads[0],
-          scene.mesh().numElements(), scene.numContactPoints(), count("steps"), count("factorizations"),
-          count("solves"), count("orders_computed"), setup, of("tangent"), of("factorization"), of("solves"),
-          of("order_rhs"), contact * static_cast<double>(count("orders_computed")) / order, of("residual"),
-          of("output"), of("total"), foreseen.matrix, memory.value("factor", 0.0), factor.entries,
-          factor.operations, static_cast<double>(scene.problem().historyBytes(order)), foreseen.total(),
-          memory.value("peak", 0.0), end);
+          options.families[0], options.sizes[0], scene.problem().numFreeDofs(), ranks::count(),
+          options.threads[0], scene.mesh().numElements(), scene.numContactPoints(), count("steps"),
+          count("factorizations"), count("solves"), count("orders_computed"), setup, of("tangent"),
+          of("factorization"), of("solves"), of("order_rhs"),
+          contact * static_cast<double>(count("orders_computed")) / order, of("residual"), of("output"),
+          of("total"), foreseen.matrix, memory.value("factor", 0.0), factor.entries, factor.operations,
+          histories, foreseen.total(), memory.value("peak", 0.0), end);
     };
     if (fits) {
       RunOptions run;
       run.directory = folder + "/results";
       const RunResult result = runPath(pathCase, run);
-      std::ifstream file(run.directory + "/summary.json");
-      line = format(nlohmann::json::parse(file), contactSeconds(scene, order),
-                    result.reachedStop ? "done" : result.text);
+      const double contact = contactSeconds(scene, order);
+      if (ranks::isFirst()) {
+        std::ifstream file(run.directory + "/summary.json");
+        const auto summary = nlohmann::json::parse(file);
+        line = format(summary, contact, result.reachedStop ? "done" : result.text);
+      }
     } else {
       line = format(nlohmann::json::object(), 0, "does not fit");
     }
   }
-  fmt::print("{}\n", line);
-  Tpetra::finalize();
-  Kokkos::finalize();
-  MPI_Finalize();
+  if (ranks::isFirst()) std::cout << line << std::endl;
   return 0;
 }
 
-/// A row by another process, so that its memory is its own.
-std::string rowOf(const std::string& program, const std::string& family, double size, int threads,
+/// A row by other processes, so that its memory is their own.
+std::string rowOf(const std::string& program, const std::string& family, double size, int ranks, int threads,
                   int steps) {
   std::string folder = (std::filesystem::temp_directory_path() / "bench_scaling_XXXXXX").string();
   if (!mkdtemp(folder.data())) throw std::runtime_error("bench_scaling: no temporary folder");
   const std::string command =
+      (ranks > 1 ? fmt::format("'{}' --oversubscribe --bind-to none -np {} ", ATRAPOS_MPIEXEC, ranks) : "") +
       fmt::format("'{}' --row --families {} --sizes {:g} --threads {} --steps {} --folder {}", program,
                   family, size, threads, steps, folder);
   std::string out;
@@ -151,7 +154,7 @@ std::string rowOf(const std::string& program, const std::string& family, double 
   if (last != std::string::npos) out = out.substr(last + 1);
   if (status == 0 && out.rfind(family + ",", 0) == 0) return out;
   // Killed, by the memory's end perhaps.
-  return fmt::format("{},{:g},,{}{}{}", family, size, threads, std::string(22, ','),
+  return fmt::format("{},{:g},,{},{}{}{}", family, size, ranks, threads, std::string(22, ','),
                      fmt::format(",ended with status {}", status));
 }
 
@@ -163,14 +166,24 @@ int measure(const Options& options, const std::string& program) {
     if (!file) throw std::runtime_error("bench_scaling: " + options.csv + " cannot be written");
   }
   fmt::print("{}\n", header);
+  // (ranks, threads); those that do not fit the machine would measure each other.
+  const int processors = static_cast<int>(std::thread::hardware_concurrency());
+  std::vector<std::pair<int, int>> ways;
+  for (const int ranks : options.ranks)
+    for (const int threads : options.threads)
+      if (ranks * threads <= processors || ranks * threads == 1)
+        ways.emplace_back(ranks, threads);
+      else
+        fmt::print(stderr, "bench_scaling: left out: {} ranks with {} threads on {} processors\n", ranks,
+                   threads, processors);
   for (const auto& family : options.families)
-    for (const int threads : options.threads) {
+    for (const auto& [ranks, threads] : ways) {
       double last = 0, before = 0;
       for (const double size : options.sizes) {
         // Solids grow like the square of the size at worst.
         if (before > 0 && last * (size / before) * (size / before) > 3 * options.longest) break;
         const auto start = Clock::now();
-        const std::string row = rowOf(program, family, size, threads, options.steps);
+        const std::string row = rowOf(program, family, size, ranks, threads, options.steps);
         last = since(start);
         before = size;
         fmt::print("{}\n", row);
@@ -193,7 +206,10 @@ int main(int argc, char** argv) {
   app.add_option("--sizes", options.sizes, "numbers of unknowns, about, ascending")
       ->check(CLI::Range(1000.0, 1e8))
       ->capture_default_str();
-  app.add_option("--threads", options.threads, "threads of the element loops")
+  app.add_option("--ranks", options.ranks, "numbers of ranks, by mpirun")
+      ->check(CLI::Range(1, 1024))
+      ->capture_default_str();
+  app.add_option("--threads", options.threads, "threads of the element loops, a rank")
       ->check(CLI::Range(1, 1024))
       ->capture_default_str();
   app.add_option("--steps", options.steps, "steps of each path")

@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "CsvRows.hpp"
@@ -19,6 +20,7 @@ TEST(BenchScaling, WritesTheTable) {
   ASSERT_EQ(std::system(command.c_str()), 0);
   const auto rows = atrapos::bench::csvRows(csv);
   ASSERT_EQ(rows.size(), 4u);
+  EXPECT_EQ(rows[0].at("ranks"), "1");
   for (auto row : rows) {
     const auto number = [&](const char* name) { return std::stod(row.at(name)); };
     SCOPED_TRACE(row.at("family") + " " + row.at("asked"));
@@ -41,6 +43,32 @@ TEST(BenchScaling, WritesTheTable) {
     EXPECT_GT(number("foreseen_bytes"), 0.5 * number("peak_bytes"));
     EXPECT_LT(number("foreseen_bytes"), 1.5 * number("peak_bytes"));
   }
+}
+
+/// The same work on two ranks: what is counted agrees, memory is that of both.
+TEST(BenchScaling, RanksShareOneRun) {
+  if (std::thread::hardware_concurrency() < 2) GTEST_SKIP() << "one processor: two ranks are left out";
+  const std::string csv = testing::TempDir() + "bench_scaling_ranks_test.csv";
+  std::remove(csv.c_str());
+  // Open MPI's mpirun refuses the superuser otherwise; who waits makes room for other tests.
+  const std::string command =
+      "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_mpi_yield_when_idle=1 " +
+      std::string(ATRAPOS_BENCH_SCALING) +
+      " --families solid --sizes 1000 --ranks 1 2 --threads 1 --steps 1 --csv " + csv + " > /dev/null";
+  ASSERT_EQ(std::system(command.c_str()), 0);
+  const auto rows = atrapos::bench::csvRows(csv);
+  ASSERT_EQ(rows.size(), 2u);
+  for (const auto& row : rows) ASSERT_EQ(row.at("end"), "done");
+  auto one = rows[0], two = rows[1];
+  EXPECT_EQ(two.at("ranks"), "2");
+  for (const char* count : {"unknowns", "elements", "contact_points", "steps", "factorizations", "orders"})
+    EXPECT_EQ(one.at(count), two.at(count)) << count;
+  for (const char* part : {"tangent_s", "factor_s", "solve_s", "order_s", "contact_s", "residual_s"})
+    EXPECT_GT(std::stod(two.at(part)), 0) << part;
+  // Histories are shared out, but for the filling of last batches of eight elements; the program is there
+  // twice.
+  EXPECT_LT(std::stod(two.at("history_bytes")), 1.5 * std::stod(one.at("history_bytes")));
+  EXPECT_GT(std::stod(two.at("peak_bytes")), 1.3 * std::stod(one.at("peak_bytes")));
 }
 
 }  // namespace

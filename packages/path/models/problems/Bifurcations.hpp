@@ -54,13 +54,22 @@ struct Modes : NoInternal {
 /// theta_i at their middles, rotational springs 1/h between them (EI = 1, L = 1), 2/h at the clamp, and one
 /// shortening s of stiffness EA for all. Unknowns (s, theta_1 .. theta_n). The straight column buckles where
 /// lambda (1 - lambda/EA) = 2 n^2 (1 - cos(pi (2m - 1)/2n)), m = 1, 2, ..
+///
+/// The load may follow the top in part: it turns by `follow` theta_n, which makes the tangent unsymmetric.
+/// With phi_i = theta_i - follow theta_n the straight column's neighbour obeys phi_(i+1) - 2 phi_i +
+/// phi_(i-1) = -P phi_i / n^2, phi_i = A cos(omega (i - n - 1/2)), and the clamp theta_0 = -theta_1 asks for
+/// cos(omega n) = -follow / (1 - follow): no buckling beyond follow = 1/2.
 struct Column : NoInternal {
   int n = 10;
-  double EA = 100, sideLoad = 0;
+  double EA = 100, sideLoad = 0, follow = 0;
   int size() const { return n + 1; }
   double scale() const { return 1; }
+  bool symmetric() const { return follow == 0; }
   double buckling(int m) const {
-    const double P = 2 * n * n * (1 - std::cos(M_PI * (2 * m - 1) / (2.0 * n)));
+    // omega n, of which the cosine is given: the m-th positive one.
+    const double first = std::acos(-follow / (1 - follow));
+    const double angle = m % 2 == 1 ? (m - 1) * M_PI + first : m * M_PI - first;
+    const double P = 2 * n * n * (1 - std::cos(angle / n));
     return 0.5 * EA * (1 - std::sqrt(1 - 4 * P / EA));
   }
   template <class S>
@@ -72,8 +81,9 @@ struct Column : NoInternal {
     for (int i = 1; i <= n; ++i) {
       S moment = i > 1 ? u[i] - u[i - 1] : 2 * u[i];
       if (i < n) moment = moment - (u[i + 1] - u[i]);
-      r[0] = r[0] + h * lambda * cos(u[i]);
-      r.push_back(1 / h * moment - h * (lambda * (1 + u[0]) * sin(u[i]) + sideLoad * cos(u[i])));
+      const S angle = follow == 0 ? u[i] : u[i] - follow * u[n];  // to the load
+      r[0] = r[0] + h * lambda * cos(angle);
+      r.push_back(1 / h * moment - h * (lambda * (1 + u[0]) * sin(angle) + sideLoad * cos(u[i])));
     }
     return r;
   }

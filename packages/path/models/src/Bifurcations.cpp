@@ -94,6 +94,16 @@ std::vector<Entry> bifurcations() {
          watchModes(s, p);
          trivial(s, v, p);
        }},
+      {"three_modes",
+       "three pitchforks at one point, lambda = 0.5 + 0.25 bend",
+       {{"bend", 0.3}, {"imperfection", 0}},
+       [](const Values& v) {
+         return problem(modes(v, {0.5, 0.5, 0.5}));
+       },
+       [](const Values& v, const Problem& p, Setup& s) {
+         watchModes(s, p);
+         trivial(s, v, p);
+       }},
       {"branch_trap",
        "an imperfect pitchfork whose branches pass each other at about the size of the imperfection",
        {{"bend", 0.3}, {"imperfection", 1e-3}},

@@ -24,6 +24,7 @@ Column column(const Values& v) {
   law.n = count(v, "links", 2, 199);
   law.EA = positive(v, "axial_stiffness");
   law.sideLoad = v.at("side_load");
+  law.follow = v.at("follow");
   return law;
 }
 
@@ -73,7 +74,7 @@ std::vector<Entry> structures() {
        }},
       {"euler_column",
        "column of rigid links, clamped at its foot, pressed at its top (the discretised elastica)",
-       {{"links", 40}, {"axial_stiffness", 100}, {"side_load", 0}},
+       {{"links", 40}, {"axial_stiffness", 100}, {"side_load", 0}, {"follow", 0}},
        [](const Values& v) { return problem(column(v)); },
        [](const Values& v, const Problem& p, Setup& s) {
          const int n = count(v, "links", 2, 199);

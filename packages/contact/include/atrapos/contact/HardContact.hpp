@@ -66,7 +66,17 @@ void addHardContact(fem::FeModel& model, const fem::PointSet& points, const Tool
   model.terms.push_back(std::make_unique<fem::UnilateralTerm<Law>>(Law{tool}, own));
 }
 
-/// The same with a set of patches, at rest (PatchTool) or moving (MovingTool<PatchTool>).
+/// Adds hard contact of faces with a tool: the mean gap around every corner, weighted by its (bi)linear
+/// function, is >= 0, and the pressure is interpolated between the corners. The term is the model's last.
+template <class Tool>
+void addHardFaceContact(fem::FeModel& model, const fem::PointSet& faces, const Tool& tool) {
+  tool.validate();
+  using Law = HardContactLaw<Tool>;
+  const fem::UnilateralPoints own = fem::withCornerMultipliers(model, faces);
+  model.terms.push_back(std::make_unique<fem::UnilateralTerm<Law>>(Law{tool}, own));
+}
+
+/// Hard contact of points with a set of patches, at rest (PatchTool) or moving (MovingTool<PatchTool>).
 template <class Tool>
 void addHardContact(fem::FeModel& model, const fem::PointSet& points, const PatchSearch<Tool>& search) {
   search.tool.validate();

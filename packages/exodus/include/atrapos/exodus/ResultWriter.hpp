@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "atrapos/exodus/Error.hpp"
+#include "atrapos/exodus/MeshPart.hpp"
 #include "atrapos/fem/Mesh.hpp"
 
 namespace atrapos::exodus {
@@ -47,6 +48,9 @@ class ResultWriter {
  public:
   /// Throws Error as writeMesh does, and where names are empty or not unique.
   ResultWriter(const std::string& file, const fem::Mesh& mesh, const ResultNames& names);
+  /// Writes the part file partName(file, part.parts, part.part); steps hold the part's own values. A part
+  /// without nodes or elements has none of their variables.
+  ResultWriter(const std::string& file, const MeshPart& part, const ResultNames& names);
   ~ResultWriter();
   ResultWriter(ResultWriter&&) noexcept;
   ResultWriter& operator=(ResultWriter&&) noexcept;

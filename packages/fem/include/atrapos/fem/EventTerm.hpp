@@ -7,7 +7,8 @@
 namespace atrapos::fem {
 
 /// A term that is analytic only piecewise and changes at roots of its event functions (docs/theory/path.md,
-/// Events). All numbers of points are those of the term.
+/// Events). Numbers are those of the term: of points, or of what else its event functions stand for. A term
+/// that several ranks share out (keep) goes by those of its part; EventTerms puts the parts together.
 class EventTerm : public Term {
  public:
   /// Number of event functions, one a point.

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "atrapos/fem/Coupling.hpp"
@@ -34,6 +36,11 @@ struct FeModel {
   /// w_t: the square of the change of the load factor that counts in the path parameter as much as a change
   /// of one t by 1.
   double parameterWeight = 1;
+  /// Where the mesh came in parts, [term][entity] the rank that works on an element; terms at the end and
+  /// terms of others than elements may have empty lists. Empty: METIS decides.
+  std::vector<std::vector<int>> ranks;
+  /// What messages call a dof, [3 node + component]; empty: "component z of node 17", nodes from 1.
+  std::function<std::string(int dof)> dofName;
 };
 
 /// R(u, lambda) = sum of the terms F(u, lambda) - F_0 - lambda F_1 with Dirichlet conditions, as a
@@ -82,6 +89,7 @@ class FeProblem final : public path::Problem {
   std::vector<int> eventsAt(const path::Vector& u, double lambda) const override;
   void applyEvent(const std::vector<int>& indices, const path::Vector& u, double lambda) override;
   int constraintPivots() const override;
+  std::string name(long long unknown) const override;
 
   /// Condition of every event function, 0 (free) or 1 (active), then the pieces that points prefer
   /// (fem::PointPieces), of all terms.
@@ -115,6 +123,8 @@ class FeProblem final : public path::Problem {
 
   const Term& term(int i) const;
   int numTerms() const;
+  /// [entity of the whole term] the rank that runs the law of term i there.
+  const std::vector<int>& ranksOf(int i) const;
   int numFreeDofs() const;
   /// Bytes of the terms' histories for series of order `maxOrder`, on all ranks together.
   std::size_t historyBytes(int maxOrder) const;

@@ -10,6 +10,23 @@ namespace atrapos::fem {
 /// of its multiplier with a shape of 0.
 PointSet withMultipliers(FeModel& model, const PointSet& points);
 
+/// Points of faces with one-sided conditions on weighted means over them.
+struct UnilateralPoints {
+  PointSet points;     ///< the last nodes of every entity are those of the multipliers, with a shape of 0
+  int conditions = 1;  ///< of an entity
+  /// [entity][point][condition] psi >= 0. Entities that share a multiplier's node share the condition.
+  std::vector<double> functions;
+};
+
+/// Most conditions of an entity.
+constexpr int kMaxConditions = 4;
+
+/// Gives the model one more node for every corner of these faces (withMultipliers: for every point), and the
+/// faces' points the linear (triangles) or bilinear (quadrilaterals) functions of their corners. Faces of
+/// shells at a distance from the middle surface have their directors behind their nodes (shellFacePoints).
+/// Throws std::logic_error for points that are not those of faces.
+UnilateralPoints withCornerMultipliers(FeModel& model, const PointSet& faces);
+
 /// Law input (u_x, y_x, u_y, y_y, u_z, y_z): displacement at the point and the dofs of its multiplier's node.
 struct DisplacementAndUnknown {
   static constexpr int components = 2;

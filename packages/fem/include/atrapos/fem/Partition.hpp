@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "atrapos/fem/FeProblem.hpp"
+#include "atrapos/fem/Mesh.hpp"
 
 namespace atrapos::fem {
 
@@ -21,6 +22,15 @@ struct Partition {
 ///
 /// The same model gives the same partition on every machine with the same METIS. A rank may be left without
 /// anything where there are few elements. `couplings`: resolved. Throws std::runtime_error where METIS fails.
+///
+/// Where the model gives ranks to its elements (FeModel::ranks) these are kept instead, but for elements at a
+/// coupling's slave, which go to the rank of the first of them; an element without a rank, as those of the
+/// load factor's own node, goes to the rank of a neighbour.
 Partition partition(const FeModel& model, const std::vector<Coupling>& couplings, int numRanks);
+
+/// A mesh in parts, for all that may be done with it: [element over all blocks] part. METIS cuts the graph of
+/// the elements, which weigh as many as they have nodes, edges as many nodes as two elements share. As above,
+/// the same mesh gives the same parts, and some may be empty. Throws std::runtime_error where METIS fails.
+std::vector<int> partition(const Mesh& mesh, int numParts);
 
 }  // namespace atrapos::fem

@@ -36,7 +36,8 @@ class PointPieces {
   void beginSeries(const std::vector<double>& data) { ofSeries_ = data; }
   void hold(bool held) { held_ = held && !ofSeries_.empty(); }
 
-  int pieceOfSeries(int point) const;  ///< `any` before the first series
+  /// `any` before the first series and for points that have no part in it.
+  int pieceOfSeries(int point) const;
   /// The piece at one place, whatever is preferred.
   int pieceAt(int point, const double* place) const;
 
@@ -45,6 +46,12 @@ class PointPieces {
   const std::vector<int>& preferred() const { return preferred_; }
   /// Throws std::invalid_argument on pieces that are not there.
   void setPreferred(const std::vector<int>& preferred);
+
+  /// For a term that works with some of the points only, by pieces of its own (`part`: those of the points
+  /// `of`, in this order): gives the part what these points prefer and whether their data are held.
+  void lend(const std::vector<int>& of, PointPieces& part) const;
+  /// The series of the part has begun, of which the other points are not. `part`: null where there is none.
+  void beginSeriesOf(const std::vector<int>& of, const PointPieces* part);
 
  private:
   int pieceIn(const std::vector<double>& data, int point) const {

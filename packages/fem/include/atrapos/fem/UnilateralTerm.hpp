@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <numeric>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -17,21 +18,29 @@
 
 namespace atrapos::fem {
 
-/// One-sided conditions h(x, lambda) >= 0 at points, with forces P grad h, P >= 0, P h = 0, that are
-/// unknowns: one multiplier a point, at a node of its own (docs/theory/contact.md, Hard contact).
+/// One-sided conditions with forces that are unknowns: one multiplier for each condition, at a node of its
+/// own (docs/theory/contact.md, Hard contact).
+///
+///     at points:   h(x, lambda) >= 0, force P grad h, P >= 0, P h = 0
+///     over faces:  g_i = int psi_i h dA / int psi_i dA >= 0, pressure sum_i psi_i p_i, p_i >= 0, p_i g_i = 0
+///
+/// with the functions psi_i >= 0 of `UnilateralPoints`. A point is a face with psi = 1.
 ///
 /// Law (see taylor/Law.hpp): inputs (x, r) or (x, r, lambda), outputs (-r grad h, h); numObserved = 1 and
-///     static std::vector<std::string> observedNames();   // of h and of P over the point's weight
+///     static std::vector<std::string> observedNames();   // of h and of the pressure
+/// where the pressure at a point is P over its weight.
 /// A law with data (pieces: PieceSearch) has also
 ///     bool exists(const double* data) const;   // false: the point is over nothing, its gap infinite
 /// and a positive constant for h where that is false.
-/// r is the multiplier as a length: P = s r with s the body's stiffness at the point. Every point is its own
-/// entity, and its last node is that of the multiplier (`withMultipliers`). Its row reads -s h = 0 where the
-/// point is active and s r = 0 where it is free, so the graph of the tangent never changes and, where the law
-/// says `symmetric`, the tangent is symmetric: an active point couples r and u by -s grad h, a free one adds
-/// s to the diagonal. Event functions: h of a free point, r of an active one.
 ///
-/// A point whose nodes are all held by supports is never active; its multiplier stays zero.
+/// The unknown r_i is the multiplier as a length: P_i = p_i int psi_i dA = s_i r_i with s_i the body's
+/// stiffness there. The last nodes of an entity are those of its multipliers. The row of r_i reads -s_i g_i =
+/// 0 where the condition is active and s_i r_i = 0 where it is free, so the graph of the tangent never
+/// changes and, where the law says `symmetric`, the tangent is symmetric: an active condition couples r and u
+/// by -s grad g, a free one adds s to the diagonal. Event functions: g of a free condition, r of an active
+/// one.
+///
+/// A condition all of whose nodes are held by supports is never active; its multiplier stays zero.
 template <class Law>
 class UnilateralTerm final : public EventTerm {
   static constexpr int L = kLanes, D = Law::numData, J = Law::numInputs, O = 4;
@@ -42,65 +51,68 @@ class UnilateralTerm final : public EventTerm {
   using Pack = taylor::Lanes<L>;
 
   struct Arrays : LawArrays<Law, 1> {
-    View<double*> stiffness;  // [batch][lane] s; 0: held
-    double heldDiagonal = 1;  // of the multipliers of held points, which stay zero
-    View<double*> active;     // [batch][lane] 1 or 0
-    View<double*> gap;        // [batch][lane] h with U_k = 0 of the order swept last
-    View<double*> gapStart;   // [batch][lane] h of order 0
-    View<double*> force;      // [batch][lane] r of order 0
-    View<double*> gradient;   // [batch][input][lane] dh/d(x, lambda) at the start of the series
+    int M = 1;                // conditions of an entity, and their nodes
+    View<double*> mean;       // [batch][q][m][lane] psi_m over the integral of psi_m on all faces
+    View<double*> stiffness;  // [batch][m][lane] s; 0: held
+    View<double*> share;      // [batch][m][lane] the entity's part of the condition; sums to 1
+    double heldDiagonal = 1;  // of the multipliers of held conditions, which stay zero
+    View<double*> active;     // [batch][m][lane] 1 or 0
+    View<double*> gap;        // [batch][q][lane] h with U_k = 0 of the order swept last
+    View<double*> gapStart;   // [batch][q][lane] h of order 0
+    View<double*> force;      // [batch][m][lane] r of order 0
+    View<double*> gradient;   // [batch][q][input][lane] dh/d(x, lambda) at the start of the series
 
-    KOKKOS_INLINE_FUNCTION Pack at(const View<double*>& view, int b) const {
-      return Pack::load(&view(b * L));
+    KOKKOS_INLINE_FUNCTION std::size_t condition(int b, int m) const {
+      return (static_cast<std::size_t>(b) * M + m) * L;
+    }
+    KOKKOS_INLINE_FUNCTION std::size_t point(int b, int q) const {
+      return (static_cast<std::size_t>(b) * this->Q + q) * L;
+    }
+    KOKKOS_INLINE_FUNCTION Pack meanAt(int b, int q, int m) const {
+      return Pack::load(&mean(((static_cast<std::size_t>(b) * this->Q + q) * M + m) * L));
+    }
+    KOKKOS_INLINE_FUNCTION Pack at(const View<double*>& view, int b, int m) const {
+      return Pack::load(&view(condition(b, m)));
+    }
+    KOKKOS_INLINE_FUNCTION const Pack& multiplier(const Pack* local, int m) const {
+      return local[3 * (this->N - M + m)];
     }
 
-    /// in = (x, r, lambda) from local displacements; the constant part of x only where it is asked for.
-    KOKKOS_INLINE_FUNCTION void inputs(int b, const Pack* local, double lambda, bool offset, Pack* in) const {
-      this->interpolate(b, 0, local, in);
-      if (offset) this->addOffset(b, 0, in);
-      in[3] = local[3 * (this->N - 1)];
+    /// in = (x, r, lambda) at point q from local displacements, r the pressure there; the constant part of x
+    /// only where it is asked for.
+    KOKKOS_INLINE_FUNCTION void inputs(int b, int q, const Pack* local, double lambda, bool offset,
+                                       Pack* in) const {
+      this->interpolate(b, q, local, in);
+      if (offset) this->addOffset(b, q, in);
+      in[3] = Pack(0.0);
+      for (int m = 0; m < M; ++m) in[3] += at(stiffness, b, m) * meanAt(b, q, m) * multiplier(local, m);
       if constexpr (seesLambda) in[4] = Pack(lambda);
     }
 
-    /// force = what the outputs (-r grad h, h) are at the nodes.
-    KOKKOS_INLINE_FUNCTION void forces(int b, const Pack* out, const Pack& r, Pack* force) const {
-      const Pack s = at(stiffness, b), on = at(active, b);
-      const double* shape = this->shapeAt(b, 0);
-      for (int n = 0; n + 1 < this->N; ++n)
-        for (int i = 0; i < 3; ++i) force[3 * n + i] = s * out[i] * Pack::load(shape + n * L);
-      Pack* row = force + 3 * (this->N - 1);
-      row[0] = s * ((Pack(1.0) - on) * r - on * out[3]);
-      row[1] = row[2] = Pack(0.0);
+    /// force += what the outputs (-r grad h, h) at point q are at the nodes.
+    KOKKOS_INLINE_FUNCTION void addForces(int b, int q, const Pack* out, Pack* force) const {
+      this->accumulate(b, q, out, force);
+      const Pack gap = this->weightAt(b, q) * out[3];
+      for (int m = 0; m < M; ++m)
+        force[3 * (this->N - M + m)] -= at(active, b, m) * at(stiffness, b, m) * meanAt(b, q, m) * gap;
     }
   };
 
  public:
-  /// `points` as withMultipliers makes them; weights only divide the force that is shown.
-  UnilateralTerm(const Law& law, const PointSet& points) : UnilateralTerm(law, points, {}, {}) {
-    static_assert(D == 0, "a law with data needs the search that keeps them up to date");
-  }
+  /// Conditions at points as withMultipliers makes them; weights only divide the force that is shown.
+  UnilateralTerm(const Law& law, const PointSet& points)
+      : UnilateralTerm(law, UnilateralPoints{points, 1, std::vector<double>(points.numPoints(), 1.0)}) {}
 
   /// The same with a law that is analytic piece by piece. A law's data: [point][datum].
   UnilateralTerm(const Law& law, const PointSet& points, const std::vector<double>& data, PieceSearch search)
-      : entityNodes_(points.nodes),
-        weights_(points.weights),
-        shape_(points.shape),
-        batches_(makeBatches(L, points.numEntities, points.nodesPerEntity, points.nodes)) {
-    if (points.pointsPerEntity != 1) throw std::logic_error("UnilateralTerm: every point is its own entity");
-    a_.fill(law, points, data, batches_);
-    const std::size_t lanes = static_cast<std::size_t>(batches_.count) * L;
-    a_.stiffness = upload("stiffness", std::vector<double>(lanes, 1.0));
-    a_.active = View<double*>("active", lanes);
-    a_.gap = View<double*>("gap", lanes);
-    a_.gapStart = View<double*>("gapStart", lanes);
-    a_.force = View<double*>("force", lanes);
-    a_.gradient = View<double*>("gradient", 4 * lanes);
-    active_.assign(a_.numEntities, 0);
-    if constexpr (D > 0) {
-      pieces_ = std::make_unique<PointPieces>(std::move(search), points.numPoints(), data);
-      seriesData_ = View<double*>("seriesData", a_.data.size());
-    }
-    for (int p = 0; p < 3 * a_.numEntities; ++p) extent_ = std::max(extent_, std::abs(points.positions[p]));
+      : UnilateralTerm(law, UnilateralPoints{points, 1, std::vector<double>(points.numPoints(), 1.0)}, data,
+                       std::move(search)) {
+    if (points.pointsPerEntity != 1) throw std::logic_error("UnilateralTerm: pieces need points");
+  }
+
+  /// Conditions over faces.
+  UnilateralTerm(const Law& law, const UnilateralPoints& faces) : UnilateralTerm(law, faces, {}, {}) {
+    static_assert(D == 0, "a law with data needs the search that keeps them up to date");
   }
 
   int numEntities() const override { return a_.numEntities; }
@@ -111,7 +123,37 @@ class UnilateralTerm final : public EventTerm {
   std::size_t historyBytes(int maxOrder) const override {
     return a_.historyDoubles(batches_.count, maxOrder) * sizeof(double);
   }
-  int eventCount() const override { return a_.numEntities; }
+  int eventCount() const override { return static_cast<int>(active_.size()); }
+
+  /// Points only.
+  void keep(const TermPart& part) override {
+    if (pieces_)
+      throw std::invalid_argument(
+          "contact with a tool of patches works on one rank only: start without mpirun");
+    if (a_.M > 1)
+      throw std::invalid_argument("hard contact over faces works on one rank only: start without mpirun");
+    whole_ = a_.numEntities;
+    kept_ = part.entities;
+    batches_ = makeBatches(L, static_cast<int>(kept_.size()), a_.N, part.nodes);
+    std::vector<double> weights, shape, mean;
+    for (const int e : kept_) {
+      weights.push_back(weights_[e]);
+      mean.push_back(meanShape_[e]);
+      shape.insert(shape.end(), shape_.begin() + e * a_.N, shape_.begin() + (e + 1) * a_.N);
+    }
+    weights_ = std::move(weights);
+    meanShape_ = std::move(mean);
+    shape_ = std::move(shape);
+    entityNodes_ = part.nodes;
+    a_.keep(part, batches_);
+    // Every point is its own condition.
+    conditionOf_.resize(kept_.size());
+    std::iota(conditionOf_.begin(), conditionOf_.end(), 0);
+    active_.assign(kept_.size(), 0);
+    stiffness_.assign(kept_.size(), 1.0);
+    makeArrays();
+  }
+
   void setPositions(const std::vector<int>& positions) override {
     a_.setPositions(positions, batches_.count);
   }
@@ -122,13 +164,19 @@ class UnilateralTerm final : public EventTerm {
     forEachBatch(
         "residual", batches_, a.order, KOKKOS_LAMBDA(int b) {
           Pack local[3 * kMaxNodes], force[3 * kMaxNodes], in[J], out[O];
+          for (int n = 0; n < 3 * a.N; ++n) force[n] = Pack(0.0);
           a.gather(b, u, local);
-          a.inputs(b, local, lambda, true, in);
-          a.evaluate(b, 0, in, out);
-          a.forces(b, out, in[3], force);
+          for (int q = 0; q < a.Q; ++q) {
+            a.inputs(b, q, local, lambda, true, in);
+            a.evaluate(b, q, in, out);
+            a.addForces(b, q, out, force);
+          }
+          for (int m = 0; m < a.M; ++m)
+            force[3 * (a.N - a.M + m)] += (Pack(1.0) - a.at(a.active, b, m)) * a.at(a.stiffness, b, m) *
+                                          a.at(a.share, b, m) * a.multiplier(local, m);
           a.scatter(b, force, f);
           double sum = 0;  // of the forces on the body; a condition is no force
-          for (int n = 0; n < 3 * (a.N - 1); ++n)
+          for (int n = 0; n < 3 * (a.N - a.M); ++n)
             for (int lane = 0; lane < a.lanesIn(b); ++lane) sum += force[n][lane] * force[n][lane];
           squares(b) = sum;
         });
@@ -139,40 +187,56 @@ class UnilateralTerm final : public EventTerm {
     const Arrays a = updated(u, lambda, a_.data);
     forEachBatch(
         "tangent", batches_, a.order, KOKKOS_LAMBDA(int b) {
-          Pack local[3 * kMaxNodes], in[J], moduli[9], byMultiplier[3], ofGap[3];
-          Pack byLambda[O], direction[3 * kMaxNodes], own;
-          const Pack s = a.at(a.stiffness, b), on = a.at(a.active, b);
+          Pack local[3 * kMaxNodes], in[J], moduli[9 * kMaxPoints];
+          Pack byMultiplier[3 * kMaxPoints], ofGap[3 * kMaxPoints];  // [q][component], times the weight
+          Pack byLambda[O], direction[3 * kMaxNodes], own[kMaxConditions];
+          if constexpr (seesLambda)
+            for (int n = 0; n < 3 * a.N; ++n) direction[n] = Pack(0.0);
           a.gather(b, u, local);
-          a.inputs(b, local, lambda, true, in);
-          for (int lane = 0; lane < L; ++lane) {
-            own[lane] = s[lane] == 0 ? a.heldDiagonal : s[lane] * (1 - on[lane]);
-            double one[J], data[D + 1], result[O], jacobian[O * J];
-            a.lanesOf(in, J, lane, one);
-            a.lanesOf(a.dataAt(b, 0), D, lane, data);
-            taylor::tangent(a.law, one, data, result, jacobian);
-            for (int i = 0; i < 3; ++i) {
-              for (int j = 0; j < 3; ++j) moduli[3 * i + j][lane] = s[lane] * jacobian[i * J + j];
-              byMultiplier[i][lane] = on[lane] * s[lane] * jacobian[i * J + 3];
-              ofGap[i][lane] = -on[lane] * s[lane] * jacobian[3 * J + i];
+          for (int m = 0; m < a.M; ++m) {
+            const Pack s = a.at(a.stiffness, b, m), on = a.at(a.active, b, m), share = a.at(a.share, b, m);
+            for (int lane = 0; lane < L; ++lane)
+              own[m][lane] = share[lane] * (s[lane] == 0 ? a.heldDiagonal : s[lane] * (1 - on[lane]));
+          }
+          for (int q = 0; q < a.Q; ++q) {
+            const Pack w = a.weightAt(b, q);
+            a.inputs(b, q, local, lambda, true, in);
+            for (int lane = 0; lane < L; ++lane) {
+              double one[J], data[D + 1], result[O], jacobian[O * J];
+              a.lanesOf(in, J, lane, one);
+              a.lanesOf(a.dataAt(b, q), D, lane, data);
+              taylor::tangent(a.law, one, data, result, jacobian);
+              for (int i = 0; i < 3; ++i) {
+                for (int j = 0; j < 3; ++j) moduli[9 * q + 3 * i + j][lane] = w[lane] * jacobian[i * J + j];
+                byMultiplier[3 * q + i][lane] = w[lane] * jacobian[i * J + 3];
+                ofGap[3 * q + i][lane] = -w[lane] * jacobian[3 * J + i];
+              }
+              if constexpr (seesLambda)
+                for (int m = 0; m < O; ++m) byLambda[m][lane] = -jacobian[m * J + 4];
             }
-            if constexpr (seesLambda)
-              for (int m = 0; m < O; ++m) byLambda[m][lane] = -jacobian[m * J + 4];
+            if constexpr (seesLambda) a.addForces(b, q, byLambda, direction);
           }
-          if constexpr (seesLambda) {
-            a.forces(b, byLambda, Pack(0.0), direction);
-            a.scatter(b, direction, sink.loadDirection);
-          }
-          const int last = a.N - 1;
-          const double* shape = a.shapeAt(b, 0);
-          const auto withMultiplier = [&](int na, int nb, Pack* block) {
+          if constexpr (seesLambda) a.scatter(b, direction, sink.loadDirection);
+          const int first = a.N - a.M;
+          const auto withMultipliers = [&](int na, int nb, Pack* block) {
             for (int i = 0; i < 9; ++i) block[i] = Pack(0.0);
-            if (na < last && nb == last)
-              for (int i = 0; i < 3; ++i) block[3 * i] = byMultiplier[i] * Pack::load(shape + na * L);
-            if (na == last && nb < last)
-              for (int j = 0; j < 3; ++j) block[j] = ofGap[j] * Pack::load(shape + nb * L);
-            if (na == last && nb == last) block[0] = own;
+            if (na >= first && nb >= first) {
+              if (na == nb) block[0] = own[na - first];
+              return;
+            }
+            if (na < first && nb < first) return;
+            const int m = (na < first ? nb : na) - first, n = na < first ? na : nb;
+            const Pack on = a.at(a.active, b, m) * a.at(a.stiffness, b, m);
+            for (int q = 0; q < a.Q; ++q) {
+              const Pack factor = on * a.meanAt(b, q, m) * Pack::load(a.shapeAt(b, q) + n * L);
+              for (int i = 0; i < 3; ++i)
+                if (na < first)
+                  block[3 * i] += factor * byMultiplier[3 * q + i];
+                else
+                  block[i] += factor * ofGap[3 * q + i];
+            }
           };
-          a.addBlocks(b, moduli, withMultiplier, sink);
+          a.addBlocks(b, moduli, withMultipliers, sink);
         });
   }
 
@@ -184,24 +248,27 @@ class UnilateralTerm final : public EventTerm {
         "beginSeries", batches_, a.order, KOKKOS_LAMBDA(int b) {
           Pack local[3 * kMaxNodes], in[J], out[O];
           a.gather(b, u, local);
-          a.inputs(b, local, lambda, true, in);
-          taylor::Failures<L> noted;
-          auto context = a.context(b, 0, 0);
-          context.failures = &noted;
-          taylor::start(a.law, context, in, a.dataAt(b, 0), out);
-          a.findFailure(b, 0, out, noted, failures(b));
-          out[3].store(&a.gapStart(b * L));
-          in[3].store(&a.force(b * L));
-          for (int lane = 0; lane < L; ++lane) {
-            double one[J], data[D + 1], result[O], jacobian[O * J];
-            a.lanesOf(in, J, lane, one);
-            a.lanesOf(a.dataAt(b, 0), D, lane, data);
-            taylor::tangent(a.law, one, data, result, jacobian);
-            for (int i = 0; i < 3; ++i) a.gradient((b * 4 + i) * L + lane) = jacobian[3 * J + i];
-            a.gradient((b * 4 + 3) * L + lane) = seesLambda ? jacobian[3 * J + J - 1] : 0.0;
+          for (int m = 0; m < a.M; ++m) a.multiplier(local, m).store(&a.force(a.condition(b, m)));
+          for (int q = 0; q < a.Q; ++q) {
+            a.inputs(b, q, local, lambda, true, in);
+            taylor::Failures<L> noted;
+            auto context = a.context(b, q, 0);
+            context.failures = &noted;
+            taylor::start(a.law, context, in, a.dataAt(b, q), out);
+            a.findFailure(b, q, out, noted, failures(b));
+            out[3].store(&a.gapStart(a.point(b, q)));
+            for (int lane = 0; lane < L; ++lane) {
+              double one[J], data[D + 1], result[O], jacobian[O * J];
+              a.lanesOf(in, J, lane, one);
+              a.lanesOf(a.dataAt(b, q), D, lane, data);
+              taylor::tangent(a.law, one, data, result, jacobian);
+              double* gradient = &a.gradient(4 * a.point(b, q)) + lane;
+              for (int i = 0; i < 3; ++i) gradient[i * L] = jacobian[3 * J + i];
+              gradient[3 * L] = seesLambda ? jacobian[3 * J + J - 1] : 0.0;
+            }
           }
         });
-    throwFirst(failures);
+    throwFirst(failures, kept_);
   }
 
   void addOrder(int k, const ConstField& last, double lastLambda, const Field& f) override {
@@ -211,43 +278,60 @@ class UnilateralTerm final : public EventTerm {
     forEachBatch(
         "addOrder", batches_, a.order, KOKKOS_LAMBDA(int b) {
           Pack local[3 * kMaxNodes], force[3 * kMaxNodes], in[J], out[O];
-          if (k > 1) {
-            a.gather(b, last, local);
-            a.inputs(b, local, lastLambda, false, in);
-            auto previous = a.context(b, 0, k - 1);
-            taylor::complete(a.law, previous, in, a.dataAt(b, 0));
+          for (int n = 0; n < 3 * a.N; ++n) force[n] = Pack(0.0);
+          if (k > 1) a.gather(b, last, local);
+          for (int q = 0; q < a.Q; ++q) {
+            if (k > 1) {
+              a.inputs(b, q, local, lastLambda, false, in);
+              auto previous = a.context(b, q, k - 1);
+              taylor::complete(a.law, previous, in, a.dataAt(b, q));
+            }
+            auto context = a.context(b, q, k);
+            taylor::sweep(a.law, context, a.dataAt(b, q), out);
+            out[3].store(&a.gap(a.point(b, q)));
+            a.addForces(b, q, out, force);
           }
-          auto context = a.context(b, 0, k);
-          taylor::sweep(a.law, context, a.dataAt(b, 0), out);
-          out[3].store(&a.gap(b * L));
-          a.forces(b, out, Pack(0.0), force);
           a.scatter(b, force, f);
         });
   }
 
   void eventOrder(int k, const ConstField& Uk, double lambdaK, double* g) const override {
     const Arrays a = a_;
-    const View<double*> values("events", static_cast<std::size_t>(batches_.count) * L);
+    // Of every entity: its part of the mean gaps, then the multipliers.
+    const std::size_t size = static_cast<std::size_t>(batches_.count) * a.M * L;
+    const View<double*> gaps("gaps", size), multipliers("multipliers", size);
     forEachBatch(
         "events", batches_, a.order, KOKKOS_LAMBDA(int b) {
-          Pack h = a.at(k == 0 ? a.gapStart : a.gap, b), r = a.at(a.force, b);
-          if (k > 0) {
-            Pack local[3 * kMaxNodes], in[J];
-            a.gather(b, Uk, local);
-            a.inputs(b, local, lambdaK, false, in);
-            for (int i = 0; i < 3; ++i) h += Pack::load(&a.gradient((b * 4 + i) * L)) * in[i];
-            if constexpr (seesLambda) h += Pack::load(&a.gradient((b * 4 + 3) * L)) * in[4];
-            r = in[3];
+          Pack local[3 * kMaxNodes], in[J], sum[kMaxConditions];
+          for (int m = 0; m < a.M; ++m) sum[m] = Pack(0.0);
+          if (k > 0) a.gather(b, Uk, local);
+          for (int q = 0; q < a.Q; ++q) {
+            Pack h = Pack::load(k == 0 ? &a.gapStart(a.point(b, q)) : &a.gap(a.point(b, q)));
+            if (k > 0) {
+              a.inputs(b, q, local, lambdaK, false, in);
+              const double* gradient = &a.gradient(4 * a.point(b, q));
+              for (int i = 0; i < 3; ++i) h += Pack::load(gradient + i * L) * in[i];
+              if constexpr (seesLambda) h += Pack::load(gradient + 3 * L) * in[4];
+            }
+            h = a.weightAt(b, q) * h;
+            for (int m = 0; m < a.M; ++m) sum[m] += a.meanAt(b, q, m) * h;
           }
-          const Pack on = a.at(a.active, b);
-          for (int lane = 0; lane < L; ++lane) {
-            double value = on[lane] != 0 ? r[lane] : h[lane];
-            if (a.stiffness(b * L + lane) == 0) value = k == 0 ? 1 : 0;  // held
-            values(b * L + lane) = value;
+          for (int m = 0; m < a.M; ++m) {
+            sum[m].store(&gaps(a.condition(b, m)));
+            (k == 0 ? a.at(a.force, b, m) : a.multiplier(local, m)).store(&multipliers(a.condition(b, m)));
           }
         });
-    auto host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), values);
-    std::copy(host.data(), host.data() + a_.numEntities, g);
+    const auto own = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), gaps);
+    const auto r = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), multipliers);
+    std::fill(g, g + eventCount(), 0.0);
+    forEachCondition([&](int c, int, std::size_t at) {
+      if (stiffness_[c] == 0)
+        g[c] = k == 0 ? 1 : 0;  // held
+      else if (active_[c])
+        g[c] = r(at);
+      else
+        g[c] += own(at);
+    });
   }
 
   PointPieces* pieces() override { return pieces_.get(); }
@@ -260,7 +344,7 @@ class UnilateralTerm final : public EventTerm {
         "places", batches_, a.order, KOKKOS_LAMBDA(int b) {
           Pack local[3 * kMaxNodes], in[J];
           a.gather(b, u, local);
-          a.inputs(b, local, lambda, true, in);
+          a.inputs(b, 0, local, lambda, true, in);
           for (int lane = 0; lane < a.lanesIn(b); ++lane) {
             double* place = &all((static_cast<std::size_t>(b) * L + lane) * stride);
             for (int i = 0; i < 3; ++i) place[i] = in[i][lane];
@@ -275,11 +359,10 @@ class UnilateralTerm final : public EventTerm {
     if (!pieces_) return false;
     const auto in = places(u, lambda);
     const auto shown = observe(u, lambda);
-    const auto stiffness = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), a_.stiffness);
     // Roots and states are good to some digits less than coordinates; another piece is further off.
     const double small = 1e-9 * sizeAt(u);
     for (int p = 0; p < a_.numEntities; ++p) {
-      if (active_[p] || stiffness(p) == 0) continue;
+      if (active_[p] || stiffness_[p] == 0) continue;
       if (pieces_->pieceAt(p, &in[static_cast<std::size_t>(p) * pieces_->numInputs()]) ==
           pieces_->pieceOfSeries(p))
         continue;
@@ -292,25 +375,30 @@ class UnilateralTerm final : public EventTerm {
 
   std::vector<int> eventsAt(const ConstField& u, double lambda) const override {
     const auto shown = observe(u, lambda);
-    auto stiffness = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), a_.stiffness);
-    const double size = sizeAt(u);
+    std::vector<double> gaps(active_.size(), 0.0);
+    const std::size_t Q = a_.Q, M = a_.M;
+    forEachCondition([&](int c, int m, std::size_t at) {
+      const std::size_t e = entityAt(at);
+      for (std::size_t q = 0; q < Q; ++q)
+        gaps[c] += weights_[e * Q + q] * meanShape_[(e * Q + q) * M + m] * shown.values[2 * (e * Q + q)];
+    });
     // Coordinates and the tool's equations are rounded to a few units of 1e-16 of the size; meshes read from
     // files in single precision are not meant to touch exactly.
-    const double touching = 1e-11 * size;
-    std::vector<int> points;
-    for (int p = 0; p < a_.numEntities; ++p) {
-      if (stiffness(p) == 0) continue;
-      const double h = shown.values[2 * p];
-      if (active_[p]) continue;
-      if (h < -touching) {
+    const double touching = 1e-11 * sizeAt(u);
+    std::vector<int> found;
+    for (int c = 0; c < eventCount(); ++c) {
+      if (stiffness_[c] == 0 || active_[c]) continue;
+      if (gaps[c] < -touching) {
         std::ostringstream text;
-        text << "contact point " << p + 1 << " (of " << a_.numEntities << ") is " << -h
+        text << "contact " << (M > 1 ? "faces around corner " : "point ") << numberInTerm(kept_, c) + 1
+             << " (of " << (kept_.empty() ? eventCount() : whole_) << ") "
+             << (M > 1 ? "are on average " : "is ") << -gaps[c]
              << " inside the tool where the path starts; hard contact needs a gap >= 0";
         throw std::invalid_argument(text.str());
       }
-      if (h <= touching) points.push_back(p);
+      if (gaps[c] <= touching) found.push_back(c);
     }
-    return points;
+    return found;
   }
 
   void applyEvent(const std::vector<int>& points) override {
@@ -333,45 +421,144 @@ class UnilateralTerm final : public EventTerm {
     // Gaps are differences of coordinates, which exceed displacements by far where a path starts: with the
     // whole stiffness their rounding would rule the residual. A hundredth is still well above the stiffness
     // with which a body gives way as a whole.
-    constexpr double part = 1e-2;
-    const int N = a_.N;
-    std::vector<double> s(a_.stiffness.size(), 1.0);
-    for (int p = 0; p < a_.numEntities; ++p) {
-      double least = std::numeric_limits<double>::infinity();
-      for (int n = 0; n + 1 < N; ++n) {
-        const double k = ofNodes[entityNodes_[p * N + n]];
-        if (shape_[p * N + n] != 0 && k > 0) least = std::min(least, k);
+    constexpr double part = 1e-2, none = std::numeric_limits<double>::infinity();
+    const std::size_t N = a_.N, Q = a_.Q;
+    std::vector<double> least(active_.size(), none);
+    forEachCondition([&](int c, int, std::size_t at) {
+      const std::size_t e = entityAt(at);
+      for (std::size_t i = 0; i < Q * (N - a_.M); ++i) {
+        const std::size_t q = i / (N - a_.M), n = i % (N - a_.M);
+        const double k = ofNodes[entityNodes_[e * N + n]];
+        if (shape_[(e * Q + q) * N + n] != 0 && k > 0) least[c] = std::min(least[c], k);
       }
-      s[p] = std::isfinite(least) ? part * least : 0.0;
+    });
+    double largest = 0;
+    for (std::size_t c = 0; c < least.size(); ++c) {
+      stiffness_[c] = least[c] < none ? part * least[c] : 0.0;
+      largest = std::max(largest, stiffness_[c]);
     }
-    const double largest = *std::max_element(s.begin(), s.begin() + a_.numEntities);
     a_.heldDiagonal = largest > 0 ? largest : 1;
-    a_.stiffness = upload("stiffness", s);
+    a_.stiffness = ofConditions("stiffness", stiffness_);
   }
 
   PointValues observe(const ConstField& u, double lambda) const override {
     PointValues result;
     result.names = Law::observedNames();
     const Arrays a = updated(u, lambda, a_.data);
-    View<double*> values("observed", 2 * static_cast<std::size_t>(a_.numEntities));
+    View<double*> values("observed", 2 * static_cast<std::size_t>(a_.numEntities) * a_.Q);
     forEachBatch(
         "observe", batches_, a.order, KOKKOS_LAMBDA(int b) {
           Pack local[3 * kMaxNodes], in[J], out[O];
           a.gather(b, u, local);
-          a.inputs(b, local, lambda, true, in);
-          a.evaluate(b, 0, in, out);
-          for (int lane = 0; lane < a.lanesIn(b); ++lane) {
-            values(2 * (b * L + lane)) = shownGap(a, b, lane, out[3][lane]);
-            values(2 * (b * L + lane) + 1) = a.stiffness(b * L + lane) * in[3][lane];
+          for (int q = 0; q < a.Q; ++q) {
+            a.inputs(b, q, local, lambda, true, in);
+            a.evaluate(b, q, in, out);
+            for (int lane = 0; lane < a.lanesIn(b); ++lane) {
+              double* shown = &values(2 * (static_cast<std::size_t>(b * L + lane) * a.Q + q));
+              shown[0] = shownGap(a, b, lane, out[3][lane]);
+              shown[1] = in[3][lane];
+            }
           }
         });
     auto host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), values);
     result.values.assign(host.data(), host.data() + host.size());
-    for (int p = 0; p < a_.numEntities; ++p) result.values[2 * p + 1] /= weights_[p];
     return result;
   }
 
  private:
+  UnilateralTerm(const Law& law, const UnilateralPoints& faces, const std::vector<double>& data,
+                 PieceSearch search)
+      : entityNodes_(faces.points.nodes),
+        weights_(faces.points.weights),
+        shape_(faces.points.shape),
+        batches_(makeBatches(L, faces.points.numEntities, faces.points.nodesPerEntity, faces.points.nodes)) {
+    const PointSet& points = faces.points;
+    if (faces.conditions > kMaxConditions)
+      throw std::logic_error("UnilateralTerm: too many conditions a face");
+    a_.fill(law, points, data, batches_);
+    a_.M = faces.conditions;
+    findConditions(faces);
+    makeArrays();
+    if constexpr (D > 0) {
+      pieces_ = std::make_unique<PointPieces>(std::move(search), points.numPoints(), data);
+      seriesData_ = View<double*>("seriesData", a_.data.size());
+    }
+    for (const double x : points.positions) extent_ = std::max(extent_, std::abs(x));
+  }
+
+  /// The conditions are numbered as their nodes are.
+  void findConditions(const UnilateralPoints& faces) {
+    const std::size_t N = a_.N, Q = a_.Q, M = a_.M, entities = a_.numEntities;
+    int first = std::numeric_limits<int>::max(), last = -1;
+    for (std::size_t e = 0; e < entities; ++e)
+      for (std::size_t m = 0; m < M; ++m) {
+        first = std::min(first, entityNodes_[e * N + N - M + m]);
+        last = std::max(last, entityNodes_[e * N + N - M + m]);
+      }
+    const std::size_t count = last < first ? 0 : last - first + 1;
+    for (std::size_t e = 0; e < entities; ++e)
+      for (std::size_t m = 0; m < M; ++m) conditionOf_.push_back(entityNodes_[e * N + N - M + m] - first);
+    active_.assign(count, 0);
+    stiffness_.assign(count, 1.0);
+    std::vector<double> area(count, 0.0), own(entities * M, 0.0);
+    for (std::size_t e = 0; e < entities; ++e)
+      for (std::size_t q = 0; q < Q; ++q)
+        for (std::size_t m = 0; m < M; ++m)
+          own[e * M + m] += weights_[e * Q + q] * faces.functions[(e * Q + q) * M + m];
+    for (std::size_t i = 0; i < own.size(); ++i) area[conditionOf_[i]] += own[i];
+    meanShape_.resize(entities * Q * M);
+    for (std::size_t e = 0; e < entities; ++e)
+      for (std::size_t q = 0; q < Q; ++q)
+        for (std::size_t m = 0; m < M; ++m)
+          meanShape_[(e * Q + q) * M + m] =
+              faces.functions[(e * Q + q) * M + m] / area[conditionOf_[e * M + m]];
+  }
+
+  /// What the loops read of the conditions, none of them active, and room for their series.
+  void makeArrays() {
+    const std::size_t Q = a_.Q, M = a_.M, lanes = static_cast<std::size_t>(batches_.count) * L;
+    std::vector<double> mean(lanes * Q * M), share(lanes * M, 0.0);
+    a_.pack(meanShape_, a_.M, batches_.count, mean.data());
+    forEachCondition([&](int, int m, std::size_t at) {
+      const std::size_t e = entityAt(at);
+      for (std::size_t q = 0; q < Q; ++q) share[at] += weights_[e * Q + q] * meanShape_[(e * Q + q) * M + m];
+    });
+    a_.mean = upload("mean", mean);
+    a_.share = upload("share", share);
+    a_.stiffness = ofConditions("stiffness", stiffness_);
+    a_.active = View<double*>("active", lanes * M);
+    a_.force = View<double*>("force", lanes * M);
+    a_.gap = View<double*>("gap", lanes * Q);
+    a_.gapStart = View<double*>("gapStart", lanes * Q);
+    a_.gradient = View<double*>("gradient", 4 * lanes * Q);
+  }
+
+  /// The entity of a place in arrays [batch][m][lane].
+  std::size_t entityAt(std::size_t at) const {
+    return at / (static_cast<std::size_t>(a_.M) * L) * L + at % L;
+  }
+
+  /// f(number of the condition, number m in its entity, place in arrays [batch][m][lane]) for all conditions
+  /// of all entities, one after the other.
+  template <class F>
+  void forEachCondition(const F& f) const {
+    const std::size_t M = a_.M;
+    for (std::size_t e = 0; e < static_cast<std::size_t>(a_.numEntities); ++e)
+      for (std::size_t m = 0; m < M; ++m)
+        f(conditionOf_[e * M + m], static_cast<int>(m), (e / L * M + m) * L + e % L);
+  }
+
+  /// Values of the conditions where every entity reads its own; lanes beyond the last entity copy it.
+  View<double*> ofConditions(const char* name, const std::vector<double>& values) const {
+    const std::size_t M = a_.M;
+    std::vector<double> all(static_cast<std::size_t>(batches_.count) * M * L);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      const std::size_t e = std::min<std::size_t>(i / (M * L) * L + i % L, a_.numEntities - 1);
+      all[i] = values[conditionOf_[e * M + i / L % M]];
+    }
+    return upload(name, all);
+  }
+
   /// The arrays, with `data` in place of theirs and brought up to date at the state where points are on
   /// pieces. A series that begins tells its pieces to `pieces`.
   Arrays updated(const ConstField& u, double lambda, const View<double*>& data,
@@ -405,19 +592,20 @@ class UnilateralTerm final : public EventTerm {
     return size;
   }
 
-  void uploadConditions() {
-    std::vector<double> on(a_.active.size(), 0.0);
-    std::copy(active_.begin(), active_.end(), on.begin());
-    a_.active = upload("active", on);
-  }
+  void uploadConditions() { a_.active = ofConditions("active", {active_.begin(), active_.end()}); }
 
   std::vector<int> entityNodes_;
+  std::vector<int> kept_;  ///< entities of the whole term, where this is a part
+  int whole_ = 0;          ///< number of those entities, then
   std::vector<double> weights_, shape_;
+  std::vector<double> meanShape_;  ///< [entity][point][m] as Arrays::mean
+  std::vector<int> conditionOf_;   ///< [entity][m]
+  std::vector<double> stiffness_;  ///< [condition] s; 0: held
   Batches batches_;
   Arrays a_;
   std::unique_ptr<PointPieces> pieces_;  ///< null: not in pieces
   View<double*> seriesData_;             ///< those of the series under way, as a_.data
-  std::vector<int> active_;              ///< [point]
+  std::vector<int> active_;              ///< [condition]
   double extent_ = 0;                    ///< largest coordinate
 };
 

@@ -1,8 +1,11 @@
 #pragma once
 
+#include <string>
+
 namespace atrapos::linear {
 
-/// Sets how many threads the BLAS under the direct solvers uses, process-wide; n >= 1.
+/// Sets how many threads the BLAS under the direct solvers uses, process-wide; n >= 1. A MUMPS with OpenMP of
+/// its own takes as many (ICNTL(16)) where it is made after that.
 ///
 /// A threaded BLAS that takes all cores makes MUMPS 5 to 10 times slower on a loaded machine or with several
 /// ranks on one node, because its dense blocks are small. Applications call this once at start, before the
@@ -15,5 +18,8 @@ bool setBlasThreads(int n);
 
 /// Number of threads the BLAS uses at most; 0 where it offers no control.
 int blasThreads();
+
+/// The BLAS whose threads are controlled: OpenBLAS, MKL or BLIS; empty where there is none of them.
+std::string blasName();
 
 }  // namespace atrapos::linear

@@ -1,15 +1,18 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "atrapos/linear/KrylovOptions.hpp"
 #include "atrapos/linear/TangentSolver.hpp"
 
 namespace atrapos::linear {
 
 struct TangentSolverOptions {
-  /// "mumps", or "amesos2:<name>" with a solver of the Trilinos at hand ("amesos2:klu2").
+  /// "mumps"; "belos", iterations as `krylov` says; "auto", mumps where its factor fits into `memory`, else
+  /// belos; or "amesos2:<name>" with a solver of the Trilinos at hand ("amesos2:klu2").
   std::string type = "mumps";
 
   /// K is symmetric, not necessarily definite. MUMPS then factors L D L^T (half the work, inertia known), and
@@ -18,6 +21,14 @@ struct TangentSolverOptions {
 
   /// MUMPS only: a pivot row is null where its norm, after scaling K's entries to about 1, is below this.
   double nullPivotTolerance = 1e-14;
+
+  KrylovOptions krylov;  ///< "belos"; "auto" picks the preconditioner by itself
+
+  /// "auto": bytes that the solver may take, all ranks together; 0: any.
+  double memory = 0;
+
+  /// "auto": gets one line, at the analysis, that says what was picked and why; called on all ranks.
+  std::function<void(const std::string&)> tell;
 };
 
 /// Names that TangentSolverOptions::type accepts in this build.

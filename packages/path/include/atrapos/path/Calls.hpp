@@ -25,6 +25,8 @@ class Calls {
 
   /// x = K_T^-1 b with the last factorization.
   void solve(const Vector& b, Vector& x);
+  /// The same column by column; b and x are different objects.
+  void solve(const linear::MultiVector& b, linear::MultiVector& x);
   /// x = K_T^-T b with the last factorization.
   void solveTransposed(const Vector& b, Vector& x);
 

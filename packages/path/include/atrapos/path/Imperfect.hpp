@@ -1,5 +1,8 @@
 #pragma once
 
+#include <memory>
+
+#include "atrapos/path/Pieces.hpp"
 #include "atrapos/path/State.hpp"
 
 namespace atrapos::path {
@@ -12,6 +15,7 @@ class ImperfectProblem : public Problem {
  public:
   /// `force` lives on the Problem's map; it is not copied. Throws std::invalid_argument where it does not.
   ImperfectProblem(Problem& perfect, RCP<const Vector> force);
+  ~ImperfectProblem() override;
 
   RCP<const Map> map() const override { return perfect_.map(); }
   bool symmetric() const override { return perfect_.symmetric(); }
@@ -40,7 +44,9 @@ class ImperfectProblem : public Problem {
   }
   std::vector<int> conditions() const override { return perfect_.conditions(); }
   void setConditions(const std::vector<int>& conditions) override { perfect_.setConditions(conditions); }
+  Pieces* pieces() override { return pieces_.get(); }
   int constraintPivots() const override { return perfect_.constraintPivots(); }
+  std::string name(long long unknown) const override { return perfect_.name(unknown); }
   double inner(const Increment& x, const Increment& y) const override { return perfect_.inner(x, y); }
   double weight(const Increment& Xhat, std::optional<double> given) override {
     return perfect_.weight(Xhat, given);
@@ -49,6 +55,7 @@ class ImperfectProblem : public Problem {
  private:
   Problem& perfect_;
   RCP<const Vector> force_;
+  std::unique_ptr<Pieces> pieces_;  ///< null where the perfect Problem's are
 };
 
 /// The force K_T(state) d that moves the perfect structure by d, to first order: an imperfection with the

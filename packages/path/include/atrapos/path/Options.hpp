@@ -27,7 +27,7 @@ struct Options {
   /// value so large that |lambda_1| < 1e-8 reads as a singular tangent.
   std::optional<double> weight;
 
-  PadeUse pade = PadeUse::off;  ///< saves a third of the steps (docs/failure_map.md)
+  PadeUse pade = PadeUse::automatic;  ///< saves a third of the steps (docs/failure_map.md)
 
   double residualBound = 1e-6;  ///< largest relative residual accepted at the end of a step
 
@@ -52,7 +52,9 @@ struct Options {
 
   /// Eigenvalues of the tangent next to zero that are followed from step to step, >= 0: 2 solves each a step
   /// and their rates by order 2 of the residual. They show two points in one step whose changes cancel in
-  /// the count of negative eigenvalues, and make the search start there. Symmetric tangents only.
+  /// the count of negative eigenvalues, and make the search start there. Of unsymmetric tangents, whose
+  /// factorization does not tell how many are negative, so many eigenvalues and one more are computed at each
+  /// end of a step, and more where these leave the number open: some 15 solves a step. 0: neither.
   int watchedModes = 3;
 
   /// Looks for bifurcation points at every step, whatever the eigenvalues say: 2 K more right-hand sides and

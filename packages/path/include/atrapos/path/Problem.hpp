@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "atrapos/linear/Types.hpp"
@@ -111,6 +112,10 @@ class Problem {
   /// earlier steps), or chosen from the response Xhat to the load at its first step. Called before inner()
   /// is; what inner() takes from it must depend on the result alone. Default: 1 / <Xhat, Xhat>.
   virtual double weight(const Increment& Xhat, std::optional<double> given);
+
+  /// What messages call an unknown (its global index in map()): a node and a component where the Problem
+  /// knows them. Default: "unknown 17".
+  virtual std::string name(long long unknown) const;
 };
 
 }  // namespace atrapos::path

@@ -57,6 +57,13 @@ struct CriticalPoint {
   std::vector<RCP<Vector>> nullVectors;  ///< of K_T there, Euclidean norm 1
 };
 
+/// An eigenvalue of the tangent next to zero, as it is followed from step to step.
+struct FollowedEigenvalue {
+  RCP<Vector> vector;  ///< Euclidean norm 1
+  double value = 0;
+  double rate = 0;  ///< by the path parameter; not a number where it was not wanted
+};
+
 /// Where and how a path starts. The state alone starts a new one; the other entries go on with one that was
 /// interrupted, and are taken from StepReport::next as they are.
 struct Start {
@@ -71,6 +78,12 @@ struct Start {
   std::vector<int> conditions;         ///< Problem::conditions() at this state; empty: as the Problem is
   int order = 0;                       ///< of the series to come; 0: Options::order
   int padeFailures = 0, padeWait = 0;  ///< when the rational form is tried again
+  /// Those of the step that led here, from which the ones at this state are found.
+  std::vector<FollowedEigenvalue> eigenvalues;
+  /// How many negative ones to expect here where they are counted one by one.
+  int expectedNegative = 0;
+  /// The stop that this state is at (StopHit::text): a path that still has it is over. Empty: none.
+  std::string stop;
 };
 
 /// What happened in one step.

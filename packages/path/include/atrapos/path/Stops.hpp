@@ -25,6 +25,9 @@ struct Stops {
 
   /// Throws std::invalid_argument, one line, on a value that is not a number or missing weights.
   void validate() const;
+
+  /// Whether one of these is the stop that StopHit::text names.
+  bool have(const std::string& text) const;
 };
 
 /// A stop inside a step.

@@ -1,0 +1,47 @@
+#include "Stability.hpp"
+
+#include <algorithm>
+
+#include "atrapos/linear/Determinant.hpp"
+#include "atrapos/linear/Eigenvalues.hpp"
+
+namespace atrapos::path {
+
+namespace {
+
+/// Whether those found, nearest to zero first, end with stable ones: then no negative one is expected behind
+/// them. A real one and a conjugate pair are the most that a block brings at once.
+bool endStable(const linear::NearestEigenvalues& found) {
+  constexpr std::size_t last = 3;
+  const auto& mu = found.values;
+  if (found.complete) return true;
+  return mu.size() >= last &&
+         std::all_of(mu.end() - last, mu.end(), [](const auto& value) { return value.real() > 0; });
+}
+
+}  // namespace
+
+std::optional<Unstable> countUnstable(Calls& calls, int count) {
+  if (calls.problem().constraintPivots() != 0) return std::nullopt;
+  const auto sign = linear::determinantSign(calls.solver());
+  const linear::Inverse inverse = [&](const linear::MultiVector& x, linear::MultiVector& y) {
+    calls.solve(x, y);
+  };
+  // More would cost more than the step; the number is then not told.
+  constexpr int most = 40;
+  for (int wanted = count; wanted <= most; wanted *= 2) {
+    const auto found = linear::nearestEigenvalues(inverse, calls.problem().map(), wanted);
+    Unstable unstable;
+    for (const auto& mu : found.values) {
+      unstable.all += mu.real() < 0;
+      unstable.real += mu.real() < 0 && mu.imag() == 0;
+    }
+    // det K is the product of all: negative real ones give its sign, conjugate pairs do not.
+    const bool agrees = !sign || (unstable.real % 2 != 0) == (*sign < 0);
+    if (agrees && endStable(found)) return unstable;
+    if (found.complete) return std::nullopt;
+  }
+  return std::nullopt;
+}
+
+}  // namespace atrapos::path
