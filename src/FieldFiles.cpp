@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <sstream>
 #include <stdexcept>
@@ -142,6 +144,9 @@ class SceneFields final : public FieldFile {
 
   void writeStep(double time, const Fields& nodal, const Fields& element, const std::vector<double>& global) {
     if (!writer_) return;
+    // Exodus wants times that ascend: a step may be shorter than the rounding of the path's length.
+    if (!(time > lastTime_)) time = std::nextafter(lastTime_, std::numeric_limits<double>::infinity());
+    lastTime_ = time;
     if (writesParts(scene_.deck()))
       writer_->writeStep(time, flat(nodal, nodes_), flat(element, elements_), global);
     else
@@ -175,8 +180,9 @@ class SceneFields final : public FieldFile {
   const Scene& scene_;
   std::string file_;  ///< without a part's numbers
   exodus::ResultNames names_;
-  std::vector<int> nodes_, elements_;           ///< of this rank's part in the result mesh
-  std::optional<exodus::ResultWriter> writer_;  ///< of the first rank, or of each
+  std::vector<int> nodes_, elements_;                           ///< of this rank's part in the result mesh
+  std::optional<exodus::ResultWriter> writer_;                  ///< of the first rank, or of each
+  double lastTime_ = -std::numeric_limits<double>::infinity();  ///< written last
 };
 
 struct ResultFile {

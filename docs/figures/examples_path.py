@@ -25,7 +25,7 @@ PANELS = [("stvk_bar", "shortening"), ("von_mises_truss", "sinking"), ("truss_on
           ("transcritical", "mode_1"), ("two_modes", "mode_1"), ("square_plate", "mode_x"),
           ("strut_on_foundation", "mode_1"), ("branch_trap", "mode_1"), ("euler_column_solid", "top_uz"),
           ("arch_solid", "sinking"), ("hill_top", "sway"), ("three_modes", "mode_1"),
-          ("euler_column_both", "tip_rotation"), ("partial_follower", "tip_uz")]
+          ("euler_column_both", "tip_rotation"), ("partial_follower", "tip_uz"), ("euler_column_crooked", "top_uz")]
 COLOURS = ["#1f5fa8", "#c0392b", "#2e8b57", "#8e44ad", "#d68910", "#117a8b", "#7f8c8d", "#b03a6f", "#5d6d1e"]
 
 
@@ -63,7 +63,7 @@ def main():
     missing = [d for d, _ in PANELS if d not in dict(panels)]
     if missing:
         sys.exit("no results of " + ", ".join(missing))
-    figure, grid = plt.subplots(6, 4, figsize=(12, 16.5), constrained_layout=True)
+    figure, grid = plt.subplots(5, 5, figsize=(14.5, 13.5), constrained_layout=True)
     for axes in grid.flat[len(panels):]:
         axes.axis("off")
     for axes, (deck, monitor) in zip(grid.flat, panels):

@@ -60,9 +60,7 @@ std::map<int, std::vector<Point>> branches(const std::filesystem::path& results)
 class CrookedColumn : public testing::Test {
  protected:
   void run(const std::vector<std::string>& words) {
-    std::vector<std::string> all{"run", "-q", "deck.yaml"};
-    all.insert(all.end(), words.begin(), words.end());
-    const CommandResult r = runAtrapos(all, folder_.path());
+    const CommandResult r = runDeck(words, folder_.path());
     ASSERT_EQ(r.exitCode, 0) << r.err;
   }
   void SetUp() override {

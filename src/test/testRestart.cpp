@@ -51,17 +51,13 @@ class Restart : public testing::Test {
     return nlohmann::json::parse(readFile(folder_ / results / "summary.json"));
   }
   void run(const std::vector<std::string>& words) {
-    std::vector<std::string> all{"run", "-q", "deck.yaml"};
-    all.insert(all.end(), words.begin(), words.end());
-    const CommandResult r = runAtrapos(all, folder_.path());
+    const CommandResult r = runDeck(words, folder_.path());
     ASSERT_EQ(r.exitCode, 0) << r.err;
   }
   /// The command refuses, in one line with these words, and changes nothing.
   void refuses(const std::vector<std::string>& words, const std::vector<std::string>& expected) {
     const auto before = snapshot(folder_.path());
-    std::vector<std::string> all{"run", "-q", "deck.yaml"};
-    all.insert(all.end(), words.begin(), words.end());
-    const CommandResult r = runAtrapos(all, folder_.path());
+    const CommandResult r = runDeck(words, folder_.path());
     EXPECT_EQ(r.exitCode, 2);
     ASSERT_EQ(r.errorLines().size(), 1u) << r.err;
     for (const auto& word : expected) EXPECT_NE(r.err.find(word), std::string::npos) << word << ": " << r.err;
@@ -151,9 +147,7 @@ std::string branchRows(const std::filesystem::path& folder) {
 class BranchRestart : public testing::Test {
  protected:
   void run(const std::vector<std::string>& words) {
-    std::vector<std::string> all{"run", "-q", "deck.yaml"};
-    all.insert(all.end(), words.begin(), words.end());
-    const CommandResult r = runAtrapos(all, folder_.path());
+    const CommandResult r = runDeck(words, folder_.path());
     ASSERT_EQ(r.exitCode, 0) << r.err;
   }
   /// (branch, step) of all finished steps.

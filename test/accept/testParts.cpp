@@ -9,6 +9,7 @@
 #include "atrapos/exodus/ResultReader.hpp"
 #include "support/Command.hpp"
 #include "support/Folder.hpp"
+#include "support/ShellPlate.hpp"
 #include "support/Table.hpp"
 
 namespace atrapos::test {
@@ -198,36 +199,12 @@ TEST(Parts, OfResultsJoinToTheFileOfTheFirstRank) {
   EXPECT_EQ(exodus::ResultReader(beam.file("joined.exo")).info().front(), "mesh:");
 }
 
-/// Shells with bodies in the results: nodes on the middle surface that no element of the result has; an end
-/// that couplings hold together.
-const std::string kPlate = R"(mesh:
-  file: beam.exo
-  generate: {shape: shell_plate, length: 4, width: 2, divisions: [6, 3], block: plate}
-materials:
-  plate: {law: saint_venant_kirchhoff, youngs_modulus: 1000, poissons_ratio: 0.3, blocks: [plate]}
-shells:
-  sections:
-    plate: {blocks: [plate], thickness: 0.4}
-supports:
-  clamp: {set: x_min, condition: clamped}
-couplings:
-  end: {kind: rigid, set: x_max}
-loads:
-  push: {type: surface, set: top, pressure: 1, follower: true}
-path:
-  order: 15
-  stop: {load_factor: 1}
-output:
-  shells: body
-  monitors:
-    tip_uz: {type: displacement, set: x_max, component: z}
-)";
-
 TEST(Parts, OfShellsAndTheirBodiesJoinToo) {
-  const Beam plate(kPlate);
+  // Bodies have nodes on the middle surface that no element of the result has.
+  const Beam plate(edited(kShellPlate, "  monitors:", "  shells: body\n  monitors:"));
   plate.run(1, "whole");
-  plate.atrapos({"split", "-q", "beam.exo", "3"});
-  plate.edit("file: beam.exo", "file: beam.exo\n  decomposed: true");
+  plate.atrapos({"split", "-q", "plate.exo", "3"});
+  plate.edit("file: plate.exo", "file: plate.exo\n  decomposed: true");
   plate.edit("shells: body", "shells: body\n  parts: true");
   plate.run(3, "parts");
   expectSamePath(plate, "whole", "parts");

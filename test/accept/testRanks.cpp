@@ -8,6 +8,7 @@
 #include "atrapos/exodus/ResultReader.hpp"
 #include "support/Command.hpp"
 #include "support/Folder.hpp"
+#include "support/ShellPlate.hpp"
 #include "support/Table.hpp"
 
 namespace atrapos::test {
@@ -145,32 +146,8 @@ TEST(Ranks, RunGoesOnWithAnotherNumberOfRanks) {
   expectSameTable(Table(whole.file(whole.run(1), "path.csv")), Table(parts.file(two, "path.csv")), kSame);
 }
 
-/// A plate of shells that bends under a pressure that follows it, its end rigid.
-const std::string kPlate = R"(mesh:
-  file: plate.exo
-  generate: {shape: shell_plate, length: 4, width: 2, divisions: [6, 3], block: plate}
-materials:
-  plate: {law: saint_venant_kirchhoff, youngs_modulus: 1000, poissons_ratio: 0.3, blocks: [plate]}
-shells:
-  sections:
-    plate: {blocks: [plate], thickness: 0.4}
-supports:
-  clamp: {set: x_min, condition: clamped}
-couplings:
-  end: {kind: rigid, set: x_max}
-loads:
-  push: {type: surface, set: top, pressure: 2, follower: true}
-path:
-  order: 15
-  stop: {load_factor: 1}
-output:
-  monitors:
-    tip_uz: {type: displacement, set: x_max, component: z}
-    tip_ux: {type: displacement, set: x_max, component: x}
-)";
-
 TEST(Ranks, ShellsWithFollowersAndCouplingsFollowTheSamePath) {
-  const DeckOnRanks deck(kPlate);
+  const DeckOnRanks deck(kShellPlate);
   const Table path(deck.file(deck.run(1), "path.csv"));
   EXPECT_GT(std::abs(path.column("tip_uz").back()), 0.1);
   for (const int ranks : {2, 3})

@@ -21,39 +21,6 @@ namespace {
 const std::vector<Topology> topologies = {Topology::Hex8,  Topology::Hex20,  Topology::Hex27,  Topology::Tet4,
                                           Topology::Tet10, Topology::Wedge6, Topology::Wedge15};
 
-void expectEqual(const Mesh& a, const Mesh& b) {
-  EXPECT_EQ(a.title, b.title);
-  EXPECT_EQ(a.coordinates, b.coordinates);
-  EXPECT_EQ(a.nodeIds, b.nodeIds);
-  EXPECT_EQ(a.elementIds, b.elementIds);
-  ASSERT_EQ(a.blocks.size(), b.blocks.size());
-  for (std::size_t i = 0; i < a.blocks.size(); ++i) {
-    EXPECT_EQ(a.blocks[i].name, b.blocks[i].name);
-    EXPECT_EQ(a.blocks[i].id, b.blocks[i].id);
-    EXPECT_EQ(a.blocks[i].topology, b.blocks[i].topology);
-    EXPECT_EQ(a.blocks[i].nodes, b.blocks[i].nodes);
-    EXPECT_EQ(a.blocks[i].attributeNames, b.blocks[i].attributeNames);
-    EXPECT_EQ(a.blocks[i].attributes, b.blocks[i].attributes);
-  }
-  ASSERT_EQ(a.nodeSets.size(), b.nodeSets.size());
-  for (std::size_t i = 0; i < a.nodeSets.size(); ++i) {
-    EXPECT_EQ(a.nodeSets[i].name, b.nodeSets[i].name);
-    EXPECT_EQ(a.nodeSets[i].id, b.nodeSets[i].id);
-    EXPECT_EQ(a.nodeSets[i].nodes, b.nodeSets[i].nodes);
-    EXPECT_EQ(a.nodeSets[i].factors, b.nodeSets[i].factors);
-  }
-  ASSERT_EQ(a.sideSets.size(), b.sideSets.size());
-  for (std::size_t i = 0; i < a.sideSets.size(); ++i) {
-    EXPECT_EQ(a.sideSets[i].name, b.sideSets[i].name);
-    EXPECT_EQ(a.sideSets[i].id, b.sideSets[i].id);
-    ASSERT_EQ(a.sideSets[i].sides.size(), b.sideSets[i].sides.size());
-    for (std::size_t j = 0; j < a.sideSets[i].sides.size(); ++j) {
-      EXPECT_EQ(a.sideSets[i].sides[j].element, b.sideSets[i].sides[j].element);
-      EXPECT_EQ(a.sideSets[i].sides[j].side, b.sideSets[i].sides[j].side);
-    }
-  }
-}
-
 template <class F>
 std::string messageOf(const F& f) {
   try {

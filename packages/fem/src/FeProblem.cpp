@@ -270,20 +270,18 @@ struct FeProblem::Impl {
         parameters.push_back(3 * l + d % 3);
   }
 
-  /// Forces at load factor 1: dead loads, those that the driven supports alone would need, and those of terms
-  /// that see lambda as their rate at the start.
+  /// Forces at load factor 1: dead loads, and as their rates at the start those that the driven supports
+  /// alone would need and those of terms that see lambda. What they are at load factor 1 itself says nothing:
+  /// supports may have crushed the body there, or a tool moved through it.
   void findScale() {
     double size = std::max(norm(load), norm(constantLoad));
     if (model.supports.driven() || model.couplings.driven()) {
-      double squares = 0;
-      ranks->together([&] {
-        for (const auto& term : model.terms)
-          if (!term->seesLoadFactor()) squares += term->addResidual(rate, 1, sum);
-      });
-      size = std::max(size, std::sqrt(ranks->sum(squares)));
+      constexpr double part = 1e-3;  // far above rounding, and what is not linear counts a thousandth
+      const double driving = (forcesAt(part) - forcesAt(0)) / part;
+      // Ten times: a body that they move as a whole has no forces, but the rounding of those that it would
+      // have.
+      if (std::isfinite(driving)) size = std::max(size, 10 * driving);
     }
-    // Terms that see lambda count by their derivative: their force at load factor 1 in the undeformed body
-    // says nothing (a tool moved through it).
     Kokkos::deep_copy(sum, 0.0);
     const TangentSink sink{rowStart, entries, sum};
     ranks->together([&] {
@@ -294,6 +292,20 @@ struct FeProblem::Impl {
     const double driving = norm(sum);
     if (std::isfinite(driving)) size = std::max(size, driving);
     scaleFloor = std::max(1e-6 * size, 1e-300);
+  }
+
+  /// Size of the forces of terms that do not see lambda, where supports alone are displaced, by their rate.
+  double forcesAt(double lambda) {
+    const Field u("displaced supports", rate.extent(0)), per = rate;
+    Kokkos::parallel_for(
+        "supports", Kokkos::RangePolicy<Execution>(0, u.size()),
+        KOKKOS_LAMBDA(int d) { u(d) = lambda * per(d); });
+    double squares = 0;
+    ranks->together([&] {
+      for (const auto& term : model.terms)
+        if (!term->seesLoadFactor()) squares += term->addResidual(u, lambda, sum);
+    });
+    return std::sqrt(ranks->sum(squares));
   }
 
   /// sum = this rank's part of the terms - F_0 - lambda F_1 on all rows; returns the scale.

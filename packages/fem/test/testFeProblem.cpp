@@ -354,6 +354,23 @@ TEST(FeProblem, ScaleOfAnUnloadedState) {
   EXPECT_EQ(norm.relative(), 0.0);
 }
 
+// Supports that would crush a body of length 2 to nothing at load factor 1: the scale is that of their rate.
+TEST(FeProblem, ScaleOfSupportsIsThatOfTheirRate) {
+  const Mesh mesh = box(Topology::Hex8, {2, 1, 1});
+  const auto scale = [&](double perLoadFactor) {
+    FeModel model;
+    model.numNodes = mesh.numNodes();
+    model.terms = solidTerms(mesh);
+    model.supports = Supports(mesh.numNodes());
+    for (int n : nodesOfSet(mesh, "x_max")) model.supports.prescribe(n, 0, 0.0, perLoadFactor);
+    FeProblem problem(std::move(model));
+    return residual(problem, Numbers(3 * mesh.numNodes(), 0.0), 0.0).norm.scale;
+  };
+  const double length = 2, small = scale(-1e-3);
+  // What is not linear: a part of about the strain at a thousandth of the displacement, 1e-3 here.
+  EXPECT_NEAR(scale(-length) / small, length / 1e-3, 0.01 * length / 1e-3);
+}
+
 TEST(FeProblem, ObserveShowsEveryPointInItsPlace) {
   const Mesh mesh = distorted(box(Topology::Tet10, {1, 1, 2}), 0.03);
   FeModel model;

@@ -61,7 +61,7 @@ class Inverse final : public Operator {
 std::unique_ptr<Preconditioner> preconditioner(const KrylovOptions& options, bool symmetric) {
   if (options.preconditioner == KrylovOptions::Preconditioner::ilu)
     return std::make_unique<IncompleteFactor>(options);
-  return std::make_unique<SingleFactor>(symmetric, options.lowRank);
+  return std::make_unique<SingleFactor>(symmetric, options.lowRank, options.factorThreads);
 }
 
 /// Largest sum of magnitudes in a row, a bound of the 2-norm where K is symmetric.

@@ -15,6 +15,7 @@ std::unique_ptr<TangentSolver> mumpsSolver(const TangentSolverOptions& options) 
   MumpsOptions mumps;
   mumps.symmetric = options.symmetric;
   mumps.nullPivotTolerance = options.nullPivotTolerance;
+  mumps.factorThreads = options.factorThreads;
   return std::make_unique<MumpsSolver>(mumps);
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "OrderingOnRoot.hpp"
 #include "atrapos/linear/BlasThreads.hpp"
 #include "atrapos/linear/Error.hpp"
 
@@ -17,7 +18,14 @@ bool mpiIsRunning() {
   return started && !ended;
 }
 
+// The work space was estimated too small: enlarge ICNTL(14) and repeat (users' guide, error diagnostics).
+bool needsWorkspace(int code) { return code == -8 || code == -9 || code == -17 || code == -20; }
+
+// Operations from which a second thread of the BLAS pays (docs/install.md).
+constexpr double manyOperations = 1e10;
+
 const char* meaning(int code) {
+  if (needsWorkspace(code)) return "its work space stayed too small after repeated enlargement";
   switch (code) {
     case -5:
     case -7:
@@ -25,11 +33,6 @@ const char* meaning(int code) {
       return "out of memory";
     case -6:
       return "the matrix is structurally singular";
-    case -8:
-    case -9:
-    case -17:
-    case -20:
-      return "its work space stayed too small after repeated enlargement";
     case -10:
       return "the matrix is numerically singular";
     case -19:
@@ -46,8 +49,10 @@ const char* meaning(int code) {
 
 }  // namespace
 
-MumpsInstance::MumpsInstance(MPI_Comm comm, int sym) {
-  if (!mpiIsRunning()) throw SolverError("MUMPS: MPI is not running (MPI_Init comes first)");
+template <class P>
+MumpsInstance<P>::MumpsInstance(MPI_Comm comm, int sym) : comm_(comm) {
+  if (!mpiIsRunning())
+    throw SolverError(fmt::format("{}: MPI is not running (MPI_Init comes first)", P::name));
   data_.comm_fortran = static_cast<MUMPS_INT>(MPI_Comm_c2f(comm));
   data_.par = 1;
   data_.sym = sym;
@@ -57,22 +62,56 @@ MumpsInstance::MumpsInstance(MPI_Comm comm, int sym) {
   icntl(16) = std::max(1, blasThreads());  // of its own OpenMP regions, where it has any
 }
 
-MumpsInstance::~MumpsInstance() {
+template <class P>
+MumpsInstance<P>::~MumpsInstance() {
   if (mpiIsRunning()) run(-2);
 }
 
-int MumpsInstance::run(int job) {
+template <class P>
+void MumpsInstance<P>::analyze(MUMPS_INT n, MumpsEntries& entries) {
+  data_.n = n;
+  data_.nnz_loc = static_cast<MUMPS_INT8>(entries.rows.size());
+  data_.irn_loc = entries.rows.data();
+  data_.jcn_loc = entries.columns.data();
+  icntl(5) = 0;   // assembled
+  icntl(18) = 3;  // distributed, at analysis and at factorization
+  icntl(28) = 1;  // sequential analysis, so that ICNTL(7) decides
+  icntl(7) = 1;   // the ordering in perm_in
+  auto ordering = orderingOnRoot(n, entries.rows, entries.columns, comm_);
+  data_.perm_in = ordering.data();
+  if (run(1) < 0) fail("analysis");
+  data_.perm_in = nullptr;
+}
+
+template <class P>
+int MumpsInstance<P>::factor(Scalar* values, int threads) {
+  const BlasThreadsHere here(rinfog(1) < manyOperations ? blasThreads() : threads);
+  constexpr int maxRepeats = 10;
+  int repeats = 0;
+  data_.a_loc = values;
+  for (; needsWorkspace(run(2)) && repeats < maxRepeats; ++repeats) icntl(14) *= 2;
+  data_.a_loc = nullptr;
+  if (infog(1) < 0) fail("factorization");
+  return repeats;
+}
+
+template <class P>
+int MumpsInstance<P>::run(int job) {
   data_.job = job;
-  dmumps_c(&data_);
+  P::call(data_);
   return infog(1);
 }
 
-void MumpsInstance::fail(const char* phase) const {
+template <class P>
+void MumpsInstance<P>::fail(const char* phase) const {
   const int code = infog(1);
-  const auto line =
-      fmt::format("MUMPS: {} failed: {} (INFOG(1)={}, INFOG(2)={})", phase, meaning(code), code, infog(2));
-  if (code == -6 || code == -10) throw SingularTangentError(line, 0);
+  const auto line = fmt::format("{}: {} failed: {} (INFOG(1)={}, INFOG(2)={})", P::name, phase, meaning(code),
+                                code, infog(2));
+  if (P::singularMeansK && (code == -6 || code == -10)) throw SingularTangentError(line, 0);
   throw SolverError(line);
 }
+
+template class MumpsInstance<DoubleMumps>;
+template class MumpsInstance<SingleMumps>;
 
 }  // namespace atrapos::linear

@@ -2,25 +2,16 @@
 
 #include <fmt/format.h>
 
-#include <Teuchos_DefaultMpiComm.hpp>
 #include <Tpetra_CrsMatrix.hpp>
 #include <Tpetra_Vector.hpp>
 #include <algorithm>
 #include <numeric>
 
-#include "OrderingOnRoot.hpp"
 #include "RowNumbering.hpp"
 #include "atrapos/linear/Error.hpp"
 
 namespace atrapos::linear {
 namespace {
-
-MPI_Comm mpiComm(const Map& map) {
-  const auto comm = map.getComm();
-  if (const auto* mpi = dynamic_cast<const Teuchos::MpiComm<int>*>(comm.get())) return *mpi->getRawMpiComm();
-  if (comm->getSize() == 1) return MPI_COMM_SELF;
-  throw SolverError("MUMPS: the matrix' communicator is not an MPI one");
-}
 
 /// The columns of b one behind another.
 void copyColumns(const MultiVector& b, std::vector<double>& to) {
@@ -31,9 +22,6 @@ void copyColumns(const MultiVector& b, std::vector<double>& to) {
     to.insert(to.end(), view.data(), view.data() + view.extent(0));
   }
 }
-
-// The work space was estimated too small: enlarge ICNTL(14) and repeat (users' guide, error diagnostics).
-bool needsWorkspace(int infog1) { return infog1 == -8 || infog1 == -9 || infog1 == -17 || infog1 == -20; }
 
 }  // namespace
 
@@ -58,40 +46,17 @@ void MumpsSolver::analyze(const RCP<const CrsMatrix>& K) {
 
   auto graph = std::make_unique<AnalysedGraph>("MUMPS", *K);
   comm_ = mpiComm(*graph->rowMap());
-  auto mumps = std::make_unique<MumpsInstance>(comm_, options_.symmetric ? 2 : 0);
+  auto mumps = std::make_unique<MumpsInstance<DoubleMumps>>(comm_, options_.symmetric ? 2 : 0);
   MPI_Comm_size(comm_, &size_);
 
-  // The owner of the lower triangle's row passes an entry, so that every one is passed once.
   const int localRows = static_cast<int>(K->getNodeNumRows());
   const RowNumbering numbering(*K);
   firstRows_.assign(size_ + 1, static_cast<GlobalIndex>(K->getGlobalNumRows()));
   MPI_Allgather(&numbering.first, 1, MPI_LONG_LONG, firstRows_.data(), 1, MPI_LONG_LONG, comm_);
   ownRows_.resize(localRows);
   std::iota(ownRows_.begin(), ownRows_.end(), static_cast<MUMPS_INT>(numbering.first + 1));
-  const auto local = K->getCrsGraph()->getLocalGraphHost();
-  rows_.clear();
-  columns_.clear();
-  positions_.clear();
-  for (int i = 0; i < localRows; ++i)
-    for (std::size_t e = local.row_map(i); e < local.row_map(i + 1); ++e) {
-      const auto row = static_cast<MUMPS_INT>(numbering.first + i);
-      const auto column = static_cast<MUMPS_INT>(numbering.columns[local.entries(e)]);
-      if (options_.symmetric && column > row) continue;
-      rows_.push_back(row + 1);
-      columns_.push_back(column + 1);
-      if (options_.symmetric) positions_.push_back(e);
-    }
-  values_.resize(positions_.size());
+  entries_ = MumpsEntries(*K, numbering, options_.symmetric);
 
-  auto& data = mumps->data();
-  data.n = static_cast<MUMPS_INT>(K->getGlobalNumRows());
-  data.nnz_loc = static_cast<MUMPS_INT8>(rows_.size());
-  data.irn_loc = rows_.data();
-  data.jcn_loc = columns_.data();
-  mumps->icntl(5) = 0;   // assembled
-  mumps->icntl(18) = 3;  // distributed, at analysis and at factorization
-  mumps->icntl(28) = 1;  // sequential analysis, so that ICNTL(7) decides
-  mumps->icntl(7) = 1;   // the ordering in perm_in
   mumps->icntl(14) = options_.workspacePercent;
   mumps->icntl(24) = 1;  // null pivots are found and counted, not fatal: we decide
   mumps->cntl(3) = options_.nullPivotTolerance;
@@ -102,10 +67,7 @@ void MumpsSolver::analyze(const RCP<const CrsMatrix>& K) {
     mumps->icntl(21) = 1;   // solutions distributed
   }
   if (!options_.symmetric) mumps->icntl(33) = 1;  // det K, of which the sign tells
-  auto ordering = orderingOnRoot(data.n, rows_, columns_, comm_);
-  data.perm_in = ordering.data();
-  if (mumps->run(1) < 0) mumps->fail("analysis");
-  data.perm_in = nullptr;
+  mumps->analyze(static_cast<MUMPS_INT>(K->getGlobalNumRows()), entries_);
   estimate_ = FactorCost{mumps->count(20), 1e6 * mumps->infog(17) + ownBytes(), mumps->rinfog(1)};
 
   graph_ = std::move(graph);
@@ -116,8 +78,8 @@ void MumpsSolver::analyze(const RCP<const CrsMatrix>& K) {
 
 double MumpsSolver::ownBytes() const {
   const double local =
-      static_cast<double>((rows_.size() + columns_.size()) * sizeof(MUMPS_INT) +
-                          positions_.size() * sizeof(std::size_t) + values_.size() * sizeof(double));
+      static_cast<double>((entries_.rows.size() + entries_.columns.size()) * sizeof(MUMPS_INT) +
+                          entries_.positions.size() * (sizeof(std::size_t) + sizeof(double)));
   double all = 0;
   MPI_Allreduce(&local, &all, 1, MPI_DOUBLE, MPI_SUM, comm_);
   return all;
@@ -133,22 +95,14 @@ void MumpsSolver::factor(const RCP<const CrsMatrix>& K) {
   graph_->checkMatrix(*K);
   if (options_.symmetric) graph_->checkSymmetry(*K);
 
-  const auto local = K->getLocalMatrixHost();
-  const double* source = local.values.data();
-  auto& data = mumps_->data();
   if (options_.symmetric) {
-    for (std::size_t e = 0; e < positions_.size(); ++e) values_[e] = source[positions_[e]];
-    data.a_loc = values_.data();
+    entries_.copyValues(*K, values_);
+    memoryRetries_ += mumps_->factor(values_.data(), options_.factorThreads);
   } else {
-    data.a_loc = const_cast<double*>(source);  // read only by JOB=2
+    const auto local = K->getLocalMatrixHost();
+    auto* values = const_cast<double*>(local.values.data());  // read only
+    memoryRetries_ += mumps_->factor(values, options_.factorThreads);
   }
-  constexpr int maxRetries = 10;
-  for (int retry = 0; needsWorkspace(mumps_->run(2)) && retry < maxRetries; ++retry) {
-    mumps_->icntl(14) *= 2;
-    ++memoryRetries_;
-  }
-  data.a_loc = nullptr;
-  if (mumps_->infog(1) < 0) mumps_->fail("factorization");
 
   spent_ = FactorCost{mumps_->count(29), 1e6 * mumps_->infog(19) + ownBytes(), mumps_->rinfog(3)};
   const int nullPivots = mumps_->infog(28);
@@ -159,7 +113,8 @@ void MumpsSolver::factor(const RCP<const CrsMatrix>& K) {
   counters_.factorSeconds += MPI_Wtime() - start;
   if (nullPivots > 0)
     throw SingularTangentError(
-        fmt::format("MUMPS: the matrix is numerically singular: {} null pivot(s) of {}", nullPivots, data.n),
+        fmt::format("MUMPS: the matrix is numerically singular: {} null pivot(s) of {}", nullPivots,
+                    mumps_->data().n),
         nullPivots);
   factored_ = true;
 }

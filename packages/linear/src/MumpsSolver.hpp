@@ -17,6 +17,7 @@ struct MumpsOptions {
   bool symmetric = true;              ///< SYM=2, K's lower triangle is read; else SYM=0
   double nullPivotTolerance = 1e-14;  ///< CNTL(3): null pivot rows, relative to the scaled matrix
   int workspacePercent = 30;  ///< ICNTL(14) to start with; doubled as often as needed, 10 times at most
+  int factorThreads = 1;      ///< TangentSolverOptions::factorThreads
 };
 
 /// MUMPS, called directly: multifrontal L D L^T (SYM=2) or L U (SYM=0) with METIS ordering, on any number of
@@ -55,7 +56,7 @@ class MumpsSolver final : public TangentSolver, public TellsCost, public TellsDe
 
   MumpsOptions options_;
   std::unique_ptr<AnalysedGraph> graph_;
-  std::unique_ptr<MumpsInstance> mumps_;
+  std::unique_ptr<MumpsInstance<DoubleMumps>> mumps_;
   MPI_Comm comm_ = MPI_COMM_NULL;
   int size_ = 1;
   bool factored_ = false;
@@ -65,9 +66,8 @@ class MumpsSolver final : public TangentSolver, public TellsCost, public TellsDe
   std::optional<FactorCost> estimate_, spent_;
   mutable Counters counters_;
 
-  std::vector<MUMPS_INT> rows_, columns_;       // of the entries passed, from 1
-  std::vector<std::size_t> positions_;          // SYM=2: where they are among K's local values
-  std::vector<double> values_;                  // SYM=2: their values
+  MumpsEntries entries_;
+  std::vector<double> values_;                  // SYM=2: theirs
   std::vector<GlobalIndex> firstRows_;          // [rank], then n
   std::vector<MUMPS_INT> ownRows_;              // of this rank, from 1
   mutable std::vector<double> rhs_, solution_;  // as MUMPS has them: [column][row here]

@@ -1,11 +1,11 @@
 #pragma once
 
 #include <mpi.h>
-#include <smumps_c.h>
 
 #include <memory>
 #include <vector>
 
+#include "MumpsInstance.hpp"
 #include "Preconditioner.hpp"
 
 namespace atrapos::linear {
@@ -16,8 +16,9 @@ namespace atrapos::linear {
 /// above 1e7, as with the multipliers of hard contact, iterations may not repair what it loses.
 class SingleFactor final : public Preconditioner {
  public:
-  /// lowRank: relative size of what is dropped from dense blocks; 0: full blocks.
-  SingleFactor(bool symmetric, double lowRank);
+  /// lowRank: relative size of what is dropped from dense blocks; 0: full blocks. threads: as
+  /// TangentSolverOptions::factorThreads.
+  SingleFactor(bool symmetric, double lowRank, int threads = 1);
   ~SingleFactor() override;
 
   void analyze(const RCP<const CrsMatrix>& K) override;
@@ -28,16 +29,14 @@ class SingleFactor final : public Preconditioner {
   std::optional<FactorCost> spent() const override { return spent_; }
 
  private:
-  struct Instance;
-
   bool symmetric_;
   double lowRank_;
-  std::unique_ptr<Instance> mumps_;
+  int threads_;
+  std::unique_ptr<MumpsInstance<SingleMumps>> mumps_;
   std::optional<FactorCost> estimate_, spent_;
   MPI_Comm comm_ = MPI_COMM_NULL;
   int rank_ = 0;
-  std::vector<MUMPS_INT> rows_, columns_;  // of the entries passed, from 1
-  std::vector<std::size_t> positions_;     // where they are among K's local values
+  MumpsEntries entries_;
   std::vector<float> values_;
   std::vector<int> counts_, offsets_;  // rank 0: rows of every rank
   mutable std::vector<float> own_, rhs_;

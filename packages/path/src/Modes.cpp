@@ -5,6 +5,7 @@
 #include <limits>
 
 #include <Teuchos_LAPACK.hpp>
+#include <Tpetra_MultiVector.hpp>
 #include <Tpetra_Vector.hpp>
 
 #include "Augmented.hpp"
@@ -58,10 +59,12 @@ Polynomial between(double y0, double s0, double y1, double s1) {
 std::vector<Mode> nearestModes(Calls& calls, const State& state, const PathTangent& along, double weight,
                                const std::vector<Mode>& before, int count, Rates rates) {
   const int n = static_cast<int>(std::min<long long>(count, calls.problem().map()->getGlobalNumElements()));
+  // Together, so that a solve reads the factor once for all of them.
+  linear::MultiVector X(calls.problem().map(), n), Y(calls.problem().map(), n);
   std::vector<RCP<Vector>> x, y;
   for (int i = 0; i < n; ++i) {
-    x.push_back(calls.newVector());
-    y.push_back(calls.newVector());
+    x.push_back(X.getVectorNonConst(i));
+    y.push_back(Y.getVectorNonConst(i));
     if (i < static_cast<int>(before.size()))
       x[i]->update(1, *before[i].x, 0);
     else
@@ -71,9 +74,9 @@ std::vector<Mode> nearestModes(Calls& calls, const State& state, const PathTange
   // One goes on from the last step; more where nothing is known.
   const int iterations = before.empty() ? 6 : 1;
   for (int it = 0; it <= iterations; ++it) {
-    for (int i = 0; i < n; ++i) calls.solve(*x[i], *y[i]);
+    calls.solve(X, Y);
     if (it == iterations) break;
-    std::swap(x, y);
+    Tpetra::deep_copy(X, Y);
     if (!orthonormalise(x)) return {};
   }
   // Rayleigh and Ritz on the inverse, whose largest eigenvalues these are.

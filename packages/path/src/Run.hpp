@@ -105,6 +105,7 @@ class Run {
   double longestLength() const;
   double firstLength(double radius) const;
   Trial acceptedTrial(Series& series, StepReport& report);
+  void keepClearOfLimitPoints(const Series& series, Trial& trial);
   std::optional<Trial> padeTrial(Series& series, StepReport& report);
   Trial polynomialTrial(const Series& series, StepReport& report);
   void evaluate(const Series& series, Trial& trial);

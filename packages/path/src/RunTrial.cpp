@@ -82,8 +82,22 @@ double Run::shorterBy(double a, double residual) const {
 }
 
 Run::Trial Run::acceptedTrial(Series& series, StepReport& report) {
-  if (auto trial = padeTrial(series, report)) return *trial;
-  return polynomialTrial(series, report);
+  auto rational = padeTrial(series, report);
+  Trial trial = rational ? std::move(*rational) : polynomialTrial(series, report);
+  keepClearOfLimitPoints(series, trial);
+  return trial;
+}
+
+/// The tangent is singular at a limit point of lambda: a step that would end on one by chance ends before it.
+void Run::keepClearOfLimitPoints(const Series& series, Trial& trial) {
+  if (trial.stop || !trial.events.empty()) return;
+  constexpr double near = 1e-3, before = 0.9;
+  for (const double root : series.lambdaFunction().derivative().roots((1 + near) * trial.a))
+    if (root > (1 - near) * trial.a) {
+      trial.a = rounded(before * root);
+      evaluate(series, trial);
+      return;
+    }
 }
 
 /// The end of the step by the rational form, where that goes further than the polynomial and its residual

@@ -139,4 +139,10 @@ CommandResult runAtraposOnRanks(int ranks, const std::vector<std::string>& argum
   return Command(arguments, folder, ranks).wait(seconds);
 }
 
+CommandResult runDeck(const std::vector<std::string>& more, const std::filesystem::path& folder) {
+  std::vector<std::string> words{"run", "-q", "deck.yaml"};
+  words.insert(words.end(), more.begin(), more.end());
+  return runAtrapos(words, folder);
+}
+
 }  // namespace atrapos::test

@@ -52,4 +52,7 @@ CommandResult runAtrapos(const std::vector<std::string>& arguments, const std::f
 CommandResult runAtraposOnRanks(int ranks, const std::vector<std::string>& arguments,
                                 const std::filesystem::path& folder, double seconds = 120);
 
+/// `atrapos run -q deck.yaml` and more words.
+CommandResult runDeck(const std::vector<std::string>& more, const std::filesystem::path& folder);
+
 }  // namespace atrapos::test

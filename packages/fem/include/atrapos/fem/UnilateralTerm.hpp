@@ -56,6 +56,7 @@ class UnilateralTerm final : public EventTerm {
     View<double*> stiffness;  // [batch][m][lane] s; 0: held
     View<double*> share;      // [batch][m][lane] the entity's part of the condition; sums to 1
     double heldDiagonal = 1;  // of the multipliers of held conditions, which stay zero
+    double extent = 0;        // largest coordinate of the points
     View<double*> active;     // [batch][m][lane] 1 or 0
     View<double*> gap;        // [batch][q][lane] h with U_k = 0 of the order swept last
     View<double*> gapStart;   // [batch][q][lane] h of order 0
@@ -175,9 +176,18 @@ class UnilateralTerm final : public EventTerm {
             force[3 * (a.N - a.M + m)] += (Pack(1.0) - a.at(a.active, b, m)) * a.at(a.stiffness, b, m) *
                                           a.at(a.share, b, m) * a.multiplier(local, m);
           a.scatter(b, force, f);
-          double sum = 0;  // of the forces on the body; a condition is no force
+          double sum = 0;
           for (int n = 0; n < 3 * (a.N - a.M); ++n)
             for (int lane = 0; lane < a.lanesIn(b); ++lane) sum += force[n][lane] * force[n][lane];
+          // A condition is no force, but a gap is a difference of coordinates: as a part of the scale their
+          // rounding is 1e-7, a tenth of the residual's usual bound. Else a path whose loads begin with
+          // nothing could not begin in contact.
+          constexpr double coordinates = 1e7 * 2.2e-16;
+          for (int m = 0; m < a.M; ++m) {
+            const Pack size = (coordinates * a.extent) * a.at(a.active, b, m) * a.at(a.stiffness, b, m) *
+                              a.at(a.share, b, m);
+            for (int lane = 0; lane < a.lanesIn(b); ++lane) sum += size[lane] * size[lane];
+          }
           squares(b) = sum;
         });
     return sumOf(squares);
@@ -483,7 +493,7 @@ class UnilateralTerm final : public EventTerm {
       pieces_ = std::make_unique<PointPieces>(std::move(search), points.numPoints(), data);
       seriesData_ = View<double*>("seriesData", a_.data.size());
     }
-    for (const double x : points.positions) extent_ = std::max(extent_, std::abs(x));
+    for (const double x : points.positions) a_.extent = std::max(a_.extent, std::abs(x));
   }
 
   /// The conditions are numbered as their nodes are.
@@ -586,7 +596,7 @@ class UnilateralTerm final : public EventTerm {
   /// The largest coordinate and displacement.
   double sizeAt(const ConstField& u) const {
     const auto displacements = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), u);
-    double size = extent_;
+    double size = a_.extent;
     for (int n : entityNodes_)
       for (int i = 0; i < 3; ++i) size = std::max(size, std::abs(displacements(3 * n + i)));
     return size;
@@ -606,7 +616,6 @@ class UnilateralTerm final : public EventTerm {
   std::unique_ptr<PointPieces> pieces_;  ///< null: not in pieces
   View<double*> seriesData_;             ///< those of the series under way, as a_.data
   std::vector<int> active_;              ///< [condition]
-  double extent_ = 0;                    ///< largest coordinate
 };
 
 }  // namespace atrapos::fem

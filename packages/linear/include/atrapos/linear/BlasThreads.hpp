@@ -19,6 +19,22 @@ bool setBlasThreads(int n);
 /// Number of threads the BLAS uses at most; 0 where it offers no control.
 int blasThreads();
 
+/// Sets the BLAS' threads while it lives; where they cannot be controlled it does nothing.
+class BlasThreadsHere {
+ public:
+  explicit BlasThreadsHere(int n) : before_(blasThreads()) {
+    if (before_ > 0) setBlasThreads(n);
+  }
+  ~BlasThreadsHere() {
+    if (before_ > 0) setBlasThreads(before_);
+  }
+  BlasThreadsHere(const BlasThreadsHere&) = delete;
+  BlasThreadsHere& operator=(const BlasThreadsHere&) = delete;
+
+ private:
+  int before_;
+};
+
 /// The BLAS whose threads are controlled: OpenBLAS, MKL or BLIS; empty where there is none of them.
 std::string blasName();
 
