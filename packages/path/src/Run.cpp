@@ -18,6 +18,18 @@ double rounded(double length) {
   return std::ldexp(std::floor(mantissa * 128) / 128, exponent);
 }
 
+/// Whether f turns at a root of its derivative. The numerator of a fraction's derivative is a difference of
+/// products, whose rounding far beyond the series' radius may look like a root, or move one a little.
+static bool turns(const Rational& f, double a, double length) {
+  const double at = f(a), rounding = 1e-14 * f.magnitude(a);
+  for (const double part : {1e-4, 1e-2}) {
+    const double before = at - f(std::max(0.0, a - part * length));
+    const double behind = f(std::min(length, a + part * length)) - at;
+    if (std::abs(before) <= rounding || std::abs(behind) <= rounding || before * behind < 0) return true;
+  }
+  return false;
+}
+
 bool Run::end(EndReason reason, std::string text) {
   outcome_.reason = reason;
   outcome_.text = std::move(text);
@@ -126,8 +138,10 @@ bool Run::settle(const EndTangent* end) {
   pending_.reset();
   const auto slope = last_->lambdaFunction().derivative();
   const auto curvature = slope.numerator().derivative();  // of the sign of lambda'' where lambda' = 0
+  const auto load = last_->lambdaFunction();
   for (const double a : slope.roots(report.length))
-    report.limitPoints.push_back({a, last_->lambda(a), curvature(a) < 0, true});
+    if (turns(load, a, report.length))
+      report.limitPoints.push_back({a, last_->lambda(a), curvature(a) < 0, true});
   if (turned_) report.limitPoints.push_back({report.length, report.lambdaEnd, tangent_->lambda > 0, false});
   turned_ = false;
   for (int i = 0; i < static_cast<int>(monitors_.size()); ++i) {
@@ -135,7 +149,8 @@ bool Run::settle(const EndTangent* end) {
     const Rational rate = value.derivative();
     const Polynomial bend = rate.numerator().derivative();
     for (const double a : rate.roots(report.length))
-      report.extrema.push_back({i, a, last_->lambda(a), value(a), bend(a) < 0});
+      if (turns(value, a, report.length))
+        report.extrema.push_back({i, a, last_->lambda(a), value(a), bend(a) < 0});
   }
   std::sort(report.extrema.begin(), report.extrema.end(),
             [](const Extremum& x, const Extremum& y) { return x.a < y.a; });
