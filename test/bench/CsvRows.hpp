@@ -4,9 +4,10 @@
 
 #include <fstream>
 #include <map>
-#include <sstream>
 #include <string>
 #include <vector>
+
+#include "CsvCells.hpp"
 
 namespace atrapos::bench {
 
@@ -16,9 +17,7 @@ inline std::vector<std::map<std::string, std::string>> csvRows(const std::string
   std::vector<std::string> names;
   std::vector<std::map<std::string, std::string>> rows;
   for (std::string line; std::getline(in, line);) {
-    std::vector<std::string> cells;
-    std::istringstream stream(line + ",");  // the last cell may be empty
-    for (std::string cell; std::getline(stream, cell, ',');) cells.push_back(cell);
+    const auto cells = csvCells(line);
     if (names.empty()) {
       names = cells;
       continue;

@@ -9,18 +9,11 @@
 #include "BestOrder.hpp"
 
 namespace atrapos::path {
-
-RCP<Vector> copy(const Vector& v) { return Teuchos::rcp(new Vector(v, Teuchos::Copy)); }
-
-double rounded(double length) {
-  int exponent = 0;
-  const double mantissa = std::frexp(length, &exponent);
-  return std::ldexp(std::floor(mantissa * 128) / 128, exponent);
-}
+namespace {
 
 /// Whether f turns at a root of its derivative. The numerator of a fraction's derivative is a difference of
 /// products, whose rounding far beyond the series' radius may look like a root, or move one a little.
-static bool turns(const Rational& f, double a, double length) {
+bool turns(const Rational& f, double a, double length) {
   const double at = f(a), rounding = 1e-14 * f.magnitude(a);
   for (const double part : {1e-4, 1e-2}) {
     const double before = at - f(std::max(0.0, a - part * length));
@@ -28,6 +21,16 @@ static bool turns(const Rational& f, double a, double length) {
     if (std::abs(before) <= rounding || std::abs(behind) <= rounding || before * behind < 0) return true;
   }
   return false;
+}
+
+}  // namespace
+
+RCP<Vector> copy(const Vector& v) { return Teuchos::rcp(new Vector(v, Teuchos::Copy)); }
+
+double rounded(double length) {
+  int exponent = 0;
+  const double mantissa = std::frexp(length, &exponent);
+  return std::ldexp(std::floor(mantissa * 128) / 128, exponent);
 }
 
 bool Run::end(EndReason reason, std::string text) {
@@ -136,9 +139,9 @@ void Run::accept(Trial trial, StepReport report, Series series) {
 bool Run::settle(const EndTangent* end) {
   StepReport report = std::move(*pending_);
   pending_.reset();
-  const auto slope = last_->lambdaFunction().derivative();
-  const auto curvature = slope.numerator().derivative();  // of the sign of lambda'' where lambda' = 0
   const auto load = last_->lambdaFunction();
+  const auto slope = load.derivative();
+  const auto curvature = slope.numerator().derivative();  // of the sign of lambda'' where lambda' = 0
   for (const double a : slope.roots(report.length))
     if (turns(load, a, report.length))
       report.limitPoints.push_back({a, last_->lambda(a), curvature(a) < 0, true});

@@ -17,9 +17,9 @@
 #include <fstream>
 #include <iostream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <thread>
 
+#include "CsvCells.hpp"
 #include "Families.hpp"
 #include "Memory.hpp"
 #include "MeshCommand.hpp"
@@ -157,20 +157,13 @@ std::string rowOf(const std::string& program, const std::string& family, double 
                      fmt::format(",ended with status {}", status));
 }
 
-std::vector<std::string> cellsOf(const std::string& row) {
-  std::vector<std::string> cells;
-  std::istringstream in(row + ",");
-  for (std::string cell; std::getline(in, cell, ',');) cells.push_back(cell);
-  return cells;
-}
-
 /// The row whose seconds, column by column, are the least of all: what else the machine did only adds to
 /// them.
 std::string fastest(const std::vector<std::string>& rows) {
-  const auto names = cellsOf(header);
-  auto best = cellsOf(rows.front());
+  const auto names = bench::csvCells(header);
+  auto best = bench::csvCells(rows.front());
   for (const auto& row : rows) {
-    const auto cells = cellsOf(row);
+    const auto cells = bench::csvCells(row);
     if (cells.size() != names.size() || cells.back() != "done") return row;
     for (std::size_t i = 0; i < names.size(); ++i)
       if (names[i].substr(names[i].size() - 2) == "_s" && std::stod(cells[i]) < std::stod(best[i]))

@@ -5,7 +5,9 @@
 #include <cmath>
 
 #include "atrapos/fem/FeProblem.hpp"
-#include "atrapos/path/Series.hpp"
+#include "atrapos/linear/MakeTangentSolver.hpp"
+#include "atrapos/path/Calls.hpp"
+#include "atrapos/path/SeriesStep.hpp"
 #include "support/Vectors.hpp"
 
 namespace atrapos::contact::test {
@@ -49,6 +51,36 @@ inline double expectOrder(fem::FeProblem& problem, const path::Series& series, i
   // The next term adds a (K+2)/(K+1)-th power: a few percent of the exponent.
   EXPECT_NEAR(std::log2(size / half), order + 1, 0.1 * (order + 1)) << "order " << order << " a " << a;
   return a;
+}
+
+/// Series of several orders at the equilibrium (u, lambda): expectOrder, and along each the event functions
+/// are the multipliers of active conditions, unknowns behind the `bodyDofs` of the body, and the gaps of free
+/// ones, gapsOf(what term 1 shows at its points).
+template <class GapsOf>
+void expectEventFunctions(fem::FeProblem& problem, const Numbers& u, double lambda, std::size_t bodyDofs,
+                          const GapsOf& gapsOf) {
+  const auto solver = linear::makeTangentSolver();
+  path::Calls calls(problem, *solver);
+  const auto conditions = problem.conditions();
+  for (const int order : {2, 5, 8}) {
+    path::SeriesRequest request;
+    request.order = order;
+    const auto series = path::buildSeries(calls, {fem::test::vectorOf(problem, u), lambda}, request);
+    const double a = expectOrder(problem, series, order);
+    auto v = fem::test::zeroVector(problem);
+    const double lambdaThere = series.evaluate(a, *v);
+    const Numbers values = fem::FeProblem::values(*v);
+    const Numbers gaps = gapsOf(problem.term(1).observe(fem::field(*v), lambdaThere));
+    for (int i = 0; i < problem.eventCount(); ++i) {
+      const double g = series.scalar(series.eventCoefficients(i))(a);
+      // A multiplier is an unknown and its series its own; a gap's series misses what is beyond its order, as
+      // the residual does.
+      if (conditions[i] == 1)
+        EXPECT_NEAR(g, values[bodyDofs + 3 * i], 1e-14);
+      else
+        EXPECT_NEAR(g, gaps[i], 1e-4) << i;
+    }
+  }
 }
 
 }  // namespace atrapos::contact::test
