@@ -108,7 +108,7 @@ TEST_F(StripOnRoll, PaysOneFactorizationAStep) {
   EXPECT_GE(s.at("orders_computed"), 20 * steps());
   EXPECT_LE(s.at("orders_computed"), 1.15 * 20 * steps());
   EXPECT_TRUE(s.at("reached_stop"));
-  // 194 measured (286 with polynomials alone); a law or a radius that went wrong shows first in the number of
+  // 187 measured (286 with polynomials alone); a law or a radius that went wrong shows first in the number of
   // steps.
   EXPECT_LT(steps(), 240);
   EXPECT_LE(s.at("corrections").get<int>(), 0.02 * steps());

@@ -7,6 +7,7 @@
 
 #include "Modes.hpp"
 #include "Newton.hpp"
+#include "PadeFit.hpp"
 #include "atrapos/path/Calls.hpp"
 #include "atrapos/path/Monitor.hpp"
 #include "atrapos/path/Options.hpp"
@@ -106,6 +107,8 @@ class Run {
   double firstLength(double radius) const;
   Trial acceptedTrial(Series& series, StepReport& report);
   void keepClearOfLimitPoints(const Series& series, Trial& trial);
+  PadeFit rationalForm(const Series& series, double polynomial);
+  bool polynomialReaches(Series series, double a);
   std::optional<Trial> padeTrial(Series& series, StepReport& report);
   Trial polynomialTrial(const Series& series, StepReport& report);
   void evaluate(const Series& series, Trial& trial);

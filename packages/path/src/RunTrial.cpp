@@ -100,23 +100,9 @@ void Run::keepClearOfLimitPoints(const Series& series, Trial& trial) {
     }
 }
 
-/// The end of the step by the rational form, where that goes further than the polynomial and its residual
-/// passes, at the end and inside.
-std::optional<Run::Trial> Run::padeTrial(Series& series, StepReport& report) {
-  if (options_.pade == PadeUse::off || order_ < 4) return std::nullopt;
-  const bool automatic = options_.pade == PadeUse::automatic;
-  if (automatic && padeWait_ > 0) {
-    --padeWait_;
-    return std::nullopt;
-  }
-  const double polynomial = firstLength(report.radius);
-  // Shorter gains do not pay for the fit, which costs about as much as one order.
-  const double least = (automatic ? 1.1 : 1.0) * polynomial;
-  // A stop or an event that the polynomial reaches needs nothing longer.
-  Trial near;
-  near.a = polynomial;
-  limit(series, near);
-  if (near.stop || !near.events.empty()) return std::nullopt;
+/// The rational form, and how far it may go: as long as two successive fractions agree, and not past places
+/// that a long step would not see.
+PadeFit Run::rationalForm(const Series& series, double polynomial) {
   // Where two fractions differ by more than that neither is believed, however loose the accuracy asked for.
   constexpr double loosest = 1e-3;
   PadeFit fit = fitPade(calls_.problem(), series, std::min(options_.delta, loosest), longestLength());
@@ -131,24 +117,56 @@ std::optional<Run::Trial> Run::padeTrial(Series& series, StepReport& report) {
     const double zero = -mode.mu / mode.rate;  // no bound where the rate is not known
     if (zero > behind * polynomial && shortOf * zero < fit.range) fit.range = std::max(0.0, shortOf * zero);
   }
+  return fit;
+}
+
+/// Whether the polynomial's residual passes at a.
+bool Run::polynomialReaches(Series series, double a) {
+  series.setForm(nullptr);
+  Trial trial;
+  trial.a = a;
+  evaluate(series, trial);
+  return trial.residual <= correctAbove();
+}
+
+/// The end of the step by the rational form, where that goes further than the polynomial and its residual
+/// passes, at the end and inside.
+std::optional<Run::Trial> Run::padeTrial(Series& series, StepReport& report) {
+  if (options_.pade == PadeUse::off || order_ < 4) return std::nullopt;
+  const bool automatic = options_.pade == PadeUse::automatic;
+  if (automatic && padeWait_ > 0) {
+    --padeWait_;
+    return std::nullopt;
+  }
+  const double polynomial = firstLength(report.radius);
+  // A stop or an event that the polynomial reaches needs nothing longer.
+  Trial near;
+  near.a = polynomial;
+  limit(series, near);
+  if ((near.stop || !near.events.empty()) && polynomialReaches(series, near.a)) return std::nullopt;
+  // Shorter gains do not pay for the fit, which costs about as much as one order. The bound of the residual
+  // may leave the polynomial less than half of what its radius promises.
+  const double least = (automatic ? 1.1 : 1.0) * polynomial, shortest = 0.4 * polynomial;
+  const PadeFit fit = rationalForm(series, polynomial);
   report.padeRange = fit.range;
-  if (fit.usable() && fit.range > least) {
+  if (fit.usable() && fit.range > shortest) {
     series.setForm(fit.form);
-    constexpr int maxTrials = 3;
+    constexpr int maxTrials = 4;
     Trial trial, inside;
     trial.a = rounded(fit.range);
-    for (int i = 0; i < maxTrials && trial.a > least; ++i) {
+    for (int i = 0; i < maxTrials && trial.a > shortest; ++i) {
       limit(series, trial);
       evaluate(series, trial);
       inside.a = 0.7 * trial.a;
       if (trial.residual <= correctAbove()) evaluate(series, inside);
       if (trial.residual <= correctAbove() && inside.residual <= bound() && !astray(trial)) {
+        if (trial.a <= least && polynomialReaches(series, trial.a)) break;
         padeFailures_ = 0;
         report.pade = true;
         return trial;
       }
       ++report.cutBacks;
-      trial.a = rounded(std::sqrt(trial.a * polynomial));
+      trial.a = rounded(shorterBy(trial.a, std::max(trial.residual, inside.residual)) * trial.a);
     }
     series.setForm(nullptr);
   }

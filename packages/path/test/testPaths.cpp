@@ -206,6 +206,7 @@ TEST(Path, CorrectionsAreCountedAsFactorizations) {
   Options options;
   options.relaxResidual = false;
   options.correctAbove = 1e-3;
+  options.pade = PadeUse::off;  // a fraction is shortened until it needs none
   Followed<TrussOnSpring> f(law, {0, 0}, 0, options, displacement(law, 0, 2.2));
   expectSound(f);
   EXPECT_GT(f.outcome.corrections, 0);
@@ -244,23 +245,30 @@ TEST(Path, EveryOrderFollowsThePath) {
     Options options;
     options.order = order;
     options.maxSteps = 20000;
-    Followed<Truss> f(Truss{}, {0}, 0, options, displacement(Truss{}, 0, 2.2));
-    expectSound(f);
-    EXPECT_NEAR(f.outcome.final.lambda, 2.2 * -1.2 * -0.2, 1.1e-7) << order;  // bound x scale
-    EXPECT_LT(f.outcome.steps, before) << order;
-    before = f.outcome.steps;
-    RecordProperty("steps_order_" + std::to_string(order), f.outcome.steps);
+    const auto followed = [&](PadeUse pade) {
+      options.pade = pade;
+      Followed<Truss> f(Truss{}, {0}, 0, options, displacement(Truss{}, 0, 2.2));
+      expectSound(f);
+      EXPECT_NEAR(f.outcome.final.lambda, 2.2 * -1.2 * -0.2, 1.1e-7) << order;  // bound x scale
+      return f.outcome.steps;
+    };
+    const int steps = followed(PadeUse::off);
+    EXPECT_LT(steps, before) << order;
+    EXPECT_LE(followed(PadeUse::automatic), steps) << order;
+    before = steps;
+    RecordProperty("steps_order_" + std::to_string(order), steps);
   }
   EXPECT_LE(before, 8);  // 6 at order 20
 }
 
-/// The number of steps does not hang on rounding: a start moved by 1e-9 gives the same.
+/// The number of steps hardly hangs on rounding: a start moved by 1e-9 gives the same to one step, as a length
+/// that is rounded to the other side changes the later ones.
 TEST(Path, StepCountIsStable) {
   const auto law = TrussOnSpring{0.3};
   Followed<TrussOnSpring> f(law, {0, 0}, 0, Options{}, displacement(law, 0, 2.2));
   Followed<TrussOnSpring> g(law, {1e-9, 1e-9}, 2e-9, Options{}, displacement(law, 0, 2.2));
-  EXPECT_EQ(f.outcome.steps, g.outcome.steps);
-  EXPECT_LE(f.outcome.steps, 28);  // 23 here: the spring is long against its weight near the folds
+  EXPECT_LE(std::abs(f.outcome.steps - g.outcome.steps), 1);
+  EXPECT_LE(f.outcome.steps, 17);  // 13 here: the spring is long against its weight near the folds
 }
 
 TEST(Path, WeightIsFixedAlongThePathAndCanBeGiven) {
