@@ -7,7 +7,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "atrapos/fem/EventTerm.hpp"
+#include "atrapos/fem/Multipliers.hpp"
 #include "atrapos/taylor/Implicit.hpp"
 
 namespace atrapos {
@@ -51,9 +51,9 @@ class PointOnSeries {
     x[3] = lambda_(a);
   }
 
-  double gapAtStart() const {
+  ToolProjection atStart() const {
     const double x[4] = {x_[0][0], x_[1][0], x_[2][0], lambda_(0)};
-    return tool_.project(x).gap;
+    return tool_.project(x);
   }
 
   double gap(double a) {
@@ -65,14 +65,26 @@ class PointOnSeries {
   bool closed(double a) { return gap(a) <= closedGap_; }
 
   /// Whether the way that the point goes up to a is too short to close or open it: gaps change by no more.
-  bool staysFrom(double gapAtStart, double a) const {
-    if (tool_.moves() || series_.form() != nullptr) return false;
-    double way = 0, power = 1;
-    for (std::size_t k = 1; k < x_[0].size(); ++k) {
-      power *= a;
-      way += power * std::sqrt(x_[0][k] * x_[0][k] + x_[1][k] * x_[1][k] + x_[2][k] * x_[2][k]);
+  /// `samples`: the factors of X_0, X_1, ... where a rational form is looked at, instead of a.
+  bool staysFrom(const ToolProjection& start, double a,
+                 const std::vector<std::vector<double>>& samples) const {
+    if (tool_.moves()) return false;
+    const double room =
+        std::isfinite(start.gap) ? std::abs(start.gap - closedGap_) : start.distance - closedGap_;
+    if (series_.form() == nullptr) {
+      double way = 0, power = 1;
+      for (std::size_t k = 1; k < x_[0].size(); ++k) {
+        power *= a;
+        way += power * std::sqrt(x_[0][k] * x_[0][k] + x_[1][k] * x_[1][k] + x_[2][k] * x_[2][k]);
+      }
+      return room > way;
     }
-    return std::abs(gapAtStart - closedGap_) > way;
+    return std::all_of(samples.begin(), samples.end(), [&](const std::vector<double>& factors) {
+      double way[3] = {0, 0, 0};
+      for (std::size_t k = 1; k < factors.size(); ++k)
+        for (int i = 0; i < 3; ++i) way[i] += factors[k] * x_[i][k];
+      return room > std::hypot(way[0], way[1], way[2]);
+    });
   }
 
   /// Where it changes between two places, one closed and one open.
@@ -121,6 +133,9 @@ void ContactEvents::onStep(int branch, int step, double pathLengthStart, double 
   branch_ = branch;
   const auto u = coefficients(series);
   const path::Rational lambda = series.lambdaFunction();
+  std::vector<std::vector<double>> factors;  // of the coefficients at the samples
+  if (series.form())
+    for (int i = 1; i <= samples; ++i) factors.push_back(series.form()->weights(length * i / samples));
   const bool first = closed_.empty();
   closed_.resize(scene_.contacts().size());
   std::vector<ContactEvent> events;
@@ -137,7 +152,7 @@ void ContactEvents::onStep(int branch, int step, double pathLengthStart, double 
         ++number;
         char& wasClosed = closed_[c][number];
         PointOnSeries point(contact, t, p, series, lambda, u);
-        const double gapAtStart = point.gapAtStart();
+        const ToolProjection start = point.atStart();
         const auto note = [&](double a, bool closes) {
           ContactEvent event;
           double x[4], R[1] = {0};
@@ -155,11 +170,11 @@ void ContactEvents::onStep(int branch, int step, double pathLengthStart, double 
           event.force = contact.points[t].weights[p] * R[0];
           events.push_back(event);
         };
-        bool before = gapAtStart <= contact.closedGaps[t][p];
+        bool before = start.gap <= contact.closedGaps[t][p];
         // A correction at the end of the last step may have moved it.
         if (!first && before != (wasClosed != 0)) note(0, before);
         double from = 0;
-        if (!point.staysFrom(gapAtStart, length))
+        if (!point.staysFrom(start, length, factors))
           for (int i = 1; i <= samples; ++i) {
             const double to = length * i / samples;
             const bool now = point.closed(to);
@@ -191,40 +206,27 @@ void ContactEvents::findCorners(std::size_t c, const path::Series& series, doubl
   path::Vector state(problem.map());
   const double lambda = series.evaluate(length, state);
   const auto u = fem::FeProblem::values(state);
-  int index = 0;  // of the term's first event function
-  for (int i = 0; i < contact.terms[0]; ++i)
-    if (const auto* other = dynamic_cast<const fem::EventTerm*>(&problem.term(i)))
-      index += other->eventCount();
+  const std::vector<int> active = problem.conditions();
   int number = 0;  // of the term's first corner
   for (std::size_t t = 0; t < contact.terms.size(); ++t) {
-    const auto& term = dynamic_cast<const fem::EventTerm&>(problem.term(contact.terms[t]));
-    const std::vector<int> active = term.conditions();
-    // Behind the nodes of a face stand those of its corners' multipliers, numbered as the conditions are.
-    const int N = contact.points[t].nodesPerEntity, all = term.nodesPerEntity();
-    int least = problem.model().numNodes;
-    for (int e = 0; e < term.numEntities(); ++e)
-      for (int m = N; m < all; ++m) least = std::min(least, term.nodes()[e * all + m]);
-    std::vector<int> corner(active.size());
-    for (int e = 0; e < term.numEntities(); ++e)
-      for (int m = N; m < all; ++m) corner[term.nodes()[e * all + m] - least] = term.nodes()[e * all + m - N];
-    const int count = static_cast<int>(active.size());
+    const std::vector<int> corners = fem::cornersOf(contact.points[t]);
+    const int count = static_cast<int>(corners.size()), first = problem.firstEvent(contact.terms[t]);
     for (const int change : changes) {
-      const int i = change - index;
+      const int i = change - first;
       if (i < 0 || i >= count) continue;
       ContactEvent event;
       event.a = length;
       event.loadFactor = lambda;
-      event.closes = active[i] == 0;
+      event.closes = active[change] == 0;
       event.contact = static_cast<int>(c);
       event.point = number + i;
-      event.node = corner[i];
+      event.node = corners[i];
       for (int d = 0; d < 3; ++d) {
-        const std::size_t dof = 3 * static_cast<std::size_t>(corner[i]) + d;
+        const std::size_t dof = 3 * static_cast<std::size_t>(corners[i]) + d;
         event.place[d] = scene_.mesh().coordinates[dof] + u[dof];
       }
       events.push_back(event);
     }
-    index += count;
     number += count;
   }
 }

@@ -70,6 +70,7 @@ class Single final : public path::Observer {
     last.cutBacks += first.cutBacks;
     last.worstResidual = std::max(last.worstResidual, first.worstResidual);
     last.seconds.tangent += first.seconds.tangent;
+    last.seconds.analysis += first.seconds.analysis;
     last.seconds.factor += first.seconds.factor;
     last.seconds.solve += first.seconds.solve;
     last.seconds.orderRhs += first.seconds.orderRhs;

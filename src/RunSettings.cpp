@@ -68,7 +68,7 @@ std::unique_ptr<linear::TangentSolver> tangentSolver(PathCase& pathCase, std::os
     options.krylov.preconditioner = linear::KrylovOptions::Preconditioner::ilu;
   options.krylov.lowRank = deck.solver.lowRank.value_or(0);
   options.krylov.tolerance = krylovTolerance(deck.path.residual);
-  options.factorThreads = options.krylov.factorThreads = Kokkos::DefaultExecutionSpace::concurrency();
+  options.factorThreads = Kokkos::DefaultExecutionSpace::concurrency();
   if (deck.solver.type == Type::Auto) {
     options.memory = solverMemory(pathCase);
     if (progress)

@@ -21,7 +21,6 @@ namespace atrapos {
 Scene::Scene(const deck::Deck& deck, DeckMesh mesh)
     : deck_(deck), mesh_(std::move(mesh.mesh)), givenRanks_(std::move(mesh.ranks)) {
   deck::checkAgainstMesh(deck_, mesh_);
-  requireRanks();
   shells_ = sceneShells(deck_, mesh_);
   if (deck_.output.shells == deck::Output::Shells::Body) {
     if (shells_.empty()) fail("output/shells", "the mesh has no shells, which alone have a body to write");
@@ -171,19 +170,6 @@ void Scene::requireSupport(const fem::Supports& supports) const {
          fmt::format("the body with block '{}' can still move freely in {} rigid motion{}: prescribe more "
                      "displacements",
                      body.block, body.motions, body.motions == 1 ? "" : "s"));
-}
-
-void Scene::requireRanks() const {
-  if (ranks::count() == 1) return;
-  for (const deck::Contact& contact : deck_.contacts) {
-    if (contact.law == deck::Contact::Law::Hard && contact.points == deck::Contact::Points::Quadrature)
-      fail("contact/" + contact.name + "/points",
-           "hard contact over faces works on one rank only: start without mpirun, or take points: nodes");
-    for (const deck::Tool& tool : deck_.tools)
-      if (tool.name == contact.tool && std::holds_alternative<deck::PatchesTool>(tool.surface))
-        fail("contact/" + contact.name + "/tool",
-             "a tool of patches works on one rank only: start without mpirun");
-  }
 }
 
 void Scene::requireEffect(const fem::FeModel& model) const {

@@ -153,8 +153,6 @@ class Scene {
   void choosePressure(const deck::Contact& contact, BodySize body, ContactPoints& entry) const;
   void requireSupport(const fem::Supports& supports) const;
   void requireEffect(const fem::FeModel& model) const;
-  /// Refuses what runs on one rank only.
-  void requireRanks() const;
   [[noreturn]] void fail(const std::string& key, const std::string& problem) const;
   bool writes(deck::OutputField field) const;
   /// Calls f(term of the contact, point, gap and pressure) at all points.

@@ -211,11 +211,11 @@ std::string hardBlock() {
   return edited(deck, "stop: {load_factor: 0.5}", "stop: {load_factor: 2}");
 }
 
-TEST(Ranks, HardContactFollowsTheSamePath) {
-  const DeckOnRanks deck(hardBlock());
+/// Path, events and fields of a deck with contact on 2 and 3 ranks; returns the number of events.
+int expectSameContact(const std::string& text) {
+  const DeckOnRanks deck(text);
   const std::string alone = deck.run(1);
   const Table path(deck.file(alone, "path.csv"));
-  EXPECT_EQ(summaryOf(deck, alone).at("contact_events"), 4);
   for (const int ranks : {2, 3}) {
     SCOPED_TRACE(ranks);
     const std::string run = deck.run(ranks);
@@ -223,6 +223,31 @@ TEST(Ranks, HardContactFollowsTheSamePath) {
     expectSameEvents(Table(deck.file(alone, "events.csv")), Table(deck.file(run, "events.csv")));
     expectSameFields(deck.file(alone, "results.exo"), deck.file(run, "results.exo"), 10 * kSame);
   }
+  return summaryOf(deck, alone).at("contact_events");
+}
+
+TEST(Ranks, HardContactFollowsTheSamePath) { EXPECT_EQ(expectSameContact(hardBlock()), 4); }
+
+TEST(Ranks, HardContactOverFacesFollowsTheSamePath) {
+  EXPECT_GE(expectSameContact(edited(hardBlock(), ", points: nodes", ", points: quadrature")), 4);
+}
+
+/// A floor of a plate that turns up into an arc under the block, without a step in its slope.
+std::string onPatches(const std::string& deck) {
+  const auto at = deck.find("{type: cylinder"), end = deck.find('}', at);
+  const std::string patches =
+      "{type: patches, surfaces: {plate: {degree: [1, 1], points: [[1, -1, -0.05], [1, 2, -0.05], "
+      "[3.4, -1, -0.05], [3.4, 2, -0.05]]}, arc: {degree: [2, 1], points: [[3.4, -1, -0.05], [3.4, 2, "
+      "-0.05], "
+      "[3.8, -1, -0.05], [3.8, 2, -0.05], [4.6, -1, -0.02], [4.6, 2, -0.02]]}}}";
+  return deck.substr(0, at) + patches + deck.substr(end + 1);
+}
+
+TEST(Ranks, PatchesAreFollowedAsOnOneRank) {
+  EXPECT_GE(
+      expectSameContact(onPatches(edited(block(), "stiffness: 1000,", "carried: near, stiffness: 1000,"))),
+      1);
+  EXPECT_GE(expectSameContact(onPatches(hardBlock())), 2);
 }
 
 TEST(Ranks, HardContactGoesOnWithAnotherNumberOfRanks) {
@@ -283,16 +308,6 @@ TEST(Ranks, MapRunsOnTheFirst) {
   const CommandResult r = runAtraposOnRanks(2, words, deck.folder.path());
   ASSERT_EQ(r.exitCode, 0) << r.err;
   EXPECT_EQ(Table(deck.folder / "map.csv").numRows(), 1);
-}
-
-TEST(Ranks, WhatRunsOnOneRankSaysSo) {
-  const DeckOnRanks deck(edited(block(),
-                                "{type: cylinder, center: [4, 0, -1.25], axis: [0, 1, 0], radius: 1}",
-                                "{type: patches, surfaces: {floor: {degree: [1, 1], points: [[3, -1, -0.5], "
-                                "[3, 2, -0.5], [6, -1, -0.5], [6, 2, -0.5]]}}}"));
-  const CommandResult r = runAtraposOnRanks(2, {"run", "-q", "deck.yaml"}, deck.folder.path());
-  EXPECT_EQ(r.exitCode, 2);
-  EXPECT_EQ(linesWith(r, "contact/lower/tool: a tool of patches works on one rank only"), 1) << r.err;
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// Hard contact shared out over ranks is that of one rank: every rank compares with a whole problem of its
-// own.
+// Hard contact at points and over faces, and contact with patches, shared out over ranks is that of one rank:
+// every rank compares with a whole problem of its own.
 #include <gtest/gtest.h>
 #include <mpi.h>
 
@@ -10,6 +10,7 @@
 #include "atrapos/contact/HardContact.hpp"
 #include "atrapos/contact/MovingTool.hpp"
 #include "support/ContactModel.hpp"
+#include "support/PatchSurfaces.hpp"
 
 using namespace atrapos;
 using namespace atrapos::contact;
@@ -30,11 +31,39 @@ fem::Mesh mesh() {
   return fem::test::distorted(fem::test::box(fem::Topology::Hex8, {6, 3, 2}, {2, 1, 1}), 0.01);
 }
 
-/// A block over it whose upper face is pushed down and along; no symmetry, so that points close one by one.
-fem::FeModel block(bool alone) {
+/// A plate that turns up into an arc at x = border, with a common tangent but not the same curvature.
+PatchSearch<PatchTool> plateAndArc(double border) {
+  BezierPatch plate, arc;
+  plate.points = {{-1, -1, -0.05}, {-1, 2, -0.05}, {border, -1, -0.05}, {border, 2, -0.05}};
+  arc.degree = {2, 1};
+  arc.points = {{border, -1, -0.05}, {border, 2, -0.05}, {1.7, -1, -0.05},
+                {1.7, 2, -0.05},     {2.4, -1, 0},       {2.4, 2, 0}};
+  const auto set = std::make_shared<const PatchSet>(std::vector<BezierPatch>{plate, arc});
+  return {set, set->tool()};
+}
+
+enum class Kind { points, faces, patches, softPatches };
+
+/// A block over a tool whose upper face is pushed down and along; no symmetry, so that points close one by
+/// one.
+fem::FeModel block(Kind kind, bool alone) {
   const fem::Mesh body = mesh();
   fem::FeModel model = solidModel(body, 10, 0.3);
-  addHardContact(model, contactPoints(body, "z_min", Where::Nodes), turning());
+  const auto nodes = contactPoints(body, "z_min", Where::Nodes),
+             faces = contactPoints(body, "z_min", Where::Quadrature, 2);
+  switch (kind) {
+    case Kind::points:
+      addHardContact(model, nodes, turning());
+      break;
+    case Kind::faces:
+      addHardFaceContact(model, faces, turning());
+      break;
+    case Kind::patches:
+      addHardContact(model, nodes, plateAndArc(1.05));  // nodes at 1.0 come over it
+      break;
+    case Kind::softPatches:
+      addPatchContact(model, faces, plateAndArc(0.95), {1e-3, 1e-2}, 1e-3);  // points at 0.93 do
+  }
   for (int n : fem::test::nodesOfSet(body, "z_max"))
     for (int i = 0; i < 3; ++i) model.supports.prescribe(n, i, 0, i == 2 ? -1.0 : 0.3);
   if (alone) model.comm = linear::rcp(new Teuchos::MpiComm<int>(MPI_COMM_SELF));
@@ -42,7 +71,8 @@ fem::FeModel block(bool alone) {
 }
 
 struct Both {
-  fem::FeProblem shared{block(false)}, whole{block(true)};
+  fem::FeProblem shared, whole;
+  explicit Both(Kind kind) : shared(block(kind, false)), whole(block(kind, true)) {}
 };
 
 /// Every third point is active.
@@ -70,10 +100,21 @@ struct Events final : path::Observer {
 
 }  // namespace
 
-TEST(HardRanks, SumsAndEventFunctionsAreThoseOfOneRank) {
-  Both both;
+class HardRanks : public testing::TestWithParam<Kind> {};
+const auto kindName = [](const testing::TestParamInfo<Kind>& info) {
+  const char* const names[] = {"points", "faces", "patches", "softPatches"};
+  return std::string(names[static_cast<int>(info.param)]);
+};
+INSTANTIATE_TEST_SUITE_P(All, HardRanks,
+                         testing::Values(Kind::points, Kind::faces, Kind::patches, Kind::softPatches),
+                         kindName);
+
+TEST_P(HardRanks, SumsAndEventFunctionsAreThoseOfOneRank) {
+  Both both(GetParam());
   ASSERT_EQ(both.shared.eventCount(), both.whole.eventCount());
-  const auto conditions = someActive(both.whole.eventCount());
+  auto conditions = both.whole.conditions();  // events, then pieces
+  const auto active = someActive(both.whole.eventCount());
+  std::copy(active.begin(), active.end(), conditions.begin());
   both.shared.setConditions(conditions);
   both.whole.setConditions(conditions);
   EXPECT_EQ(both.shared.conditions(), conditions);
@@ -115,13 +156,23 @@ TEST(HardRanks, SumsAndEventFunctionsAreThoseOfOneRank) {
   expectEqual(seen.values, seen1.values, "gaps and pressures");
 }
 
-TEST(HardRanks, SameEventsAlongThePath) {
-  Both both;
+TEST_P(HardRanks, SameEventsAlongThePath) {
+  Both both(GetParam());
   Events shared, whole;
   const auto options = tightOptions(1e-9);
-  const auto end = follow(both.shared, {both.shared.initialState(0), 0.0}, 0.05, shared, options);
-  const auto end1 = follow(both.whole, {both.whole.initialState(0), 0.0}, 0.05, whole, options);
-  EXPECT_GE(end1.events, 5);
+  // Over the plate until points, and their forces, come to the arc.
+  const bool patches = GetParam() == Kind::patches || GetParam() == Kind::softPatches;
+  const double to = patches ? 0.25 : 0.05;
+  const auto end = follow(both.shared, {both.shared.initialState(0), 0.0}, to, shared, options);
+  const auto end1 = follow(both.whole, {both.whole.initialState(0), 0.0}, to, whole, options);
+  EXPECT_GE(end1.events, GetParam() == Kind::softPatches ? 1 : 5);
+  if (patches) {
+    int breaks = 0;
+    for (const auto& events : whole.ofSteps)
+      breaks +=
+          std::any_of(events.begin(), events.end(), [&](int i) { return i >= both.whole.eventCount(); });
+    EXPECT_GT(breaks, 0);
+  }
   EXPECT_EQ(shared.ofSteps, whole.ofSteps);
   EXPECT_EQ(both.shared.conditions(), both.whole.conditions());
   EXPECT_EQ(both.shared.constraintPivots(), both.whole.constraintPivots());
@@ -130,8 +181,9 @@ TEST(HardRanks, SameEventsAlongThePath) {
   EXPECT_LE(fem::test::largest(fem::test::sum(u, -1, u1)), 1e-10 * fem::test::largest(u1));
 }
 
-TEST(HardRanks, PointInsideTheToolIsNamedOnAll) {
-  Both both;
+TEST_P(HardRanks, PointInsideTheToolIsNamedOnAll) {
+  if (GetParam() == Kind::softPatches) GTEST_SKIP() << "no condition that a start could violate";
+  Both both(GetParam());
   const auto message = [](const fem::FeProblem& problem, const Numbers& u) -> std::string {
     try {
       problem.eventsAt(*fem::test::vectorOf(problem, u), 0);

@@ -35,24 +35,15 @@ fem::FeModel pushed(const fem::Mesh& mesh) {
 
 const RegularisedPressure pressure{1e-3, 1e-2};
 
-/// Contact with patches: four data a point, found at every state.
-void addContact(fem::FeModel& model, const fem::PointSet& points, std::shared_ptr<const PatchSet> set,
-                double least) {
-  std::vector<double> data;
-  for (int p = 0; p < points.numPoints(); ++p) {
-    const double* x = &points.positions[3 * p];
-    const auto place = set->locate(x);
-    double y[6] = {};
-    if (place[0] >= 0) taylor::solveImplicit<3, 6, 3>(set->tool(), x, place.data(), y);
-    data.insert(data.end(), {std::max(y[0], least), -1, 0, 0});
-  }
-  using Law = ContactLaw<PatchTool>;
-  const PatchTool tool = set->tool();
-  model.terms.push_back(std::make_unique<fem::LawTerm<Law, fem::CurrentPosition>>(
-      Law{tool, pressure}, points, data, PatchSearch<PatchTool>{std::move(set), tool}.pieces(1)));
-}
 std::shared_ptr<const PatchSet> setOf(const std::vector<BezierPatch>& patches) {
   return std::make_shared<PatchSet>(patches);
+}
+
+/// Contact with these patches.
+void addContact(fem::FeModel& model, const fem::PointSet& points, std::shared_ptr<const PatchSet> set,
+                double least) {
+  const PatchTool tool = set->tool();
+  addPatchContact(model, points, {std::move(set), tool}, pressure, least);
 }
 
 struct Result {

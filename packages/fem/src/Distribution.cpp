@@ -261,10 +261,13 @@ double Distribution::max(double x) const {
   return all;
 }
 
-void Distribution::sum(std::vector<double>& x) const {
+void Distribution::sum(std::vector<double>& x) const { reduce(Teuchos::REDUCE_SUM, x); }
+void Distribution::min(std::vector<double>& x) const { reduce(Teuchos::REDUCE_MIN, x); }
+
+void Distribution::reduce(Teuchos::EReductionType how, std::vector<double>& x) const {
   if (alone() || x.empty()) return;
   const std::vector<double> own = x;
-  Teuchos::reduceAll(*comm_, Teuchos::REDUCE_SUM, static_cast<int>(x.size()), own.data(), x.data());
+  Teuchos::reduceAll(*comm_, how, static_cast<int>(x.size()), own.data(), x.data());
 }
 
 void Distribution::agree(const std::string& what, const std::exception_ptr& own, bool ofInput) const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Teuchos_Comm.hpp>
+#include <Teuchos_EReductionType.hpp>
 #include <exception>
 #include <stdexcept>
 #include <string>
@@ -52,8 +53,9 @@ class Distribution {
 
   double sum(double x) const;
   double max(double x) const;
-  /// Element by element; exact where all ranks but one have zeros.
+  /// Element by element; the sum is exact where all ranks but one have zeros.
   void sum(std::vector<double>& x) const;
+  void min(std::vector<double>& x) const;
 
   /// Calls f on every rank. Where it throws on some, all throw what the first of them did.
   template <class F>
@@ -90,6 +92,7 @@ class Distribution {
   void cutRows(const FeModel& model, const std::vector<Coupling>& couplings, const Partition& p);
   void findNeighbours(const std::vector<std::vector<int>>& ranksAt, const Partition& p);
   void matchRows();
+  void reduce(Teuchos::EReductionType how, std::vector<double>& x) const;
   void agree(const std::string& what, const std::exception_ptr& own, bool ofInput) const;
 
   linear::RCP<const Comm> comm_;

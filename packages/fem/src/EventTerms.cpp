@@ -1,104 +1,110 @@
 #include "EventTerms.hpp"
 
-#include <numeric>
+#include <algorithm>
+#include <limits>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 
 namespace atrapos::fem {
+namespace {
 
-EventTerms::EventTerms(const std::vector<std::unique_ptr<Term>>& terms) {
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+}  // namespace
+
+EventTerms::EventTerms(const std::vector<std::unique_ptr<Term>>& terms, const detail::Distribution& ranks)
+    : ranks_(ranks) {
+  int count = 0;
   for (std::size_t t = 0; t < terms.size(); ++t)
     if (auto* term = dynamic_cast<EventTerm*>(terms[t].get())) {
-      std::vector<int> points(term->eventCount());
-      std::iota(points.begin(), points.end(), 0);
-      entries_.push_back({term, static_cast<int>(t), count_, std::move(points)});
-      count_ += term->eventCount();
+      entries_.push_back({term, static_cast<int>(t), count});
+      count += term->eventCount();
     }
+  conditions_.assign(count, 0);
 }
 
-void EventTerms::share(const detail::Distribution& ranks) {
-  if (ranks.alone()) return;
-  ranks_ = &ranks;
-  for (Entry& entry : entries_) {
-    entry.points = ranks.entities()[entry.number];
-    if (entry.term->eventCount() != static_cast<int>(entry.points.size()))
-      throw std::logic_error("EventTerms: a term that is shared out has one event function an entity");
-  }
+int EventTerms::first(int term) const {
+  for (const Entry& entry : entries_)
+    if (entry.number >= term) return entry.first;
+  return count();
 }
 
-template <class T, class Of>
-std::vector<T> EventTerms::together(const Of& ofTerm) const {
-  std::vector<double> all(count_, 0.0);
-  const auto fill = [&] {
+template <class Of>
+std::vector<double> EventTerms::list(double none, const Of& ofTerm) const {
+  std::vector<double> all(count(), none);
+  ranks_.together([&] {
     for (const Entry& entry : entries_) {
-      const auto own = ofTerm(*entry.term);
-      for (std::size_t p = 0; p < entry.points.size(); ++p) all[entry.first + entry.points[p]] = own[p];
+      const std::vector<double> told = ofTerm(*entry.term);
+      const auto& numbers = entry.term->eventNumbers();
+      for (std::size_t c = 0; c < numbers.size(); ++c) all[entry.first + numbers[c]] = told[c];
     }
-  };
-  if (ranks_ == nullptr) {
-    fill();
-  } else {
-    ranks_->together(fill);
-    ranks_->sum(all);
-  }
-  return {all.begin(), all.end()};
+  });
+  return all;
 }
 
-void EventTerms::order(int k, const ConstField& Uk, double lambdaK, std::vector<double>& g) const {
-  g = together<double>([&](const EventTerm& term) {
-    std::vector<double> own(term.eventCount());
-    term.eventOrder(k, Uk, lambdaK, own.data());
-    return own;
-  });
+template <class T>
+std::vector<T> EventTerms::own(const Entry& entry, const std::vector<T>& all) const {
+  std::vector<T> result;
+  for (const int number : entry.term->eventNumbers()) result.push_back(all[entry.first + number]);
+  return result;
+}
+
+std::vector<double> EventTerms::order(int k, const ConstField& Uk, double lambdaK) const {
+  auto g = list(0, [&](const EventTerm& term) { return term.eventOrder(k, Uk, lambdaK); });
+  ranks_.sum(g);
+  return g;
 }
 
 std::vector<int> EventTerms::at(const ConstField& u, double lambda) const {
-  const auto zero = together<int>([&](const EventTerm& term) {
-    std::vector<int> flags(term.eventCount(), 0);
-    for (const int p : term.eventsAt(u, lambda)) flags[p] = 1;
-    return flags;
-  });
-  std::vector<int> indices;
-  for (int i = 0; i < count_; ++i)
-    if (zero[i] != 0) indices.push_back(i);
-  return indices;
+  auto gaps = list(0, [&](const EventTerm& term) { return term.gapsAt(u, lambda); });
+  ranks_.sum(gaps);
+  std::vector<int> found;
+  for (const Entry& entry : entries_) {
+    const double touching = ranks_.max(entry.term->touching(u));
+    for (int c = 0; c < entry.term->eventCount(); ++c) {
+      const double gap = gaps[entry.first + c];
+      if (gap < -touching) {
+        std::ostringstream text;
+        text << entry.term->eventText(c) << ' ' << -gap
+             << " inside the tool where the path starts; hard contact needs a gap >= 0";
+        throw std::invalid_argument(text.str());
+      }
+      if (gap <= touching) found.push_back(entry.first + c);
+    }
+  }
+  return found;
 }
 
 void EventTerms::apply(const std::vector<int>& indices) {
-  std::vector<char> named(count_, 0);
+  auto changed = conditions_;
   for (const int i : indices)
-    if (i < count_) named[i] = 1;
-  for (const Entry& entry : entries_) {
-    std::vector<int> own;
-    for (std::size_t p = 0; p < entry.points.size(); ++p)
-      if (named[entry.first + entry.points[p]]) own.push_back(static_cast<int>(p));
-    if (!own.empty()) entry.term->applyEvent(own);
-  }
-}
-
-std::vector<int> EventTerms::conditions() const {
-  return together<int>([](const EventTerm& term) { return term.conditions(); });
+    if (i < count()) changed[i] = 1 - conditions_[i];
+  setConditions(changed);
 }
 
 void EventTerms::setConditions(const std::vector<int>& conditions) {
-  if (conditions.size() != static_cast<std::size_t>(count_))
+  if (conditions.size() != conditions_.size())
     throw std::invalid_argument("conditions of " + std::to_string(conditions.size()) +
-                                " contact points, but there are " + std::to_string(count_));
-  for (const Entry& entry : entries_) {
-    std::vector<int> own;
-    for (const int p : entry.points) own.push_back(conditions[entry.first + p]);
-    entry.term->setConditions(own);
-  }
+                                " contact points, but there are " + std::to_string(count()));
+  if (conditions == conditions_) return;
+  conditions_ = conditions;
+  for (const Entry& entry : entries_) entry.term->setConditions(own(entry, conditions_));
 }
 
 int EventTerms::constraintPivots() const {
-  int sum = 0;
-  for (const Entry& entry : entries_) sum += entry.term->constraintPivots();
-  return ranks_ == nullptr ? sum : static_cast<int>(ranks_->sum(sum));
+  return static_cast<int>(std::count(conditions_.begin(), conditions_.end(), 1));
 }
 
 void EventTerms::setStiffness(const std::vector<double>& ofNodes) {
-  for (const Entry& entry : entries_) entry.term->setStiffness(ofNodes);
+  auto least = list(infinity, [&](const EventTerm& term) { return term.leastStiffness(ofNodes); });
+  ranks_.min(least);
+  for (const Entry& entry : entries_) {
+    double largest = 0;
+    for (int c = 0; c < entry.term->eventCount(); ++c)
+      if (const double k = least[entry.first + c]; k < infinity) largest = std::max(largest, k);
+    entry.term->setStiffness(own(entry, least), largest);
+  }
 }
 
 }  // namespace atrapos::fem

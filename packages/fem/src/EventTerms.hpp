@@ -8,24 +8,26 @@
 
 namespace atrapos::fem {
 
-/// The terms of a model that change at events, as one list of event functions: those of the first such term,
-/// then those of the next.
+/// The terms of a model that change at events, as one list of conditions: those of the first such term, then
+/// those of the next.
 ///
 /// On several ranks the list is that of the whole model, on every rank: values are put together from the
-/// ranks' parts, changes are given to those that have the point. All but the queries is collective then.
+/// ranks' parts, changes are given to those that have entities of the condition. All but the queries is
+/// collective then.
 class EventTerms {
  public:
-  /// The terms while they are whole.
-  explicit EventTerms(const std::vector<std::unique_ptr<Term>>& terms);
-  /// From here on the terms are those of a rank's parts.
-  void share(const detail::Distribution& ranks);
+  /// All conditions are free.
+  EventTerms(const std::vector<std::unique_ptr<Term>>& terms, const detail::Distribution& ranks);
 
   bool empty() const { return entries_.empty(); }
-  int count() const { return count_; }
-  void order(int k, const ConstField& Uk, double lambdaK, std::vector<double>& g) const;
+  int count() const { return static_cast<int>(conditions_.size()); }
+  /// Number of the first condition of this term, or of the next one that has some.
+  int first(int term) const;
+  std::vector<double> order(int k, const ConstField& Uk, double lambdaK) const;
+  /// Free conditions that touch at a state. Throws std::invalid_argument where one is below zero.
   std::vector<int> at(const ConstField& u, double lambda) const;
   void apply(const std::vector<int>& indices);  ///< the same ones on every rank
-  std::vector<int> conditions() const;
+  const std::vector<int>& conditions() const { return conditions_; }
   void setConditions(const std::vector<int>& conditions);  ///< the same ones on every rank
   int constraintPivots() const;
   void setStiffness(const std::vector<double>& ofNodes);
@@ -33,17 +35,19 @@ class EventTerms {
  private:
   struct Entry {
     EventTerm* term;
-    int number;               ///< of the term in the model
-    int first;                ///< number of its first event function
-    std::vector<int> points;  ///< [point of the part] in the whole term
+    int number;  ///< of the term in the model
+    int first;   ///< number of its first condition
   };
-  /// The numbers of every term's points in the list of the whole model, 0 at others' points; then their sum.
-  template <class T, class Of>
-  std::vector<T> together(const Of& ofTerm) const;
+  /// The list of what every term tells of its own conditions, `none` for others; on this rank.
+  template <class Of>
+  std::vector<double> list(double none, const Of& ofTerm) const;
+  /// The numbers that a term's own conditions have in a list of all.
+  template <class T>
+  std::vector<T> own(const Entry& entry, const std::vector<T>& all) const;
 
+  const detail::Distribution& ranks_;
   std::vector<Entry> entries_;
-  int count_ = 0;
-  const detail::Distribution* ranks_ = nullptr;  ///< null: the terms are whole
+  std::vector<int> conditions_;  ///< 1 where active
 };
 
 }  // namespace atrapos::fem

@@ -7,6 +7,7 @@
 #include <Tpetra_Vector.hpp>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -73,10 +74,10 @@ ConstField field(const Vector& u) {
 
 struct FeProblem::Impl {
   FeModel model;
-  EventTerms events;
-  PieceTerms pieces;
   RCP<const Map> map;
   std::unique_ptr<detail::Distribution> ranks;
+  std::optional<EventTerms> events;
+  std::optional<PieceTerms> pieces;
   RCP<CrsMatrix> K;
   /// The matrix before the shared rows are added up; K's own values where there is one rank.
   View<double*> entries;
@@ -96,7 +97,7 @@ struct FeProblem::Impl {
   double scaleFloor = 0;
   int numFree = 0;
 
-  explicit Impl(FeModel m) : model(std::move(m)), events(model.terms) {
+  explicit Impl(FeModel m) : model(std::move(m)) {
     const auto comm = model.comm.is_null() ? Tpetra::getDefaultComm() : model.comm;
     const int numDofs = 3 * model.numNodes;
     if (model.supports.numNodes() != model.numNodes)
@@ -113,6 +114,7 @@ struct FeProblem::Impl {
     coupled = detail::CoupledSystem(ranks->couplings());
     uploadConditions(couplings);
     share();
+    events.emplace(model.terms, *ranks);
     makeMatrix();
     findScale();
   }
@@ -141,7 +143,6 @@ struct FeProblem::Impl {
             part.nodes.push_back(ranks->localOf(term.nodes()[static_cast<std::size_t>(e) * N + n]));
         term.keep(part);
       }
-      events.share(*ranks);
     });
   }
 
@@ -411,11 +412,11 @@ struct FeProblem::Impl {
 FeProblem::FeProblem(FeModel model) : impl_(std::make_unique<Impl>(std::move(model))) {
   Vector F(impl_->map);
   tangent(*initialState(0.0), 0.0, F);  // gives the prescribed rows their size
-  impl_->pieces =
-      PieceTerms(impl_->model.terms, impl_->events.count(),
-                 [this](const Vector& u, double lambda, Vector& r) { return residual(u, lambda, r); });
-  if (impl_->events.empty()) return;
-  auto& events = impl_->events;
+  auto& events = *impl_->events;
+  impl_->pieces.emplace(
+      impl_->model.terms, events, *impl_->ranks, [this](const Vector& u) { return impl_->local(u); },
+      [this](const Vector& u, double lambda, Vector& r) { return residual(u, lambda, r); });
+  if (events.empty()) return;
   events.setStiffness(impl_->nodalStiffness());
   // A tool that moves drives the body through the points that it touches.
   const auto free = events.conditions();
@@ -520,25 +521,27 @@ double FeProblem::weight(const path::Increment& Xhat, std::optional<double> give
   return w;
 }
 
-int FeProblem::eventCount() const { return impl_->events.count(); }
+int FeProblem::firstEvent(int term) const { return impl_->events->first(term); }
+
+int FeProblem::eventCount() const { return impl_->events->count(); }
 
 void FeProblem::eventOrder(int k, std::vector<double>& g) const {
-  impl_->events.order(k, impl_->last, impl_->lastLambda, g);
+  g = impl_->events->order(k, impl_->last, impl_->lastLambda);
 }
 
 std::vector<int> FeProblem::eventsAt(const Vector& u, double lambda) const {
-  return impl_->events.at(impl_->local(u), lambda);
+  return impl_->events->at(impl_->local(u), lambda);
 }
 
 void FeProblem::applyEvent(const std::vector<int>& indices, const Vector& u, double lambda) {
-  impl_->events.apply(indices);
-  impl_->pieces.apply(indices, u, lambda);
+  impl_->events->apply(indices);
+  impl_->pieces->apply(indices, u, lambda);
 }
 
-path::Pieces* FeProblem::pieces() { return impl_->pieces.empty() ? nullptr : &impl_->pieces; }
+path::Pieces* FeProblem::pieces() { return impl_->pieces->empty() ? nullptr : &*impl_->pieces; }
 
 int FeProblem::constraintPivots() const {
-  return impl_->model.numMultipliers + impl_->events.constraintPivots() +
+  return impl_->model.numMultipliers + impl_->events->constraintPivots() +
          static_cast<int>(impl_->model.parameters.size());
 }
 
@@ -548,19 +551,19 @@ std::string FeProblem::name(long long unknown) const {
 }
 
 std::vector<int> FeProblem::conditions() const {
-  std::vector<int> all = impl_->events.conditions();
-  const auto preferred = impl_->pieces.conditions();
+  std::vector<int> all = impl_->events->conditions();
+  const auto preferred = impl_->pieces->conditions();
   all.insert(all.end(), preferred.begin(), preferred.end());
   return all;
 }
 
 void FeProblem::setConditions(const std::vector<int>& conditions) {
-  const std::size_t events = impl_->events.count(), pieces = impl_->pieces.numPoints();
+  const std::size_t events = impl_->events->count(), pieces = impl_->pieces->numPoints();
   if (conditions.size() != events + pieces)
     throw std::invalid_argument("conditions of " + std::to_string(conditions.size()) +
                                 " contact points, but there are " + std::to_string(events + pieces));
-  impl_->events.setConditions({conditions.begin(), conditions.begin() + events});
-  impl_->pieces.setConditions({conditions.begin() + events, conditions.end()});
+  impl_->events->setConditions({conditions.begin(), conditions.begin() + events});
+  impl_->pieces->setConditions({conditions.begin() + events, conditions.end()});
 }
 
 RCP<Vector> FeProblem::initialState(double lambda) const {

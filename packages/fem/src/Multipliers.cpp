@@ -1,6 +1,7 @@
 #include "atrapos/fem/Multipliers.hpp"
 
 #include <map>
+#include <set>
 #include <stdexcept>
 #include <utility>
 
@@ -28,6 +29,8 @@ std::pair<Face, Face> facesOf(int numNodes) {
       throw std::logic_error("withCornerMultipliers: not the points of faces");
   }
 }
+
+int numCorners(Face cornerFace) { return cornerFace == Face::Tri3 ? 3 : 4; }
 
 /// Multipliers use the first dof of their nodes.
 void holdOtherDofs(FeModel& model, int first) {
@@ -62,13 +65,24 @@ PointSet withMultipliers(FeModel& model, const PointSet& points) {
   return result;
 }
 
+std::vector<int> cornersOf(const PointSet& faces) {
+  const int N = faces.nodesPerEntity, M = numCorners(facesOf(N).second);
+  std::vector<int> corners;
+  std::set<int> known;
+  for (int e = 0; e < faces.numEntities; ++e)
+    for (int m = 0; m < M; ++m)
+      if (const int node = faces.nodes[static_cast<std::size_t>(e) * N + m]; known.insert(node).second)
+        corners.push_back(node);
+  return corners;
+}
+
 UnilateralPoints withCornerMultipliers(FeModel& model, const PointSet& faces) {
   if (faces.shapeComponents != 1)
     throw std::logic_error("withCornerMultipliers: points with shape values only");
   const int N = faces.nodesPerEntity, Q = faces.pointsPerEntity;
   const auto [face, cornerFace] = facesOf(N);
   const std::vector<double> reference = referenceNodes(face);
-  const int own = static_cast<int>(reference.size()) / 2, M = cornerFace == Face::Tri3 ? 3 : 4;
+  const int own = static_cast<int>(reference.size()) / 2, M = numCorners(cornerFace);
   UnilateralPoints result;
   result.conditions = M;
   PointSet& points = result.points;
@@ -78,15 +92,12 @@ UnilateralPoints withCornerMultipliers(FeModel& model, const PointSet& faces) {
   points.shape.clear();
   const int first = model.numNodes;
   std::map<int, int> multiplierAt;  // corner node -> node of its multiplier
-  std::vector<double> places;       // reference coordinates of all points
+  for (const int corner : cornersOf(faces)) multiplierAt[corner] = model.numNodes++;
+  std::vector<double> places;  // reference coordinates of all points
   for (int e = 0; e < faces.numEntities; ++e) {
     const int* nodes = &faces.nodes[static_cast<std::size_t>(e) * N];
     points.nodes.insert(points.nodes.end(), nodes, nodes + N);
-    for (int m = 0; m < M; ++m) {
-      const auto [at, isNew] = multiplierAt.try_emplace(nodes[m], model.numNodes);
-      if (isNew) ++model.numNodes;
-      points.nodes.push_back(at->second);
-    }
+    for (int m = 0; m < M; ++m) points.nodes.push_back(multiplierAt.at(nodes[m]));
     for (int q = 0; q < Q; ++q) {
       const double* shape = &faces.shape[(static_cast<std::size_t>(e) * Q + q) * N];
       points.shape.insert(points.shape.end(), shape, shape + N);

@@ -13,18 +13,53 @@
 
 namespace atrapos::fem {
 
-PieceTerms::PieceTerms(const std::vector<std::unique_ptr<Term>>& terms, int firstIndex,
-                       std::function<path::ResidualNorm(const path::Vector&, double, path::Vector&)> residual)
-    : firstIndex_(firstIndex), residual_(std::move(residual)) {
-  int firstEvent = 0;
-  for (const auto& term : terms) {
-    auto* events = dynamic_cast<EventTerm*>(term.get());
-    if (PointPieces* pieces = term->pieces()) {
-      entries_.push_back({term.get(), pieces, events, firstEvent, firstIndex});
-      firstIndex += pieces->numPoints() * (pieces->count() + 1);
+PieceTerms::PieceTerms(const std::vector<std::unique_ptr<Term>>& terms, const EventTerms& events,
+                       const detail::Distribution& ranks, Local local, Residual residual)
+    : ranks_(ranks), local_(std::move(local)), residual_(std::move(residual)), firstIndex_(events.count()) {
+  int firstIndex = firstIndex_;
+  for (std::size_t t = 0; t < terms.size(); ++t)
+    if (PointPieces* pieces = terms[t]->pieces()) {
+      entries_.push_back({terms[t].get(), pieces, dynamic_cast<EventTerm*>(terms[t].get()),
+                          events.first(static_cast<int>(t)), firstIndex});
+      firstIndex += pieces->numWhole() * (pieces->count() + 1);
     }
-    if (events) firstEvent += events->eventCount();
-  }
+}
+
+template <class Of>
+std::vector<int> PieceTerms::ofAllPoints(const Entry& entry, const Of& of) const {
+  std::vector<double> all(entry.pieces->numWhole(), 0.0);
+  ranks_.together([&] {
+    for (int p = 0; p < entry.pieces->numPoints(); ++p) all[entry.pieces->numbers()[p]] = of(p);
+  });
+  ranks_.sum(all);
+  return {all.begin(), all.end()};
+}
+
+template <class Of>
+int PieceTerms::ofPoint(const Entry& entry, int point, const Of& of) const {
+  const auto& numbers = entry.pieces->numbers();
+  const auto at = std::lower_bound(numbers.begin(), numbers.end(), point);
+  double told = 0;
+  ranks_.together([&] {
+    if (at != numbers.end() && *at == point) told = of(static_cast<int>(at - numbers.begin()));
+  });
+  return static_cast<int>(ranks_.sum(told));
+}
+
+std::vector<int> PieceTerms::piecesAt(const Entry& entry, const path::Vector& u, double lambda) const {
+  const auto places = entry.term->places(local_(u), lambda);
+  const std::size_t stride = entry.pieces->numInputs();
+  return ofAllPoints(entry, [&](int p) { return entry.pieces->pieceAt(p, &places[p * stride]); });
+}
+
+int PieceTerms::pieceAt(const Entry& entry, int point, const path::Vector& u, double lambda) const {
+  const auto places = entry.term->places(local_(u), lambda);
+  const std::size_t stride = entry.pieces->numInputs();
+  return ofPoint(entry, point, [&](int p) { return entry.pieces->pieceAt(p, &places[p * stride]); });
+}
+
+int PieceTerms::pieceOfSeries(const Entry& entry, int point) const {
+  return ofPoint(entry, point, [&](int p) { return entry.pieces->pieceOfSeries(p); });
 }
 
 path::ResidualNorm PieceTerms::residualOfSeries(const path::Vector& u, double lambda, path::Vector& r) {
@@ -42,13 +77,21 @@ path::ResidualNorm PieceTerms::residualOfSeries(const path::Vector& u, double la
 bool PieceTerms::eventsAstray(const path::Vector& u, double lambda, const std::vector<int>& events) const {
   for (const Entry& entry : entries_) {
     if (!entry.events) continue;
-    std::vector<int> own;
+    std::vector<int> numbers;
     for (const int i : events)
       if (i >= entry.firstEvent && i < entry.firstEvent + entry.events->eventCount())
-        own.push_back(i - entry.firstEvent);
-    if (entry.events->eventsAstray(field(u), lambda, own)) return true;
+        numbers.push_back(i - entry.firstEvent);
+    if (astray(entry, u, lambda, numbers)) return true;
   }
   return false;
+}
+
+bool PieceTerms::astray(const Entry& entry, const path::Vector& u, double lambda,
+                        const std::vector<int>& numbers) const {
+  const ConstField state = local_(u);
+  bool found = false;
+  ranks_.together([&] { found = entry.events->eventsAstray(state, lambda, numbers); });
+  return ranks_.max(found) > 0;
 }
 
 /// Where a point's piece is another one at two neighbouring places of some on the series, the border in
@@ -58,21 +101,18 @@ std::vector<path::Break> PieceTerms::breaks(const path::Series& series, double e
   path::Vector u(series.coefficient(0).u->getMap());
   std::vector<path::Break> found;
   for (const Entry& entry : entries_) {
-    const int numPoints = entry.pieces->numPoints(), stride = entry.pieces->numInputs();
-    const auto pieceAt = [&](double a, int point) {
+    const auto pieceOn = [&](double a, int point) {
       const double lambda = series.evaluate(a, u);
-      const auto places = entry.term->places(field(u), lambda);
-      return entry.pieces->pieceAt(point, &places[static_cast<std::size_t>(point) * stride]);
+      return pieceAt(entry, point, u, lambda);
     };
-    std::vector<int> before(numPoints);
-    for (int p = 0; p < numPoints; ++p) before[p] = entry.pieces->pieceOfSeries(p);
+    auto before = ofAllPoints(entry, [&](int p) { return entry.pieces->pieceOfSeries(p); });
     for (int j = 1; j <= intervals; ++j) {
       const double to = end * j / intervals;
       const double lambda = series.evaluate(to, u);
-      const auto places = entry.term->places(field(u), lambda);
-      for (int p = 0; p < numPoints; ++p) {
+      const auto lasts = piecesAt(entry, u, lambda);
+      for (std::size_t p = 0; p < before.size(); ++p) {
         if (before[p] == PointPieces::any) continue;  // has no part in the series
-        const int last = entry.pieces->pieceAt(p, &places[static_cast<std::size_t>(p) * stride]);
+        const int last = lasts[p];
         double from = end * (j - 1) / intervals;
         for (int n = 0; before[p] != last && n < mostBetween; ++n) {
           double low = from, high = to;
@@ -80,7 +120,7 @@ std::vector<path::Break> PieceTerms::breaks(const path::Series& series, double e
           while (high - low > 4e-16 * to) {
             const double middle = 0.5 * (low + high);
             if (middle <= low || middle >= high) break;
-            const int piece = pieceAt(middle, p);
+            const int piece = pieceOn(middle, static_cast<int>(p));
             if (piece == before[p]) {
               low = middle;
             } else {
@@ -89,8 +129,8 @@ std::vector<path::Break> PieceTerms::breaks(const path::Series& series, double e
             }
           }
           // Before it, where nothing has jumped yet; only at the series' start there is no before.
-          found.push_back(
-              {low > 0 ? low : high, entry.firstIndex + p * (entry.pieces->count() + 1) + beyond + 1});
+          const int index = static_cast<int>(p) * (entry.pieces->count() + 1) + beyond + 1;
+          found.push_back({low > 0 ? low : high, entry.firstIndex + index});
           before[p] = beyond;
           from = high;
         }
@@ -114,17 +154,15 @@ PieceTerms::Place PieceTerms::placeOf(int index) const {
 
 bool PieceTerms::continues(const path::Vector& u, double lambda, int index) const {
   const Place at = placeOf(index);
-  const auto places = at.entry->term->places(field(u), lambda);
-  const double* place = &places[static_cast<std::size_t>(at.point) * at.entry->pieces->numInputs()];
-  return at.entry->pieces->pieceAt(at.point, place) == at.entry->pieces->pieceOfSeries(at.point);
+  return pieceAt(*at.entry, at.point, u, lambda) == pieceOfSeries(*at.entry, at.point);
 }
 
 std::string PieceTerms::text(int index) const {
   const Place at = placeOf(index);
   const std::string point = "contact point " + std::to_string(at.point + 1) + " (of " +
-                            std::to_string(at.entry->pieces->numPoints()) + ")";
+                            std::to_string(at.entry->pieces->numWhole()) + ")";
   if (at.piece < 0) return point + " slides over an edge of its tool while it is pressed";
-  if (at.entry->pieces->pieceOfSeries(at.point) == -1)
+  if (pieceOfSeries(*at.entry, at.point) == -1)
     return point + " comes over an edge of its tool into its surface";
   return point + " comes to patch " + std::to_string(at.piece + 1) +
          " of its tool, where its force would jump: the surface has a crease or a gap there";
@@ -134,34 +172,41 @@ void PieceTerms::apply(const std::vector<int>& indices, const path::Vector& u, d
   for (const int i : indices) {
     if (i < firstIndex_) continue;
     const Place at = placeOf(i);
-    at.entry->pieces->toggle(at.point, at.piece);
-    if (at.entry->events && at.entry->pieces->preferred()[at.point] != PointPieces::any &&
-        at.entry->events->eventsAstray(field(u), lambda, {}))
+    PointPieces& pieces = *at.entry->pieces;
+    const int prefers = ofPoint(*at.entry, at.point, [&](int p) {
+      pieces.toggle(p, at.piece);
+      return pieces.preferred()[p];
+    });
+    if (at.entry->events && prefers != PointPieces::any && astray(*at.entry, u, lambda, {}))
       throw std::runtime_error(text(i));
   }
 }
 
 int PieceTerms::numPoints() const {
   int sum = 0;
-  for (const Entry& entry : entries_) sum += entry.pieces->numPoints();
+  for (const Entry& entry : entries_) sum += entry.pieces->numWhole();
   return sum;
 }
 
 std::vector<int> PieceTerms::conditions() const {
   std::vector<int> all;
   for (const Entry& entry : entries_) {
-    const auto& own = entry.pieces->preferred();
+    const auto own = ofAllPoints(entry, [&](int p) { return entry.pieces->preferred()[p]; });
     all.insert(all.end(), own.begin(), own.end());
   }
   return all;
 }
 
 void PieceTerms::setConditions(const std::vector<int>& conditions) {
-  auto own = conditions.begin();
-  for (const Entry& entry : entries_) {
-    entry.pieces->setPreferred({own, own + entry.pieces->numPoints()});
-    own += entry.pieces->numPoints();
-  }
+  auto first = conditions.begin();
+  ranks_.together([&] {
+    for (const Entry& entry : entries_) {
+      std::vector<int> own;
+      for (const int p : entry.pieces->numbers()) own.push_back(first[p]);
+      entry.pieces->setPreferred(own);
+      first += entry.pieces->numWhole();
+    }
+  });
 }
 
 }  // namespace atrapos::fem

@@ -4,22 +4,26 @@
 #include <memory>
 #include <vector>
 
+#include "EventTerms.hpp"
 #include "atrapos/fem/Term.hpp"
 #include "atrapos/path/Pieces.hpp"
 
 namespace atrapos::fem {
 
-class EventTerm;
-
 /// The terms of a model whose points lie on pieces, as path::Pieces. A break is (point, piece that it goes on
 /// to): its index is that of the first break plus, term by term, (pieces + 1) point + piece + 1, piece -1 for
 /// none.
+///
+/// On several ranks points have the numbers of the whole model. All ranks go through the same places of a
+/// series and are told the pieces of all points there; all but the queries is collective.
 class PieceTerms final : public path::Pieces {
  public:
-  PieceTerms() = default;
-  /// Breaks are numbered from firstIndex on. `residual` is the problem's.
-  PieceTerms(const std::vector<std::unique_ptr<Term>>& terms, int firstIndex,
-             std::function<path::ResidualNorm(const path::Vector&, double, path::Vector&)> residual);
+  /// A state as the terms of this rank read it, and the problem's residual.
+  using Local = std::function<ConstField(const path::Vector&)>;
+  using Residual = std::function<path::ResidualNorm(const path::Vector&, double, path::Vector&)>;
+
+  PieceTerms(const std::vector<std::unique_ptr<Term>>& terms, const EventTerms& events,
+             const detail::Distribution& ranks, Local local, Residual residual);
 
   bool empty() const { return entries_.empty(); }
 
@@ -49,10 +53,23 @@ class PieceTerms final : public path::Pieces {
     int point, piece;
   };
   Place placeOf(int index) const;
+  /// [point of the whole term] what `of` tells of this rank's points, by their numbers here.
+  template <class Of>
+  std::vector<int> ofAllPoints(const Entry& entry, const Of& of) const;
+  /// What `of` tells of one point, by its number here, where it is of this rank.
+  template <class Of>
+  int ofPoint(const Entry& entry, int point, const Of& of) const;
+  std::vector<int> piecesAt(const Entry& entry, const path::Vector& u, double lambda) const;
+  int pieceAt(const Entry& entry, int point, const path::Vector& u, double lambda) const;
+  int pieceOfSeries(const Entry& entry, int point) const;
+  bool astray(const Entry& entry, const path::Vector& u, double lambda,
+              const std::vector<int>& numbers) const;
 
+  const detail::Distribution& ranks_;
+  Local local_;
+  Residual residual_;
   std::vector<Entry> entries_;
   int firstIndex_ = 0;
-  std::function<path::ResidualNorm(const path::Vector&, double, path::Vector&)> residual_;
 };
 
 }  // namespace atrapos::fem

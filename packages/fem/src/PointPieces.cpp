@@ -1,6 +1,7 @@
 #include "atrapos/fem/PointPieces.hpp"
 
 #include <algorithm>
+#include <numeric>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -8,9 +9,24 @@
 namespace atrapos::fem {
 
 PointPieces::PointPieces(PieceSearch search, int numPoints, std::vector<double> data)
-    : search_(std::move(search)), data_(std::move(data)), preferred_(numPoints, any) {
+    : search_(std::move(search)),
+      data_(std::move(data)),
+      preferred_(numPoints, any),
+      numWhole_(numPoints),
+      numbers_(numPoints) {
+  std::iota(numbers_.begin(), numbers_.end(), 0);
   if (data_.size() != static_cast<std::size_t>(numPoints) * search_.numData)
     throw std::logic_error("PointPieces: wrong number of data");
+}
+
+void PointPieces::keep(const std::vector<int>& points) {
+  const std::size_t each = search_.numData;
+  std::vector<double> data;
+  for (const int p : points)
+    data.insert(data.end(), data_.begin() + p * each, data_.begin() + (p + 1) * each);
+  data_ = std::move(data);
+  preferred_.assign(points.size(), any);
+  numbers_ = points;
 }
 
 std::vector<double> PointPieces::at(const std::vector<double>& places) const {

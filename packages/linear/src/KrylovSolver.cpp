@@ -58,10 +58,11 @@ class Inverse final : public Operator {
   bool transposed_;
 };
 
-std::unique_ptr<Preconditioner> preconditioner(const KrylovOptions& options, bool symmetric) {
+std::unique_ptr<Preconditioner> preconditioner(const KrylovOptions& options, bool symmetric,
+                                               int factorThreads) {
   if (options.preconditioner == KrylovOptions::Preconditioner::ilu)
     return std::make_unique<IncompleteFactor>(options);
-  return std::make_unique<SingleFactor>(symmetric, options.lowRank, options.factorThreads);
+  return std::make_unique<SingleFactor>(symmetric, options.lowRank, factorThreads);
 }
 
 /// Largest sum of magnitudes in a row, a bound of the 2-norm where K is symmetric.
@@ -172,8 +173,10 @@ struct KrylovSolver::Direction {
   }
 };
 
-KrylovSolver::KrylovSolver(const KrylovOptions& options, bool symmetric)
-    : options_(options), symmetric_(symmetric), preconditioner_(preconditioner(options, symmetric)) {
+KrylovSolver::KrylovSolver(const KrylovOptions& options, bool symmetric, int factorThreads)
+    : options_(options),
+      symmetric_(symmetric),
+      preconditioner_(preconditioner(options, symmetric, factorThreads)) {
   if (!(options.tolerance > 0 && options.tolerance < 1) || options.maxIterations < 1 ||
       options.subspace < 1 || options.startVectors < 0 || !(options.lowRank >= 0 && options.lowRank < 1) ||
       !(options.fill >= 1) || !(options.drop >= 0))

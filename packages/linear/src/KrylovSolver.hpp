@@ -22,7 +22,8 @@ namespace atrapos::linear {
 /// singular K is not found as such: its iterations do not converge, or give one of its solutions.
 class KrylovSolver final : public TangentSolver, public TellsCost, public Iterates {
  public:
-  KrylovSolver(const KrylovOptions& options, bool symmetric);
+  /// `factorThreads`: TangentSolverOptions::factorThreads.
+  KrylovSolver(const KrylovOptions& options, bool symmetric, int factorThreads = 1);
   ~KrylovSolver() override;
 
   void analyze(const RCP<const CrsMatrix>& K) override;

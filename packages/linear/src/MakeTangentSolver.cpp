@@ -27,7 +27,7 @@ std::unique_ptr<TangentSolver> autoSolver(const TangentSolverOptions& options) {
     return [options, preconditioner] {
       KrylovOptions krylov = options.krylov;
       krylov.preconditioner = preconditioner;
-      return std::make_unique<KrylovSolver>(krylov, options.symmetric);
+      return std::make_unique<KrylovSolver>(krylov, options.symmetric, options.factorThreads);
     };
   };
   std::vector<AutoSolver::Candidate> candidates{
@@ -49,7 +49,8 @@ std::vector<std::string> availableTangentSolvers() {
 std::unique_ptr<TangentSolver> makeTangentSolver(const TangentSolverOptions& options) {
   if (options.type == "mumps") return mumpsSolver(options);
   if (options.type == "auto") return autoSolver(options);
-  if (options.type == "belos") return std::make_unique<KrylovSolver>(options.krylov, options.symmetric);
+  if (options.type == "belos")
+    return std::make_unique<KrylovSolver>(options.krylov, options.symmetric, options.factorThreads);
   const std::string prefix = "amesos2:";
   if (options.type.compare(0, prefix.size(), prefix) == 0)
     return std::make_unique<Amesos2Solver>(

@@ -3,6 +3,7 @@
 #include <mpi.h>
 #include <mumps_c_types.h>
 
+#include <Tpetra_CrsMatrix.hpp>
 #include <cstddef>
 #include <vector>
 

@@ -46,13 +46,14 @@ RCP<const CrsMatrix> Calls::tangent(const State& state, Vector& F) {
 void Calls::factor(const State& state, Vector& F) { factor(tangent(state, F)); }
 
 void Calls::factor(const RCP<const CrsMatrix>& K) {
-  Stopwatch watch(work_.seconds.factor);
   ++work_.factorizations;
-  solverCall([&] {
-    if (!analysed_) solver_.analyze(K);
+  if (!analysed_) {
+    Stopwatch watch(work_.seconds.analysis);
+    solverCall([&] { solver_.analyze(K); });
     analysed_ = true;
-    solver_.factor(K);
-  });
+  }
+  Stopwatch watch(work_.seconds.factor);
+  solverCall([&] { solver_.factor(K); });
 }
 
 void Calls::solve(const Vector& b, Vector& x) {

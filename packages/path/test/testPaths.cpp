@@ -261,8 +261,8 @@ TEST(Path, EveryOrderFollowsThePath) {
   EXPECT_LE(before, 8);  // 6 at order 20
 }
 
-/// The number of steps hardly hangs on rounding: a start moved by 1e-9 gives the same to one step, as a length
-/// that is rounded to the other side changes the later ones.
+/// The number of steps hardly hangs on rounding: a start moved by 1e-9 gives the same to one step, as a
+/// length that is rounded to the other side changes the later ones.
 TEST(Path, StepCountIsStable) {
   const auto law = TrussOnSpring{0.3};
   Followed<TrussOnSpring> f(law, {0, 0}, 0, Options{}, displacement(law, 0, 2.2));

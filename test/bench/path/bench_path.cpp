@@ -221,7 +221,7 @@ class Bench {
       row.factorizations = run.factorizations;
       row.solves = run.solves;
       row.seconds.total = run.seconds;
-      row.seconds.factor = solver->counters().factorSeconds + solver->counters().analysisSeconds;
+      row.seconds.factor = solver->counters().factorSeconds;
       row.seconds.solve = solver->counters().solveSeconds;
       row.end = run.stopped ? "stopReached" : "notReached";
       finish(row);

@@ -1,10 +1,16 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <memory>
 #include <vector>
 
 #include "Geometry.hpp"
+#include "atrapos/contact/ContactLaw.hpp"
+#include "atrapos/contact/PatchSearch.hpp"
 #include "atrapos/contact/PatchSet.hpp"
+#include "atrapos/fem/FeProblem.hpp"
+#include "atrapos/fem/LawTerm.hpp"
 
 /// Surfaces of patches for tests.
 namespace atrapos::contact::test {
@@ -115,6 +121,24 @@ inline std::array<double, 4> project(const PatchSet& set, const Vector3& x) {
   double y[6];
   taylor::solveImplicit<3, 6, 3>(set.tool(), x.data(), data.data(), y);
   return {y[0], y[1], y[2], y[3]};
+}
+
+/// Contact of these points with patches by law (15): four data a point, found at every state. `least`:
+/// smallest reference gap.
+inline void addPatchContact(fem::FeModel& model, const fem::PointSet& points,
+                            const PatchSearch<PatchTool>& search, const RegularisedPressure& pressure,
+                            double least) {
+  std::vector<double> data;
+  for (int p = 0; p < points.numPoints(); ++p) {
+    const double* x = &points.positions[3 * p];
+    const auto place = search.set->locate(x);
+    double y[6] = {};
+    if (place[0] >= 0) taylor::solveImplicit<3, 6, 3>(search.tool, x, place.data(), y);
+    data.insert(data.end(), {std::max(y[0], least), -1, 0, 0});
+  }
+  using Law = ContactLaw<PatchTool>;
+  model.terms.push_back(std::make_unique<fem::LawTerm<Law, fem::CurrentPosition>>(
+      Law{search.tool, pressure}, points, data, search.pieces(1)));
 }
 
 }  // namespace atrapos::contact::test

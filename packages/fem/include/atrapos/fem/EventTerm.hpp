@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "atrapos/fem/Term.hpp"
@@ -7,40 +8,45 @@
 namespace atrapos::fem {
 
 /// A term that is analytic only piecewise and changes at roots of its event functions (docs/theory/path.md,
-/// Events). Numbers are those of the term: of points, or of what else its event functions stand for. A term
-/// that several ranks share out (keep) goes by those of its part; EventTerms puts the parts together.
+/// Events): one for each of its conditions, which is free or active. Conditions have the numbers of the whole
+/// term. A term that several ranks share out (keep) knows those of its part's entities, its own, and tells
+/// what these entities contribute; a condition may have entities in several parts. EventTerms puts the parts
+/// together and remembers which conditions are active.
 class EventTerm : public Term {
  public:
-  /// Number of event functions, one a point.
+  /// Number of conditions of the whole term.
   virtual int eventCount() const = 0;
+  /// [own condition] its number, ascending.
+  virtual const std::vector<int>& eventNumbers() const = 0;
+  /// The subject of a message on a condition's gap: "contact point 3 (of 40) is".
+  virtual std::string eventText(int number) const = 0;
 
-  /// Coefficient k of every event function on the series under way, into g[eventCount()]. k = 0 after
-  /// beginSeries; k >= 1 after addOrder(k), with U_k and lambda_k given.
-  virtual void eventOrder(int k, const ConstField& Uk, double lambdaK, double* g) const = 0;
+  /// Coefficient k of the own conditions' event functions on the series under way: the part that sums to the
+  /// coefficient over all ranks. k = 0 after beginSeries; k >= 1 after addOrder(k), with U_k and lambda_k
+  /// given.
+  virtual std::vector<double> eventOrder(int k, const ConstField& Uk, double lambdaK) const = 0;
 
-  /// The points whose event function is zero at a state, up to the rounding of coordinates. Throws
-  /// std::invalid_argument where a point is below zero.
-  virtual std::vector<int> eventsAt(const ConstField& u, double lambda) const = 0;
+  /// The event functions of own conditions that are free, at a state, in such parts; infinity for the others.
+  virtual std::vector<double> gapsAt(const ConstField& u, double lambda) const = 0;
+  /// Gaps below this are the rounding of coordinates.
+  virtual double touching(const ConstField& u) const = 0;
 
   /// Whether event functions of the series under way are wrong at a state on it (path::Pieces::eventsAstray).
+  /// `numbers`: of conditions.
   virtual bool eventsAstray(const ConstField& /*u*/, double /*lambda*/,
-                            const std::vector<int>& /*points*/) const {
+                            const std::vector<int>& /*numbers*/) const {
     return false;
   }
 
-  /// Changes these points from one condition to the other.
-  virtual void applyEvent(const std::vector<int>& points) = 0;
-
-  /// Condition of every point: 0 free, 1 active.
-  virtual std::vector<int> conditions() const = 0;
+  /// Whether the own conditions are active, 1, or free, 0.
   virtual void setConditions(const std::vector<int>& conditions) = 0;
 
-  /// Negative pivots of the tangent that are owed to the term's active points.
-  virtual int constraintPivots() const = 0;
-
-  /// Receives once the stiffness of the body at every node (force per length; 0 where the node cannot move),
-  /// which gives multipliers and conditions their size.
-  virtual void setStiffness(const std::vector<double>& ofNodes) = 0;
+  /// The least stiffness of the body (force per length) at a node of each own condition, given those of the
+  /// nodes (0 where a node cannot move); infinity where none can move.
+  virtual std::vector<double> leastStiffness(const std::vector<double>& ofNodes) const = 0;
+  /// Receives these once, the least of all parts, and the largest of all conditions that is not infinite:
+  /// they give multipliers and conditions their size.
+  virtual void setStiffness(const std::vector<double>& least, double largest) = 0;
 };
 
 }  // namespace atrapos::fem

@@ -85,6 +85,8 @@ class FeProblem final : public path::Problem {
 
   /// Event functions: those of the terms that change at events, one a contact point.
   int eventCount() const override;
+  /// Number of the first one of this term.
+  int firstEvent(int term) const;
   void eventOrder(int k, std::vector<double>& g) const override;
   std::vector<int> eventsAt(const path::Vector& u, double lambda) const override;
   void applyEvent(const std::vector<int>& indices, const path::Vector& u, double lambda) override;

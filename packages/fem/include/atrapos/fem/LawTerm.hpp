@@ -85,9 +85,6 @@ class LawTerm final : public Term {
   }
 
   void keep(const TermPart& part) override {
-    if (pieces_)
-      throw std::invalid_argument(
-          "contact with a tool of patches works on one rank only: start without mpirun");
     batches_ = makeBatches(L, static_cast<int>(part.entities.size()), a_.N, part.nodes);
     entityNodes_ = part.nodes;
     kept_ = part.entities;
@@ -98,6 +95,12 @@ class LawTerm final : public Term {
     for (const int e : part.entities)
       data.insert(data.end(), initialData_.begin() + e * each, initialData_.begin() + (e + 1) * each);
     initialData_ = std::move(data);
+    if (pieces_) {
+      std::vector<int> points;
+      for (const int e : part.entities)
+        for (int q = 0; q < a_.Q; ++q) points.push_back(e * a_.Q + q);
+      pieces_->keep(points);
+    }
     seriesData_ = View<double*>("seriesData", a_.data.size());
   }
 

@@ -27,6 +27,9 @@ constexpr int kMaxConditions = 4;
 /// Throws std::logic_error for points that are not those of faces.
 UnilateralPoints withCornerMultipliers(FeModel& model, const PointSet& faces);
 
+/// The corner nodes of these faces in the order of their multipliers: as the faces come to them.
+std::vector<int> cornersOf(const PointSet& faces);
+
 /// Law input (u_x, y_x, u_y, y_y, u_z, y_z): displacement at the point and the dofs of its multiplier's node.
 struct DisplacementAndUnknown {
   static constexpr int components = 2;

@@ -26,9 +26,14 @@ class PointPieces {
   /// `data`: those that the term was made with.
   PointPieces(PieceSearch search, int numPoints, std::vector<double> data);
 
+  /// Drops all points but these.
+  void keep(const std::vector<int>& points);
+
   int count() const { return search_.count; }
   int numPoints() const { return static_cast<int>(preferred_.size()); }
   int numInputs() const { return search_.numInputs; }
+  int numWhole() const { return numWhole_; }                    ///< points before keep
+  const std::vector<int>& numbers() const { return numbers_; }  ///< [point] among those, ascending
 
   /// The data at these places; those of the series under way while they are held.
   std::vector<double> at(const std::vector<double>& places) const;
@@ -61,6 +66,8 @@ class PointPieces {
   PieceSearch search_;
   std::vector<double> data_, ofSeries_;
   std::vector<int> preferred_;  ///< [point]
+  int numWhole_;
+  std::vector<int> numbers_;
   bool held_ = false;
 };
 

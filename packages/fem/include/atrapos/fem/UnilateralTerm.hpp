@@ -5,7 +5,6 @@
 #include <limits>
 #include <memory>
 #include <numeric>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -124,34 +123,44 @@ class UnilateralTerm final : public EventTerm {
   std::size_t historyBytes(int maxOrder) const override {
     return a_.historyDoubles(batches_.count, maxOrder) * sizeof(double);
   }
-  int eventCount() const override { return static_cast<int>(active_.size()); }
+  int eventCount() const override { return count_; }
+  const std::vector<int>& eventNumbers() const override { return numbers_; }
+  std::string eventText(int number) const override {
+    return (a_.M > 1 ? "contact faces around corner " : "contact point ") + std::to_string(number + 1) +
+           " (of " + std::to_string(count_) + (a_.M > 1 ? ") are on average" : ") is");
+  }
 
-  /// Points only.
   void keep(const TermPart& part) override {
-    if (pieces_)
-      throw std::invalid_argument(
-          "contact with a tool of patches works on one rank only: start without mpirun");
-    if (a_.M > 1)
-      throw std::invalid_argument("hard contact over faces works on one rank only: start without mpirun");
-    whole_ = a_.numEntities;
     kept_ = part.entities;
     batches_ = makeBatches(L, static_cast<int>(kept_.size()), a_.N, part.nodes);
-    std::vector<double> weights, shape, mean;
-    for (const int e : kept_) {
-      weights.push_back(weights_[e]);
-      mean.push_back(meanShape_[e]);
-      shape.insert(shape.end(), shape_.begin() + e * a_.N, shape_.begin() + (e + 1) * a_.N);
-    }
-    weights_ = std::move(weights);
-    meanShape_ = std::move(mean);
-    shape_ = std::move(shape);
+    const std::size_t N = a_.N, Q = a_.Q, M = a_.M;
+    const auto select = [&](auto& of, std::size_t each) {
+      auto whole = std::move(of);
+      of.clear();
+      for (const int e : kept_) of.insert(of.end(), whole.begin() + e * each, whole.begin() + (e + 1) * each);
+    };
+    select(weights_, Q);
+    select(shape_, Q * N);
+    select(meanShape_, Q * M);
+    select(conditionOf_, M);
     entityNodes_ = part.nodes;
     a_.keep(part, batches_);
-    // Every point is its own condition.
-    conditionOf_.resize(kept_.size());
-    std::iota(conditionOf_.begin(), conditionOf_.end(), 0);
-    active_.assign(kept_.size(), 0);
-    stiffness_.assign(kept_.size(), 1.0);
+    std::vector<int> present = conditionOf_;
+    std::sort(present.begin(), present.end());
+    present.erase(std::unique(present.begin(), present.end()), present.end());
+    for (int& c : conditionOf_)
+      c = static_cast<int>(std::lower_bound(present.begin(), present.end(), c) - present.begin());
+    std::vector<char> tells;
+    for (const int c : present)
+      tells.push_back(std::binary_search(kept_.begin(), kept_.end(), firstEntity_[c]));
+    numbers_ = std::move(present);
+    tells_ = std::move(tells);
+    active_.assign(numbers_.size(), 0);
+    stiffness_.assign(numbers_.size(), 1.0);
+    if (pieces_) {
+      pieces_->keep(kept_);
+      seriesData_ = View<double*>("seriesData", a_.data.size());
+    }
     makeArrays();
   }
 
@@ -305,7 +314,7 @@ class UnilateralTerm final : public EventTerm {
         });
   }
 
-  void eventOrder(int k, const ConstField& Uk, double lambdaK, double* g) const override {
+  std::vector<double> eventOrder(int k, const ConstField& Uk, double lambdaK) const override {
     const Arrays a = a_;
     // Of every entity: its part of the mean gaps, then the multipliers.
     const std::size_t size = static_cast<std::size_t>(batches_.count) * a.M * L;
@@ -333,15 +342,14 @@ class UnilateralTerm final : public EventTerm {
         });
     const auto own = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), gaps);
     const auto r = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), multipliers);
-    std::fill(g, g + eventCount(), 0.0);
+    std::vector<double> g(active_.size(), 0.0);
     forEachCondition([&](int c, int, std::size_t at) {
-      if (stiffness_[c] == 0)
-        g[c] = k == 0 ? 1 : 0;  // held
-      else if (active_[c])
-        g[c] = r(at);
-      else
+      if (stiffness_[c] != 0 && !active_[c])
         g[c] += own(at);
+      else if (tells_[c])
+        g[c] = stiffness_[c] != 0 ? r(at) : k == 0 ? 1 : 0;  // held ones never change
     });
+    return g;
   }
 
   PointPieces* pieces() override { return pieces_.get(); }
@@ -365,7 +373,7 @@ class UnilateralTerm final : public EventTerm {
     return {host.data(), host.data() + host.size()};
   }
 
-  bool eventsAstray(const ConstField& u, double lambda, const std::vector<int>& points) const override {
+  bool eventsAstray(const ConstField& u, double lambda, const std::vector<int>& numbers) const override {
     if (!pieces_) return false;
     const auto in = places(u, lambda);
     const auto shown = observe(u, lambda);
@@ -377,13 +385,13 @@ class UnilateralTerm final : public EventTerm {
           pieces_->pieceOfSeries(p))
         continue;
       const double h = shown.values[2 * p];
-      const bool falls = std::find(points.begin(), points.end(), p) != points.end();
+      const bool falls = std::find(numbers.begin(), numbers.end(), numbers_[p]) != numbers.end();
       if (h < -small || (falls && h > small)) return true;
     }
     return false;
   }
 
-  std::vector<int> eventsAt(const ConstField& u, double lambda) const override {
+  std::vector<double> gapsAt(const ConstField& u, double lambda) const override {
     const auto shown = observe(u, lambda);
     std::vector<double> gaps(active_.size(), 0.0);
     const std::size_t Q = a_.Q, M = a_.M;
@@ -392,48 +400,25 @@ class UnilateralTerm final : public EventTerm {
       for (std::size_t q = 0; q < Q; ++q)
         gaps[c] += weights_[e * Q + q] * meanShape_[(e * Q + q) * M + m] * shown.values[2 * (e * Q + q)];
     });
-    // Coordinates and the tool's equations are rounded to a few units of 1e-16 of the size; meshes read from
-    // files in single precision are not meant to touch exactly.
-    const double touching = 1e-11 * sizeAt(u);
-    std::vector<int> found;
-    for (int c = 0; c < eventCount(); ++c) {
-      if (stiffness_[c] == 0 || active_[c]) continue;
-      if (gaps[c] < -touching) {
-        std::ostringstream text;
-        text << "contact " << (M > 1 ? "faces around corner " : "point ") << numberInTerm(kept_, c) + 1
-             << " (of " << (kept_.empty() ? eventCount() : whole_) << ") "
-             << (M > 1 ? "are on average " : "is ") << -gaps[c]
-             << " inside the tool where the path starts; hard contact needs a gap >= 0";
-        throw std::invalid_argument(text.str());
-      }
-      if (gaps[c] <= touching) found.push_back(c);
-    }
-    return found;
+    for (std::size_t c = 0; c < gaps.size(); ++c)
+      if (stiffness_[c] == 0 || active_[c]) gaps[c] = std::numeric_limits<double>::infinity();
+    return gaps;
   }
 
-  void applyEvent(const std::vector<int>& points) override {
-    for (const int p : points) active_[p] = 1 - active_[p];
-    uploadConditions();
-  }
-  std::vector<int> conditions() const override { return active_; }
+  /// Coordinates and the tool's equations are rounded to a few units of 1e-16 of the size; meshes read from
+  /// files in single precision are not meant to touch exactly.
+  double touching(const ConstField& u) const override { return 1e-11 * sizeAt(u); }
+
   void setConditions(const std::vector<int>& conditions) override {
     if (conditions.size() != active_.size())
-      throw std::invalid_argument("contact conditions of " + std::to_string(conditions.size()) +
-                                  " points, but there are " + std::to_string(active_.size()));
+      throw std::logic_error("UnilateralTerm: not the conditions of this part");
     active_ = conditions;
-    uploadConditions();
-  }
-  int constraintPivots() const override {
-    return static_cast<int>(std::count(active_.begin(), active_.end(), 1));
+    a_.active = ofConditions("active", {active_.begin(), active_.end()});
   }
 
-  void setStiffness(const std::vector<double>& ofNodes) override {
-    // Gaps are differences of coordinates, which exceed displacements by far where a path starts: with the
-    // whole stiffness their rounding would rule the residual. A hundredth is still well above the stiffness
-    // with which a body gives way as a whole.
-    constexpr double part = 1e-2, none = std::numeric_limits<double>::infinity();
+  std::vector<double> leastStiffness(const std::vector<double>& ofNodes) const override {
     const std::size_t N = a_.N, Q = a_.Q;
-    std::vector<double> least(active_.size(), none);
+    std::vector<double> least(active_.size(), std::numeric_limits<double>::infinity());
     forEachCondition([&](int c, int, std::size_t at) {
       const std::size_t e = entityAt(at);
       for (std::size_t i = 0; i < Q * (N - a_.M); ++i) {
@@ -442,12 +427,17 @@ class UnilateralTerm final : public EventTerm {
         if (shape_[(e * Q + q) * N + n] != 0 && k > 0) least[c] = std::min(least[c], k);
       }
     });
-    double largest = 0;
-    for (std::size_t c = 0; c < least.size(); ++c) {
-      stiffness_[c] = least[c] < none ? part * least[c] : 0.0;
-      largest = std::max(largest, stiffness_[c]);
-    }
-    a_.heldDiagonal = largest > 0 ? largest : 1;
+    return least;
+  }
+
+  void setStiffness(const std::vector<double>& least, double largest) override {
+    // Gaps are differences of coordinates, which exceed displacements by far where a path starts: with the
+    // whole stiffness their rounding would rule the residual. A hundredth is still well above the stiffness
+    // with which a body gives way as a whole.
+    constexpr double part = 1e-2;
+    for (std::size_t c = 0; c < least.size(); ++c)
+      stiffness_[c] = std::isfinite(least[c]) ? part * least[c] : 0.0;
+    a_.heldDiagonal = largest > 0 ? part * largest : 1;
     a_.stiffness = ofConditions("stiffness", stiffness_);
   }
 
@@ -506,8 +496,17 @@ class UnilateralTerm final : public EventTerm {
         last = std::max(last, entityNodes_[e * N + N - M + m]);
       }
     const std::size_t count = last < first ? 0 : last - first + 1;
+    count_ = static_cast<int>(count);
+    firstEntity_.assign(count, static_cast<int>(entities));
     for (std::size_t e = 0; e < entities; ++e)
-      for (std::size_t m = 0; m < M; ++m) conditionOf_.push_back(entityNodes_[e * N + N - M + m] - first);
+      for (std::size_t m = 0; m < M; ++m) {
+        const int c = entityNodes_[e * N + N - M + m] - first;
+        conditionOf_.push_back(c);
+        firstEntity_[c] = std::min(firstEntity_[c], static_cast<int>(e));
+      }
+    numbers_.resize(count);
+    std::iota(numbers_.begin(), numbers_.end(), 0);
+    tells_.assign(count, 1);
     active_.assign(count, 0);
     stiffness_.assign(count, 1.0);
     std::vector<double> area(count, 0.0), own(entities * M, 0.0);
@@ -602,14 +601,15 @@ class UnilateralTerm final : public EventTerm {
     return size;
   }
 
-  void uploadConditions() { a_.active = ofConditions("active", {active_.begin(), active_.end()}); }
-
   std::vector<int> entityNodes_;
   std::vector<int> kept_;  ///< entities of the whole term, where this is a part
-  int whole_ = 0;          ///< number of those entities, then
+  int count_ = 0;          ///< conditions of the whole term
   std::vector<double> weights_, shape_;
   std::vector<double> meanShape_;  ///< [entity][point][m] as Arrays::mean
   std::vector<int> conditionOf_;   ///< [entity][m]
+  std::vector<int> firstEntity_;   ///< [condition of the whole term]
+  std::vector<int> numbers_;       ///< [condition] in the whole term
+  std::vector<char> tells_;        ///< [condition] this part tells what is not a sum over entities
   std::vector<double> stiffness_;  ///< [condition] s; 0: held
   Batches batches_;
   Arrays a_;

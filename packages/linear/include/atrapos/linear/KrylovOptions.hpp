@@ -29,9 +29,6 @@ struct KrylovOptions {
   /// blocks.
   double lowRank = 0;
 
-  /// singleFactor: as TangentSolverOptions::factorThreads.
-  int factorThreads = 1;
-
   /// ilu: entries of a factor's row against those of K's, at least 1.
   double fill = 3;
   /// ilu: entries below this part of their row's size are dropped.

@@ -22,8 +22,8 @@ struct TangentSolverOptions {
   /// MUMPS only: a pivot row is null where its norm, after scaling K's entries to about 1, is below this.
   double nullPivotTolerance = 1e-14;
 
-  /// MUMPS only: threads of the BLAS in factorizations whose dense blocks are large enough to gain by them
-  /// (docs/install.md); solves, and small factorizations, have those that setBlasThreads said.
+  /// MUMPS, in both precisions: threads of the BLAS in factorizations whose dense blocks are large enough to
+  /// gain by them (docs/install.md); solves, and small factorizations, have those that setBlasThreads said.
   int factorThreads = 1;
 
   KrylovOptions krylov;  ///< "belos"; "auto" picks the preconditioner by itself

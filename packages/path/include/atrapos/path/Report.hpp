@@ -164,7 +164,8 @@ class PathError : public std::runtime_error {
 /// Wall-clock seconds by part.
 struct Timings {
   double tangent = 0;   ///< Problem::tangent
-  double factor = 0;    ///< symbolic analysis and factorizations
+  double analysis = 0;  ///< symbolic, once a path
+  double factor = 0;    ///< factorizations
   double solve = 0;     ///< forward and backward substitutions
   double orderRhs = 0;  ///< beginSeries, orderRhs, internalOrder, completeOrder
   double residual = 0;  ///< Problem::residual
