@@ -95,6 +95,33 @@ TEST_F(ContactEvents, AddUpToTheActivePoints) {
             std::string::npos);
 }
 
+// Rigid motion over the edge of a plate and down on it, one step long: nodes that have no gap where the step
+// starts close within it, in the step that reaches the plate.
+TEST_F(ContactEvents, OfPointsThatComeOverAnEdge) {
+  const std::string deck = R"(
+mesh: {file: box.exo, generate: {shape: box, lengths: [1, 1, 1], divisions: [2, 1, 1]}}
+materials: {rubber: {law: saint_venant_kirchhoff, youngs_modulus: 1000, poissons_ratio: 0, blocks: [body]}}
+supports: {top: {set: z_max, x: {per_load_factor: 0.6}, y: 0, z: {per_load_factor: -0.2}}}
+tools:
+  plate:
+    type: patches
+    surfaces: {plate: {degree: [1, 1], points: [[1.2, -1, -0.1], [1.2, 2, -0.1], [3, -1, -0.1], [3, 2, -0.1]]}}
+contact: {lower: {tool: plate, set: z_min, points: nodes, law: hard}}
+path: {stop: {load_factor: 0.7}}
+)";
+  for (const char* pade : {"off", "on"}) {
+    SCOPED_TRACE(pade);
+    const auto events = run(edited(deck, "path: {", std::string("path: {pade: ") + pade + ", "));
+    ASSERT_EQ(events.size(), 2u);
+    for (const Event& event : events) {
+      EXPECT_TRUE(event.closes);
+      EXPECT_EQ(event.step, 2);  // the first one ends where they come over the edge
+      // 1e-10 above the plate they count as closed: 5e-10 of the load factor.
+      EXPECT_NEAR(std::stod(event.loadFactor), 0.5, 1e-9);
+    }
+  }
+}
+
 // The same law with its curve as unknown: the same state at the end, in less steps.
 TEST_F(ContactEvents, CurveAsUnknown) {
   const std::string law = "tool: roll, set: z_min, points: nodes, stiffness: 1.0e6, regularisation: 1.0e-6";
