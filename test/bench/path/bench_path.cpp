@@ -45,7 +45,7 @@ struct Row {
   double tolerance = 0, residualBound = 0, setting = 0;
   int steps = 0;
   long long factorizations = 0, solves = 0, orders = 0;
-  double error = -1;  ///< -1: the method gives points, nothing between them
+  double error = -1;  ///< -1: not known, or the method gives points and nothing between them
   double pathLength = 0;
   path::Timings seconds;
   std::string end;
@@ -126,7 +126,11 @@ class Bench {
         judge_->analyze(case_.problem->tangent(*start().u, 0, F));
         judged_ = true;
       }
-      row.error = bench::worstDistance(*case_.problem, *judge_, *samples, outcome.weight);
+      try {
+        row.error = bench::worstDistance(*case_.problem, *judge_, *samples, outcome.weight);
+      } catch (const std::runtime_error& error) {
+        fmt::print(stderr, "bench_path: {} {}: {}\n", row.name, row.method, error.what());
+      }
     }
     finish(row);
   }
