@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "atrapos/fem/EventTerm.hpp"
-#include "atrapos/fem/FeProblem.hpp"
 #include "atrapos/fem/PointPieces.hpp"
 #include "atrapos/path/Series.hpp"
 

@@ -108,7 +108,7 @@ class Run {
   Trial acceptedTrial(Series& series, StepReport& report);
   void keepClearOfLimitPoints(const Series& series, Trial& trial);
   PadeFit rationalForm(const Series& series, double polynomial);
-  bool polynomialReaches(Series series, double a);
+  bool polynomialReaches(Series& series, double a);
   std::optional<Trial> padeTrial(Series& series, StepReport& report);
   Trial polynomialTrial(const Series& series, StepReport& report);
   void evaluate(const Series& series, Trial& trial);

@@ -121,16 +121,18 @@ PadeFit Run::rationalForm(const Series& series, double polynomial) {
 }
 
 /// Whether the polynomial's residual passes at a.
-bool Run::polynomialReaches(Series series, double a) {
+bool Run::polynomialReaches(Series& series, double a) {
+  const auto form = series.form();
   series.setForm(nullptr);
   Trial trial;
   trial.a = a;
   evaluate(series, trial);
+  series.setForm(form);
   return trial.residual <= correctAbove();
 }
 
 /// The end of the step by the rational form, where that goes further than the polynomial and its residual
-/// passes, at the end and inside.
+/// passes, at the end and inside; or by the polynomial, where that reaches a stop or an event.
 std::optional<Run::Trial> Run::padeTrial(Series& series, StepReport& report) {
   if (options_.pade == PadeUse::off || order_ < 4) return std::nullopt;
   const bool automatic = options_.pade == PadeUse::automatic;
@@ -143,7 +145,13 @@ std::optional<Run::Trial> Run::padeTrial(Series& series, StepReport& report) {
   Trial near;
   near.a = polynomial;
   limit(series, near);
-  if ((near.stop || !near.events.empty()) && polynomialReaches(series, near.a)) return std::nullopt;
+  if (near.stop || !near.events.empty()) {
+    evaluate(series, near);
+    if (near.residual <= correctAbove()) {
+      if (astray(near)) return std::nullopt;
+      return near;
+    }
+  }
   // Shorter gains do not pay for the fit, which costs about as much as one order. The bound of the residual
   // may leave the polynomial less than half of what its radius promises.
   const double least = (automatic ? 1.1 : 1.0) * polynomial, shortest = 0.4 * polynomial;
@@ -152,11 +160,12 @@ std::optional<Run::Trial> Run::padeTrial(Series& series, StepReport& report) {
   if (fit.usable() && fit.range > shortest) {
     series.setForm(fit.form);
     constexpr int maxTrials = 4;
-    Trial trial, inside;
+    Trial trial;
     trial.a = rounded(fit.range);
     for (int i = 0; i < maxTrials && trial.a > shortest; ++i) {
       limit(series, trial);
       evaluate(series, trial);
+      Trial inside;
       inside.a = 0.7 * trial.a;
       if (trial.residual <= correctAbove()) evaluate(series, inside);
       if (trial.residual <= correctAbove() && inside.residual <= bound() && !astray(trial)) {
