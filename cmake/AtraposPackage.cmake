@@ -42,7 +42,12 @@ function(atrapos_test name)
   endif()
   cmake_parse_arguments(arg "" "TIMEOUT" "SOURCES;DEPENDS;LABELS;RANKS;ENVIRONMENT" ${ARGN})
   atrapos_find_gtest()
-  add_executable(${name} ${arg_SOURCES} ${PROJECT_SOURCE_DIR}/test/support/main.cpp)
+  if(NOT TARGET atrapos_test_main)
+    add_library(atrapos_test_main OBJECT ${PROJECT_SOURCE_DIR}/test/support/main.cpp)
+    target_link_libraries(atrapos_test_main PRIVATE atrapos_gtest Trilinos::Kokkos MPI::MPI_CXX
+      atrapos_compile_options)
+  endif()
+  add_executable(${name} ${arg_SOURCES} $<TARGET_OBJECTS:atrapos_test_main>)
   target_link_libraries(${name} PRIVATE atrapos_gtest ${arg_DEPENDS} Trilinos::Kokkos MPI::MPI_CXX
     atrapos_compile_options)
   if(NOT arg_LABELS)

@@ -3,17 +3,9 @@
 #include <algorithm>
 
 #include "atrapos/fem/PointPieces.hpp"
+#include "atrapos/fem/Rows.hpp"
 
 namespace atrapos {
-namespace {
-
-template <class T>
-void appendRows(const std::vector<T>& from, std::size_t row, std::size_t length, std::vector<T>& to) {
-  if (from.empty()) return;
-  to.insert(to.end(), from.begin() + row * length, from.begin() + (row + 1) * length);
-}
-
-}  // namespace
 
 NearContact::NearContact(const RigidTool& tool, const contact::AnyPressure& pressure,
                          const fem::PointSet& points, const std::vector<double>& referenceGaps)
@@ -29,12 +21,9 @@ int NearContact::numCarried() const {
 }
 
 void NearContact::keep(const fem::TermPart& part) {
-  const std::size_t Q = points_.pointsPerEntity;
-  std::vector<double> gaps;
-  for (const int e : part.entities) appendRows(referenceGaps_, e, Q, gaps);
+  referenceGaps_ = fem::rowsOf(referenceGaps_, part.entities, points_.pointsPerEntity);
   points_ = pointsOf(part.entities);
   points_.nodes = part.nodes;
-  referenceGaps_ = std::move(gaps);
   carried_.assign(part.entities.size(), 0);
   all_->keep(part);
 }
@@ -46,13 +35,11 @@ fem::PointSet NearContact::pointsOf(const std::vector<int>& entities) const {
   part.nodesPerEntity = points_.nodesPerEntity;
   part.pointsPerEntity = points_.pointsPerEntity;
   part.shapeComponents = points_.shapeComponents;
-  for (const int e : entities) {
-    appendRows(points_.nodes, e, N, part.nodes);
-    appendRows(points_.shape, e, Q * N, part.shape);
-    appendRows(points_.weights, e, Q, part.weights);
-    appendRows(points_.positions, e, 3 * Q, part.positions);
-    appendRows(points_.normals, e, 3 * Q, part.normals);
-  }
+  part.nodes = fem::rowsOf(points_.nodes, entities, N);
+  part.shape = fem::rowsOf(points_.shape, entities, Q * N);
+  part.weights = fem::rowsOf(points_.weights, entities, Q);
+  part.positions = fem::rowsOf(points_.positions, entities, 3 * Q);
+  part.normals = fem::rowsOf(points_.normals, entities, 3 * Q);
   return part;
 }
 
@@ -68,18 +55,12 @@ void NearContact::make() {
   carriedPoints_.clear();
   const std::size_t N = points_.nodesPerEntity, Q = points_.pointsPerEntity;
   std::vector<int> carried;
-  std::vector<double> gaps;
-  std::vector<int> positions;
-  for (std::size_t e = 0; e < carried_.size(); ++e) {
-    if (!carried_[e]) continue;
-    carried.push_back(static_cast<int>(e));
-    for (std::size_t q = 0; q < Q; ++q) carriedPoints_.push_back(static_cast<int>(e * Q + q));
-    appendRows(referenceGaps_, e, Q, gaps);
-    appendRows(positions_, e, N * N, positions);
-  }
+  for (std::size_t e = 0; e < carried_.size(); ++e)
+    if (carried_[e]) carried.push_back(static_cast<int>(e));
   if (carried.empty()) return;
-  near_ = tool_.term(pressure_, pointsOf(carried), gaps);
-  if (!positions_.empty()) near_->setPositions(positions);
+  carriedPoints_ = fem::pointsOf(carried, points_.pointsPerEntity);
+  near_ = tool_.term(pressure_, pointsOf(carried), fem::rowsOf(referenceGaps_, carried, Q));
+  if (!positions_.empty()) near_->setPositions(fem::rowsOf(positions_, carried, N * N));
 }
 
 bool NearContact::search(const fem::ConstField& u, double lambda, std::vector<char>* joining) const {

@@ -45,12 +45,11 @@ class RigidTool {
   /// multiplier of each.
   virtual void addHard(fem::FeModel& model, const fem::PointSet& points) const = 0;
 
-  /// The same of faces, with a node for the multiplier of each corner. Throws std::invalid_argument, one
-  /// line, for tools that cannot have it.
+  /// The same of faces, with a node for the multiplier of each corner.
   virtual void addHardFaces(fem::FeModel& model, const fem::PointSet& faces) const = 0;
 
   /// Adds contact by law (15) with the place on its curve as unknown: the model's last term, and a node
-  /// behind the others for each point. Throws std::invalid_argument, one line, for tools that cannot have it.
+  /// behind the others for each point. Throws std::invalid_argument, one line, for gaps the law cannot have.
   virtual void addCurve(fem::FeModel& model, const contact::RegularisedPressure& pressure,
                         const fem::PointSet& points, const std::vector<double>& referenceGaps) const = 0;
 

@@ -90,8 +90,7 @@ class RigidToolOf final : public RigidTool {
 
   void addHardFaces(fem::FeModel& model, const fem::PointSet& faces) const override {
     if constexpr (patches)
-      throw std::invalid_argument(
-          "hard contact with tools of type patches acts at nodes; expected points: nodes beside it");
+      contact::addHardFaceContact(model, faces, contact::PatchSearch<Tool>{set_, tool_});
     else
       contact::addHardFaceContact(model, faces, tool_);
   }
@@ -99,7 +98,8 @@ class RigidToolOf final : public RigidTool {
   void addCurve(fem::FeModel& model, const contact::RegularisedPressure& pressure,
                 const fem::PointSet& points, const std::vector<double>& referenceGaps) const override {
     if constexpr (patches)
-      throw std::invalid_argument("curve is not for tools of type patches; expected displacement");
+      contact::addCurveContact(model, points, contact::PatchSearch<Tool>{set_, tool_}, pressure,
+                               referenceGaps);
     else
       contact::addCurveContact(model, points, tool_, pressure, referenceGaps);
   }

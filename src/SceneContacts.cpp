@@ -66,18 +66,14 @@ void Scene::addContacts(fem::FeModel& model) {
       entry.terms.push_back(static_cast<int>(model.terms.size()));
       const auto& references = entry.references[t];
       if (entry.hardFaces) {
-        try {
-          entry.tool->addHardFaces(model, entry.points[t]);
-        } catch (const std::invalid_argument& e) {
-          fail("contact/" + contact.name + "/law", e.what());
-        }
+        entry.tool->addHardFaces(model, entry.points[t]);
       } else if (entry.pressure.hard) {
         entry.tool->addHard(model, entry.points[t]);
       } else if (contact.unknown == deck::Contact::Unknown::Curve) {
         try {
           entry.tool->addCurve(model, *entry.pressure.regularised, entry.points[t], references);
         } catch (const std::invalid_argument& e) {
-          fail("contact/" + contact.name + "/unknown", e.what());
+          fail("contact/" + contact.name + "/reference_gap", e.what());
         }
       } else if (all) {
         model.terms.push_back(entry.tool->term(entry.pressure.law, entry.points[t], references));

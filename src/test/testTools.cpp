@@ -347,17 +347,18 @@ TEST_F(Floor, RestartsOverFacesHaveTheSameEvents) {
   }
 }
 
-TEST_F(Floor, HardFacesAreNotForPatches) {
-  writeFile(folder_ / "floor.yaml",
-            edited(kFlat, "{type: plane, point: [0, 0, -0.01], normal: [0, 0, 1]}",
-                   "{type: patches, surfaces: {s: {degree: [1, 1], points: [[-1, -1, -0.01], [-1, 5, -0.01], "
-                   "[5, -1, -0.01], [5, 5, -0.01]]}}}"));
-  ASSERT_EQ(runAtrapos({"mesh", "-q", "floor.yaml"}, folder_.path()).exitCode, 0);
-  const CommandResult r = runAtrapos({"run", "-q", "floor.yaml"}, folder_.path());
-  EXPECT_EQ(r.exitCode, 2);
-  EXPECT_NE(r.err.find("contact/lower/law: hard contact with tools of type patches acts at nodes"),
-            std::string::npos)
-      << r.err;
+// The floor as two patches, one under each half.
+TEST_F(Floor, HardFacesOnPatches) {
+  const std::string deck =
+      edited(kFlat, "{type: plane, point: [0, 0, -0.01], normal: [0, 0, 1]}",
+             "{type: patches, surfaces: {left: {degree: [1, 1], points: [[-1, -1, -0.01], [-1, 5, -0.01], "
+             "[1.9, -1, -0.01], [1.9, 5, -0.01]]}, right: {degree: [1, 1], points: [[1.9, -1, -0.01], "
+             "[1.9, 5, -0.01], [5, -1, -0.01], [5, 5, -0.01]]}}}");
+  const auto plane = last(kFlat, "plane.yaml"), patches = last(deck, "patches.yaml");
+  ASSERT_GT(plane.size(), 3u);
+  EXPECT_EQ(patches[0], plane[0]);
+  EXPECT_NEAR(patches[3], plane[3], 1e-9 * plane[3]);  // the same equations but for rounding
+  EXPECT_EQ(rowsOf("patches_results/events.csv"), 25);
 }
 
 }  // namespace

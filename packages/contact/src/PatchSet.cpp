@@ -85,20 +85,32 @@ Foot PatchSet::descend(int patch, double t1, double t2, const double* x) const {
     for (int d = 0; d < 2; ++d) held[d] = (foot.t[d] <= -1 && f.g[d] > 0) || (foot.t[d] >= 1 && f.g[d] < 0);
     double dt[2], moved = 0;
     f.step(held, dt);
-    for (double share = 1; share > 1e-6; share /= 2) {
+    const auto moves = [&](double share, const auto& nearer) {
       double t[2];
       for (int d = 0; d < 2; ++d) t[d] = std::clamp(foot.t[d] + share * dt[d], -1.0, 1.0);
       const PatchPoint trial = point(patch, t);
-      if (SquaredDistance(trial, x).value < f.value) {
-        moved = std::fabs(t[0] - foot.t[0]) + std::fabs(t[1] - foot.t[1]);
-        std::copy_n(t, 2, foot.t);
-        s = trial;
-        break;
-      }
-    }
+      if (!nearer(SquaredDistance(trial, x))) return false;
+      moved = std::fabs(t[0] - foot.t[0]) + std::fabs(t[1] - foot.t[1]);
+      std::copy_n(t, 2, foot.t);
+      s = trial;
+      return true;
+    };
+    const auto falls = [&](const SquaredDistance& at) { return at.value < f.value; };
+    // Around the foot the distance is flat: half of its digits tell where it is least, all of the slope's do.
+    const auto slope = [&](const SquaredDistance& at) {
+      return (held[0] ? 0 : std::fabs(at.g[0])) + (held[1] ? 0 : std::fabs(at.g[1]));
+    };
+    const auto levels = [&](const SquaredDistance& at) { return slope(at) < slope(f); };
+    constexpr double close = 1e-4;
+    bool found = f.convex() && std::fabs(dt[0]) + std::fabs(dt[1]) < close && moves(1, levels);
+    for (double share = 1; share > 1e-6 && !found; share /= 2) found = moves(share, falls);
     if (moved < 1e-13) break;
   }
   foot.distance = distance(s, x);
+  const SquaredDistance f(s, x);
+  for (int d = 0; d < 2; ++d)
+    if (std::fabs(foot.t[d]) >= 1)
+      foot.beyond = std::max(foot.beyond, -f.g[d] * foot.t[d] / std::sqrt(f.metric[2 * d]));
   return foot;
 }
 
@@ -170,8 +182,11 @@ Foot PatchSet::nearestPoint(const double* x) const {
   for (const int n : order) {
     if (bounds[n] > best.distance) break;
     const Foot foot = nearestOn(n, x);
-    // Of patches that share the place, the first: decided by more than rounding.
-    if (foot.distance < best.distance - 1e-14 * size_) best = foot;
+    // Beside a border the feet on both of its patches are equally near but for the square of the way to it:
+    // the one that x does not pull over its border. On it, the first.
+    const double nearer = best.distance - foot.distance;
+    const bool equal = std::fabs(nearer) <= 1e-12 * size_;
+    if (equal ? foot.beyond < best.beyond - 1e-14 * size_ : nearer > 0) best = foot;
   }
   return best;
 }

@@ -1,6 +1,7 @@
 // Law (15) with the place on its curve as unknown: the same solutions as with R condensed at the point.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "atrapos/contact/CurveContact.hpp"
@@ -8,6 +9,7 @@
 #include "atrapos/fem/Loads.hpp"
 #include "support/ContactModel.hpp"
 #include "support/Derivatives.hpp"
+#include "support/PatchSurfaces.hpp"
 
 using namespace atrapos;
 using namespace atrapos::contact;
@@ -108,6 +110,118 @@ TEST(CurveContact, TangentIsTheSymmetricDerivativeOfTheResidual) {
     for (std::size_t e = K.start[i]; e < K.start[i + 1]; ++e)
       // Sums of some 100 rounded products.
       ASSERT_NEAR(K.value[e], K.at(K.column[e], static_cast<int>(i)), 1e-13 * largest);
+  expectDerivative(problem, K, u, lambda, without(fem::test::randomNumbers(dofs, 1, 6)), 0.7, 4e-3);
+}
+
+namespace {
+
+/// A block over a tool, pushed down and aside by its top.
+fem::FeModel pushed(const fem::Mesh& mesh, double aside) {
+  fem::FeModel model = solidModel(mesh, 10, 0.3);
+  for (int n : fem::test::nodesOfSet(mesh, "z_max"))
+    for (int i = 0; i < 3; ++i) model.supports.prescribe(n, i, 0, i == 2 ? -0.12 : i == 0 ? aside : 0);
+  return model;
+}
+
+PatchSearch<PatchTool> searchOf(const std::vector<BezierPatch>& patches) {
+  const auto set = std::make_shared<const PatchSet>(patches);
+  return {set, set->tool()};
+}
+
+Numbers bodyOf(const fem::Mesh& mesh, const path::Outcome& outcome) {
+  Numbers u = fem::FeProblem::values(*outcome.final.u);
+  u.resize(mesh.coordinates.size());
+  return u;
+}
+
+}  // namespace
+
+// The roll as a NURBS surface, points on it from the start of the path to its end.
+TEST(CurveContact, SameRollAsPatches) {
+  const auto mesh = fem::test::distorted(fem::test::box(fem::Topology::Hex8, {3, 3, 2}, {1, 1, 1}), 0.02);
+  const auto points = contactPoints(mesh, "z_min", Where::Nodes);
+  const Cylinder roll{{0.4, 0, -2.05}, {0.28, 0.96, 0}, 2.0};
+  const RegularisedPressure law{1e-5, 1e-4};
+  const Numbers gaps(points.numPoints(), 0.05);
+  fem::FeModel implicit = pushed(mesh, 0), patches = pushed(mesh, 0);
+  addCurveContact(implicit, points, roll, law, gaps);
+  addCurveContact(patches, points, searchOf(nurbsCylinder(roll, 5).patches()), law, gaps);
+  fem::FeProblem a(std::move(implicit)), b(std::move(patches));
+  const auto endA = follow(a, {a.initialState(0), 0.0}, 1.0), endB = follow(b, {b.initialState(0), 0.0}, 1.0);
+  EXPECT_NEAR(endA.steps, endB.steps, 1);
+  EXPECT_GT(-resultant(a.forces(a.term(1), *endA.final.u, 1))[2], 0.1);
+  const Numbers u = bodyOf(mesh, endA), v = bodyOf(mesh, endB);
+  for (std::size_t i = 0; i < u.size(); ++i) EXPECT_NEAR(v[i], u[i], 1e-8);  // bound of the residual: 1e-10
+}
+
+// Points beyond the edge carry nothing, others cross a border where the curvature jumps: as with
+// the pressure condensed at the points.
+TEST(CurveContact, PatchesAsWithThePressureCondensed) {
+  const auto mesh = fem::test::box(fem::Topology::Hex8, {3, 3, 2}, {1, 1, 1});
+  const auto points = contactPoints(mesh, "z_min", Where::Nodes);
+  const RegularisedPressure law{1e-3, 1e-3};
+  BezierPatch plate, arc;
+  plate.points = {{-1, -1, -0.05}, {-1, 2, -0.05}, {0.36, -1, -0.05}, {0.36, 2, -0.05}};
+  arc.degree = {2, 1};
+  arc.points = {{0.36, -1, -0.05}, {0.36, 2, -0.05},  {0.6, -1, -0.05},
+                {0.6, 2, -0.05},   {0.85, -1, -0.02}, {0.85, 2, -0.02}};
+  for (const double aside : {0.0, 0.1}) {
+    fem::FeModel condensed = pushed(mesh, aside), onCurve = pushed(mesh, aside);
+    const auto surface = searchOf({plate, arc});
+    addPatchContact(condensed, points, surface, law, 0.05);
+    Numbers gaps;  // those of addPatchContact
+    for (int p = 0; p < points.numPoints(); ++p)
+      gaps.push_back(std::max(project(*surface.set, {points.positions[3 * p], points.positions[3 * p + 1],
+                                                     points.positions[3 * p + 2]})[0],
+                              0.05));
+    for (double& gap : gaps)
+      if (std::isnan(gap)) gap = 0.05;
+    addCurveContact(onCurve, points, surface, law, gaps);
+    fem::FeProblem a(std::move(condensed)), b(std::move(onCurve));
+    struct Breaks final : path::Observer {
+      int count = 0;
+      bool onStep(const path::StepReport& report, const path::Series&) override {
+        count += static_cast<int>(report.events.size());
+        return true;
+      }
+    } breaks;
+    const auto endA = follow(a, {a.initialState(0), 0.0}, 0.8),
+               endB = follow(b, {b.initialState(0), 0.0}, 0.8, breaks);
+    if (aside > 0) {
+      EXPECT_GE(breaks.count, 1);
+    }
+    const auto R = observed(b, 1, *endB.final.u, "contact_pressure"),
+               h = observed(b, 1, *endB.final.u, "contact_gap");
+    const auto R1 = observed(a, 1, *endA.final.u, "contact_pressure");
+    EXPECT_EQ(std::count_if(h.begin(), h.end(), [](double gap) { return std::isinf(gap); }), 4);
+    for (std::size_t p = 0; p < R.size(); ++p) EXPECT_NEAR(R[p], R1[p], 1e-6);  // see below; stiffness is 10
+    const Numbers u = bodyOf(mesh, endA), v = bodyOf(mesh, endB);
+    for (std::size_t i = 0; i < u.size(); ++i) EXPECT_NEAR(v[i], u[i], 1e-7);  // bound of the residual: 1e-10
+  }
+}
+
+// Tangent and load direction of a body on a NURBS roll that moves, against central differences.
+TEST(CurveContact, TangentOnMovingPatches) {
+  const auto mesh = fem::test::distorted(fem::test::box(fem::Topology::Hex8, {2, 2, 2}, {1, 1, 1}), 0.02);
+  const Cylinder roll{{0.4, 0, -2.005}, {0.28, 0.96, 0}, 2.0};
+  const auto set = std::make_shared<const PatchSet>(nurbsCylinder(roll, 5).patches());
+  MovingTool<PatchTool> tool{set->tool(), {}};
+  tool.motion.shift[1][2] = 0.3;
+  tool.motion.angle[1] = 0.2;
+  auto model = solidModel(mesh, 10, 0.3);
+  const auto points = contactPoints(mesh, "z_min", Where::Nodes);
+  addCurveContact(model, points, PatchSearch<MovingTool<PatchTool>>{set, tool}, {1e-1, 1e-1},
+                  Numbers(points.numPoints(), 0.05));
+  fem::FeProblem problem(std::move(model));
+  const std::size_t dofs = fem::FeProblem::values(*problem.initialState(0)).size();
+  const auto without = [&](Numbers x) {  // the two dofs of a multiplier's node that are held
+    for (std::size_t d = mesh.coordinates.size(); d < x.size(); d += 3) x[d + 1] = x[d + 2] = 0;
+    return x;
+  };
+  Numbers u = without(fem::test::randomNumbers(dofs, 0.08, 5));
+  for (std::size_t d = mesh.coordinates.size(); d < dofs; d += 3) u[d] *= 10;
+  const double lambda = 0.3;
+  const auto K = fem::test::tangent(problem, u, lambda);
   expectDerivative(problem, K, u, lambda, without(fem::test::randomNumbers(dofs, 1, 6)), 0.7, 4e-3);
 }
 

@@ -42,7 +42,7 @@ PatchSearch<PatchTool> plateAndArc(double border) {
   return {set, set->tool()};
 }
 
-enum class Kind { points, faces, patches, softPatches };
+enum class Kind { points, faces, patches, patchFaces, softPatches };
 
 /// A block over a tool whose upper face is pushed down and along; no symmetry, so that points close one by
 /// one.
@@ -60,6 +60,9 @@ fem::FeModel block(Kind kind, bool alone) {
       break;
     case Kind::patches:
       addHardContact(model, nodes, plateAndArc(1.05));  // nodes at 1.0 come over it
+      break;
+    case Kind::patchFaces:
+      addHardFaceContact(model, faces, plateAndArc(0.95));  // points at 0.93 do
       break;
     case Kind::softPatches:
       addPatchContact(model, faces, plateAndArc(0.95), {1e-3, 1e-2}, 1e-3);  // points at 0.93 do
@@ -102,11 +105,12 @@ struct Events final : path::Observer {
 
 class HardRanks : public testing::TestWithParam<Kind> {};
 const auto kindName = [](const testing::TestParamInfo<Kind>& info) {
-  const char* const names[] = {"points", "faces", "patches", "softPatches"};
+  const char* const names[] = {"points", "faces", "patches", "patchFaces", "softPatches"};
   return std::string(names[static_cast<int>(info.param)]);
 };
 INSTANTIATE_TEST_SUITE_P(All, HardRanks,
-                         testing::Values(Kind::points, Kind::faces, Kind::patches, Kind::softPatches),
+                         testing::Values(Kind::points, Kind::faces, Kind::patches, Kind::patchFaces,
+                                         Kind::softPatches),
                          kindName);
 
 TEST_P(HardRanks, SumsAndEventFunctionsAreThoseOfOneRank) {
@@ -161,7 +165,7 @@ TEST_P(HardRanks, SameEventsAlongThePath) {
   Events shared, whole;
   const auto options = tightOptions(1e-9);
   // Over the plate until points, and their forces, come to the arc.
-  const bool patches = GetParam() == Kind::patches || GetParam() == Kind::softPatches;
+  const bool patches = GetParam() != Kind::points && GetParam() != Kind::faces;
   const double to = patches ? 0.25 : 0.05;
   const auto end = follow(both.shared, {both.shared.initialState(0), 0.0}, to, shared, options);
   const auto end1 = follow(both.whole, {both.whole.initialState(0), 0.0}, to, whole, options);

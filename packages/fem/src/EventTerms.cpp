@@ -19,6 +19,7 @@ EventTerms::EventTerms(const std::vector<std::unique_ptr<Term>>& terms, const de
   for (std::size_t t = 0; t < terms.size(); ++t)
     if (auto* term = dynamic_cast<EventTerm*>(terms[t].get())) {
       entries_.push_back({term, static_cast<int>(t), count});
+      inPieces_ = inPieces_ || term->pieces() != nullptr;
       count += term->eventCount();
     }
   conditions_.assign(count, 0);
@@ -34,13 +35,14 @@ template <class Of>
 std::vector<double> EventTerms::list(double none, const Of& ofTerm) const {
   std::vector<double> all(count(), none);
   ranks_.together([&] {
-    for (const Entry& entry : entries_) {
-      const std::vector<double> told = ofTerm(*entry.term);
-      const auto& numbers = entry.term->eventNumbers();
-      for (std::size_t c = 0; c < numbers.size(); ++c) all[entry.first + numbers[c]] = told[c];
-    }
+    for (const Entry& entry : entries_) put(entry, ofTerm(*entry.term), all);
   });
   return all;
+}
+
+void EventTerms::put(const Entry& entry, const std::vector<double>& told, std::vector<double>& all) {
+  const auto& numbers = entry.term->eventNumbers();
+  for (std::size_t c = 0; c < numbers.size(); ++c) all[entry.first + numbers[c]] = told[c];
 }
 
 template <class T>
@@ -50,15 +52,53 @@ std::vector<T> EventTerms::own(const Entry& entry, const std::vector<T>& all) co
   return result;
 }
 
-std::vector<double> EventTerms::order(int k, const ConstField& Uk, double lambdaK) const {
+std::vector<double> EventTerms::order(int k, const ConstField& Uk, double lambdaK) {
   auto g = list(0, [&](const EventTerm& term) { return term.eventOrder(k, Uk, lambdaK); });
   ranks_.sum(g);
+  if (!inPieces_) return g;
+  if (k == 0) {
+    covered_ = list(0, [](const EventTerm& term) { return term.covered(); });
+    ranks_.sum(covered_);
+  }
+  // What has nothing to touch has the function 1, which has no root.
+  for (std::size_t c = 0; c < g.size(); ++c) g[c] = covered_[c] > 0 ? g[c] / covered_[c] : k == 0 ? 1 : 0;
   return g;
 }
 
-std::vector<int> EventTerms::at(const ConstField& u, double lambda) const {
-  auto gaps = list(0, [&](const EventTerm& term) { return term.gapsAt(u, lambda); });
+std::vector<double> EventTerms::gapsAt(const ConstField& u, double lambda) const {
+  std::vector<double> gaps(count(), 0.0), covered(count(), 0.0);
+  ranks_.together([&] {
+    for (const Entry& entry : entries_) {
+      const EventTerm::MeanGaps told = entry.term->gapsAt(u, lambda);
+      put(entry, told.sum, gaps);
+      put(entry, told.covered, covered);
+    }
+  });
   ranks_.sum(gaps);
+  ranks_.sum(covered);
+  for (std::size_t c = 0; c < gaps.size(); ++c) gaps[c] = covered[c] > 0 ? gaps[c] / covered[c] : infinity;
+  return gaps;
+}
+
+bool EventTerms::astray(const ConstField& u, double lambda, const std::vector<int>& indices) const {
+  auto moved = list(0, [&](const EventTerm& term) { return term.moved(u, lambda); });
+  ranks_.sum(moved);
+  if (std::all_of(moved.begin(), moved.end(), [](double m) { return m == 0; })) return false;
+  const auto gaps = gapsAt(u, lambda);
+  for (const Entry& entry : entries_) {
+    // Roots and states are good to some digits less than coordinates; another piece is further off.
+    const double small = 100 * ranks_.max(entry.term->touching(u));
+    for (int c = entry.first; c < entry.first + entry.term->eventCount(); ++c) {
+      if (moved[c] == 0 || conditions_[c] == 1) continue;  // an active one tells its multiplier
+      const bool falls = std::find(indices.begin(), indices.end(), c) != indices.end();
+      if (gaps[c] < -small || (falls && gaps[c] > small)) return true;
+    }
+  }
+  return false;
+}
+
+std::vector<int> EventTerms::at(const ConstField& u, double lambda) const {
+  const auto gaps = gapsAt(u, lambda);
   std::vector<int> found;
   for (const Entry& entry : entries_) {
     const double touching = ranks_.max(entry.term->touching(u));

@@ -23,9 +23,11 @@ class EventTerms {
   int count() const { return static_cast<int>(conditions_.size()); }
   /// Number of the first condition of this term, or of the next one that has some.
   int first(int term) const;
-  std::vector<double> order(int k, const ConstField& Uk, double lambdaK) const;
+  std::vector<double> order(int k, const ConstField& Uk, double lambdaK);
   /// Free conditions that touch at a state. Throws std::invalid_argument where one is below zero.
   std::vector<int> at(const ConstField& u, double lambda) const;
+  /// path::Pieces::eventsAstray.
+  bool astray(const ConstField& u, double lambda, const std::vector<int>& indices) const;
   void apply(const std::vector<int>& indices);  ///< the same ones on every rank
   const std::vector<int>& conditions() const { return conditions_; }
   void setConditions(const std::vector<int>& conditions);  ///< the same ones on every rank
@@ -41,6 +43,9 @@ class EventTerms {
   /// The list of what every term tells of its own conditions, `none` for others; on this rank.
   template <class Of>
   std::vector<double> list(double none, const Of& ofTerm) const;
+  static void put(const Entry& entry, const std::vector<double>& told, std::vector<double>& all);
+  /// The mean gaps at a state; infinity of conditions that are not free or have nothing to touch.
+  std::vector<double> gapsAt(const ConstField& u, double lambda) const;
   /// The numbers that a term's own conditions have in a list of all.
   template <class T>
   std::vector<T> own(const Entry& entry, const std::vector<T>& all) const;
@@ -48,6 +53,8 @@ class EventTerms {
   const detail::Distribution& ranks_;
   std::vector<Entry> entries_;
   std::vector<int> conditions_;  ///< 1 where active
+  std::vector<double> covered_;  ///< EventTerm::covered, on the series under way; empty without pieces
+  bool inPieces_ = false;        ///< some term is
 };
 
 }  // namespace atrapos::fem

@@ -6,7 +6,6 @@
 #include <string>
 #include <utility>
 
-#include "atrapos/fem/EventTerm.hpp"
 #include "atrapos/fem/PointPieces.hpp"
 #include "atrapos/path/Series.hpp"
 
@@ -14,12 +13,15 @@ namespace atrapos::fem {
 
 PieceTerms::PieceTerms(const std::vector<std::unique_ptr<Term>>& terms, const EventTerms& events,
                        const detail::Distribution& ranks, Local local, Residual residual)
-    : ranks_(ranks), local_(std::move(local)), residual_(std::move(residual)), firstIndex_(events.count()) {
+    : events_(events),
+      ranks_(ranks),
+      local_(std::move(local)),
+      residual_(std::move(residual)),
+      firstIndex_(events.count()) {
   int firstIndex = firstIndex_;
   for (std::size_t t = 0; t < terms.size(); ++t)
     if (PointPieces* pieces = terms[t]->pieces()) {
-      entries_.push_back({terms[t].get(), pieces, dynamic_cast<EventTerm*>(terms[t].get()),
-                          events.first(static_cast<int>(t)), firstIndex});
+      entries_.push_back({terms[t].get(), pieces, firstIndex});
       firstIndex += pieces->numWhole() * (pieces->count() + 1);
     }
 }
@@ -74,23 +76,7 @@ path::ResidualNorm PieceTerms::residualOfSeries(const path::Vector& u, double la
 }
 
 bool PieceTerms::eventsAstray(const path::Vector& u, double lambda, const std::vector<int>& events) const {
-  for (const Entry& entry : entries_) {
-    if (!entry.events) continue;
-    std::vector<int> numbers;
-    for (const int i : events)
-      if (i >= entry.firstEvent && i < entry.firstEvent + entry.events->eventCount())
-        numbers.push_back(i - entry.firstEvent);
-    if (astray(entry, u, lambda, numbers)) return true;
-  }
-  return false;
-}
-
-bool PieceTerms::astray(const Entry& entry, const path::Vector& u, double lambda,
-                        const std::vector<int>& numbers) const {
-  const ConstField state = local_(u);
-  bool found = false;
-  ranks_.together([&] { found = entry.events->eventsAstray(state, lambda, numbers); });
-  return ranks_.max(found) > 0;
+  return !events_.empty() && events_.astray(local_(u), lambda, events);
 }
 
 /// Where a point's piece is another one at two neighbouring places of some on the series, the border in
@@ -176,8 +162,7 @@ void PieceTerms::apply(const std::vector<int>& indices, const path::Vector& u, d
       pieces.toggle(p, at.piece);
       return pieces.preferred()[p];
     });
-    if (at.entry->events && prefers != PointPieces::any && astray(*at.entry, u, lambda, {}))
-      throw std::runtime_error(text(i));
+    if (prefers != PointPieces::any && eventsAstray(u, lambda, {})) throw std::runtime_error(text(i));
   }
 }
 

@@ -45,8 +45,7 @@ class PieceTerms final : public path::Pieces {
   struct Entry {
     Term* term;
     PointPieces* pieces;
-    EventTerm* events;  ///< the same term where it has event functions, and the first of them
-    int firstEvent, firstIndex;
+    int firstIndex;
   };
   struct Place {
     const Entry* entry;
@@ -62,9 +61,8 @@ class PieceTerms final : public path::Pieces {
   std::vector<int> piecesAt(const Entry& entry, const path::Vector& u, double lambda) const;
   int pieceAt(const Entry& entry, int point, const path::Vector& u, double lambda) const;
   int pieceOfSeries(const Entry& entry, int point) const;
-  bool astray(const Entry& entry, const path::Vector& u, double lambda,
-              const std::vector<int>& numbers) const;
 
+  const EventTerms& events_;
   const detail::Distribution& ranks_;
   Local local_;
   Residual residual_;

@@ -6,6 +6,8 @@
 #include <string>
 #include <utility>
 
+#include "atrapos/fem/Rows.hpp"
+
 namespace atrapos::fem {
 
 PointPieces::PointPieces(PieceSearch search, int numPoints, std::vector<double> data)
@@ -20,11 +22,7 @@ PointPieces::PointPieces(PieceSearch search, int numPoints, std::vector<double> 
 }
 
 void PointPieces::keep(const std::vector<int>& points) {
-  const std::size_t each = search_.numData;
-  std::vector<double> data;
-  for (const int p : points)
-    data.insert(data.end(), data_.begin() + p * each, data_.begin() + (p + 1) * each);
-  data_ = std::move(data);
+  data_ = rowsOf(data_, points, search_.numData);
   preferred_.assign(points.size(), any);
   numbers_ = points;
 }

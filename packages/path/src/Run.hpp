@@ -120,6 +120,8 @@ class Run {
   Border borderAt(const Series& series, double a, const std::optional<StopHit>& stop);
 
   double bound() const { return options_.residualBound; }
+  /// The states of a path meet the bound but for what an event that has just been applied adds to a residual.
+  double boundAtEvents() const { return 10 * bound(); }
   /// A residual acts like an imperfection, and one above this makes one branch of two that cross.
   double correctAbove() const {
     constexpr double loosest = 1e-4;

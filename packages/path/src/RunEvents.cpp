@@ -128,10 +128,10 @@ Series Run::seriesOfChoice(const std::vector<int>& chosen) {
   relaxOver_ = 0;
   residual_ = calls_.residual(outcome_.final, *r_).relative();
   for (const int i : chosen)
-    if (!(residual_ <= 10 * bound()) && i >= calls_.problem().eventCount())
+    if (!(residual_ <= boundAtEvents()) && i >= calls_.problem().eventCount())
       throw PathError(EndReason::problemFailed,
                       line("at lambda = ", outcome_.final.lambda, ": ", calls_.breakText(i)));
-  if (!(residual_ <= 10 * bound()))
+  if (!(residual_ <= boundAtEvents()))
     throw PathError(EndReason::problemFailed,
                     line("at lambda = ", outcome_.final.lambda,
                          ": the state does not solve the problem as an event has changed it (relative "

@@ -13,7 +13,7 @@ void Run::equilibrate() {
   residual_ = calls_.residual(state, *r_).relative();
   if (!std::isfinite(residual_))
     throw PathError(EndReason::notFinite, "the residual at the start is not finite");
-  if (residual_ <= (tangent_ ? bound() : correctAbove())) return;
+  if (residual_ <= (!tangent_ ? correctAbove() : applied_.empty() ? bound() : boundAtEvents())) return;
   constexpr int maxHalvings = 10;
   const auto result =
       newton(calls_, state, *r_, holdLoad(), correctAbove(), options_.maxStartIterations, maxHalvings);

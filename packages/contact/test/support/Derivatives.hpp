@@ -75,10 +75,11 @@ void expectEventFunctions(fem::FeProblem& problem, const Numbers& u, double lamb
       const double g = series.scalar(series.eventCoefficients(i))(a);
       // A multiplier is an unknown and its series its own; a gap's series misses what is beyond its order, as
       // the residual does.
-      if (conditions[i] == 1)
+      if (conditions[i] == 1) {
         EXPECT_NEAR(g, values[bodyDofs + 3 * i], 1e-14);
-      else
+      } else {
         EXPECT_NEAR(g, gaps[i], 1e-4) << i;
+      }
     }
   }
 }

@@ -1,11 +1,12 @@
 #pragma once
 
+#include <limits>
 #include <memory>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "atrapos/contact/ContactLaw.hpp"
+#include "atrapos/contact/PatchSearch.hpp"
 #include "atrapos/fem/LawTerm.hpp"
 #include "atrapos/fem/Multipliers.hpp"
 
@@ -20,14 +21,15 @@ namespace atrapos::contact {
 /// > c eta.
 ///
 /// in:   (u_x, t, u_y, -, u_z, -) of fem::DisplacementAndUnknown; with a tool that moves also the load
-/// factor. data: Delta, X. out:  (-R n_x, -R'(t) (h - h(t)), -R n_y, 0, -R n_z, 0), the derivatives of one
-/// potential where n = grad h.
+/// factor.
+/// data: Delta, X, then the tool's own.
+/// out:  (-R n_x, -R'(t) (h - h(t)), -R n_y, 0, -R n_z, 0), the derivatives of one potential where n = grad
+/// h. A point that is over no part of the tool has h = Delta and feels no force.
 template <class Tool>
 struct CurveContactLaw {
-  static_assert(detail::ToolData<Tool>::value == 0,
-                "the contact curve is for tools without data of their own");
   static constexpr int numPlace = detail::PlaceInputs<Tool>::value;
-  static constexpr int numInputs = 3 + numPlace, numOutputs = 6, numData = 4;
+  static constexpr int numToolData = detail::ToolData<Tool>::value, toolData = 4;  // and where they begin
+  static constexpr int numInputs = 3 + numPlace, numOutputs = 6, numData = toolData + numToolData;
   static constexpr bool symmetric = Tool::symmetric;
 
   Tool tool;
@@ -40,7 +42,11 @@ struct CurveContactLaw {
     project(in, data, projection);
     const T up = exp(in[1]), down = exp(-in[1]);
     const T R = pressure.eta * (up - 1.0);
-    for (int i = 0; i < 3; ++i) out[2 * i] = -(R * projection[1 + i]);
+    for (int i = 0; i < 3; ++i)
+      if constexpr (numToolData > 0)
+        out[2 * i] = -(R * projection[1 + i]) * tool.carries(data + toolData);
+      else
+        out[2 * i] = -(R * projection[1 + i]);
     const T mismatch =
         projection[0] - data[0] * down + (pressure.compliance * pressure.eta) * (up + down - 2.0);
     out[1] = -(pressure.eta * (up * mismatch));
@@ -54,6 +60,18 @@ struct CurveContactLaw {
     project(in, data, projection);
     observed[0] = projection[0];
     observed[1] = pressure.eta * std::expm1(in[1]);
+    if constexpr (numToolData > 0)
+      if (tool.carries(data + toolData) == 0) {
+        observed[0] = std::numeric_limits<double>::infinity();
+        observed[1] = 0;
+      }
+  }
+
+  /// The place (x), or (x, load factor), of a point with these inputs and data.
+  template <class T>
+  KOKKOS_INLINE_FUNCTION static void placeOf(const T* in, const taylor::Passive<T>* data, T* place) {
+    for (int i = 0; i < 3; ++i) place[i] = in[2 * i] + data[1 + i];
+    if constexpr (numPlace == 4) place[3] = in[6];
   }
 
   void validate() const {
@@ -65,12 +83,29 @@ struct CurveContactLaw {
   template <class T>
   KOKKOS_INLINE_FUNCTION void project(const T* in, const taylor::Passive<T>* data, T* projection) const {
     T place[numPlace];
-    for (int i = 0; i < 3; ++i) place[i] = in[2 * i] + data[1 + i];
-    if constexpr (numPlace == 4) place[3] = in[6];
+    placeOf(in, data, place);
     for (int i = 0; i < Tool::numUnknowns; ++i) projection[i] = T(0.0);
-    taylor::solveImplicit<numPlace, Tool::numUnknowns>(tool, place, projection);
+    if constexpr (numToolData > 0) {
+      taylor::solveImplicit<numPlace, Tool::numUnknowns, numToolData>(tool, static_cast<const T*>(place),
+                                                                      data + toolData, projection);
+      const taylor::Passive<T> on = tool.carries(data + toolData);
+      projection[0] = projection[0] * on + (1.0 - on) * data[0];
+    } else {
+      taylor::solveImplicit<numPlace, Tool::numUnknowns>(tool, place, projection);
+    }
   }
 };
+
+/// The points' nodes and parameters of contact with its curve as unknown, and their data but for the tool's.
+struct CurvePoints {
+  fem::PointSet points;
+  std::vector<double> data;  ///< [point] Delta, X
+};
+
+/// Gives the model a node more for every point, whose first unknown is t, a part of the path parameter.
+/// Throws std::invalid_argument for gaps that the law cannot have.
+CurvePoints withCurves(fem::FeModel& model, const fem::PointSet& points, const RegularisedPressure& pressure,
+                       const std::vector<double>& gaps);
 
 /// Adds contact of these points by law (15) with its curve as unknown; `gaps`: Delta of every point. The term
 /// is the model's last. Weights of the points multiply the forces, as in LawTerm.
@@ -78,20 +113,29 @@ template <class Tool>
 void addCurveContact(fem::FeModel& model, const fem::PointSet& points, const Tool& tool,
                      const RegularisedPressure& pressure, const std::vector<double>& gaps) {
   tool.validate();
-  pressure.validate();
-  const fem::PointSet own = fem::withMultipliers(model, points);
-  std::vector<double> data;
-  for (int p = 0; p < own.numEntities; ++p) {
-    if (!(gaps.at(p) > pressure.compliance * pressure.eta))
-      throw std::invalid_argument("contact point " + std::to_string(p + 1) +
-                                  ": the reference gap must be > eta/alpha, got " + std::to_string(gaps[p]));
-    data.push_back(gaps[p]);
-    data.insert(data.end(), &own.positions[3 * p], &own.positions[3 * p] + 3);
-    model.parameters.push_back(3 * own.nodes[(p + 1) * own.nodesPerEntity - 1]);
-  }
   using Law = CurveContactLaw<Tool>;
+  const CurvePoints curves = withCurves(model, points, pressure, gaps);
   model.terms.push_back(std::make_unique<fem::LawTerm<Law, fem::DisplacementAndUnknown>>(
-      Law{tool, pressure}, fem::withUnknowns(own), data));
+      Law{tool, pressure}, fem::withUnknowns(curves.points), curves.data));
+}
+
+/// The same with a set of patches, at rest (PatchTool) or moving (MovingTool<PatchTool>).
+template <class Tool>
+void addCurveContact(fem::FeModel& model, const fem::PointSet& points, const PatchSearch<Tool>& search,
+                     const RegularisedPressure& pressure, const std::vector<double>& gaps) {
+  search.tool.validate();
+  using Law = CurveContactLaw<Tool>;
+  const CurvePoints curves = withCurves(model, points, pressure, gaps);
+  std::vector<double> data;
+  for (int p = 0; p < curves.points.numEntities; ++p) {
+    data.insert(data.end(), &curves.data[Law::toolData * p], &curves.data[Law::toolData * p] + Law::toolData);
+    data.insert(data.end(), {-1, 0, 0});
+  }
+  const auto pieces =
+      search.pieces(Law::numInputs, Law::toolData,
+                    [](const double* in, const double* own, double* x) { Law::placeOf(in, own, x); });
+  model.terms.push_back(std::make_unique<fem::LawTerm<Law, fem::DisplacementAndUnknown>>(
+      Law{search.tool, pressure}, fem::withUnknowns(curves.points), data, pieces));
 }
 
 }  // namespace atrapos::contact

@@ -16,7 +16,7 @@ namespace atrapos::contact {
 ///
 /// in:   current position x = X + u, multiplier r (a length), with a tool that moves also the load factor.
 /// data: the tool's own.
-/// out:  -r n, h; 0 and 1 for a point that is over no part of the tool.
+/// out:  -r n, h; zeros for a point that is over no part of the tool.
 template <class Tool>
 struct HardContactLaw {
   static constexpr int numPlace = detail::PlaceInputs<Tool>::value;
@@ -36,7 +36,7 @@ struct HardContactLaw {
                                                                   projection);
       const taylor::Passive<T> on = tool.carries(data);
       for (int i = 0; i < 3; ++i) out[i] = -(in[3] * projection[1 + i]) * on;
-      out[3] = projection[0] * on + (1.0 - on);
+      out[3] = projection[0] * on;
     } else {
       taylor::solveImplicit<numPlace, Tool::numUnknowns>(tool, place, projection);
       for (int i = 0; i < 3; ++i) out[i] = -(in[3] * projection[1 + i]);
@@ -82,10 +82,18 @@ void addHardContact(fem::FeModel& model, const fem::PointSet& points, const Patc
   search.tool.validate();
   using Law = HardContactLaw<Tool>;
   const fem::PointSet own = fem::withMultipliers(model, points);
-  std::vector<double> data;
-  for (int p = 0; p < own.numEntities; ++p) data.insert(data.end(), {-1, 0, 0});
-  model.terms.push_back(
-      std::make_unique<fem::UnilateralTerm<Law>>(Law{search.tool}, own, data, search.pieces(0)));
+  model.terms.push_back(std::make_unique<fem::UnilateralTerm<Law>>(
+      Law{search.tool}, own, search.overNothing(own.numPoints()), search.pieces(0)));
+}
+
+/// The same of faces: the mean gap around a corner is that of the points that are over a patch.
+template <class Tool>
+void addHardFaceContact(fem::FeModel& model, const fem::PointSet& faces, const PatchSearch<Tool>& search) {
+  search.tool.validate();
+  using Law = HardContactLaw<Tool>;
+  const fem::UnilateralPoints own = fem::withCornerMultipliers(model, faces);
+  model.terms.push_back(std::make_unique<fem::UnilateralTerm<Law>>(
+      Law{search.tool}, own, search.overNothing(own.points.numPoints()), search.pieces(0)));
 }
 
 }  // namespace atrapos::contact

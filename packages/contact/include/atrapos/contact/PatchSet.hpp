@@ -15,6 +15,7 @@ struct Foot {
   int patch = -1;
   double t[2] = {0, 0};
   double distance = 0;  ///< to the nearest point of the set, also where the point is over no patch; >= 0
+  double beyond = 0;    ///< how far the point lies outside the patch's border that the foot is on
 };
 
 /// The patches of one tool on the host: makes the law, finds where points are over it, says what is wrong.

@@ -21,22 +21,23 @@ class EventTerm : public Term {
   /// The subject of a message on a condition's gap: "contact point 3 (of 40) is".
   virtual std::string eventText(int number) const = 0;
 
-  /// Coefficient k of the own conditions' event functions on the series under way: the part that sums to the
-  /// coefficient over all ranks. k = 0 after beginSeries; k >= 1 after addOrder(k), with U_k and lambda_k
-  /// given.
+  /// Coefficient k of the own conditions' event functions on the series under way: the part that sums over
+  /// all ranks, and is to be divided by `covered`, too. k = 0 after beginSeries; k >= 1 after addOrder(k),
+  /// with U_k and lambda_k given.
   virtual std::vector<double> eventOrder(int k, const ConstField& Uk, double lambdaK) const = 0;
+  /// What each own condition has of the surface on the series under way, in such parts: 1 where all of it is
+  /// there, as it is without pieces; 0 of a free condition that has nothing to come into contact with.
+  virtual std::vector<double> covered() const = 0;
 
-  /// The event functions of own conditions that are free, at a state, in such parts; infinity for the others.
-  virtual std::vector<double> gapsAt(const ConstField& u, double lambda) const = 0;
+  /// The event functions of own conditions that are free, at a state, in such parts; zeros for the others.
+  struct MeanGaps {
+    std::vector<double> sum, covered;
+  };
+  virtual MeanGaps gapsAt(const ConstField& u, double lambda) const = 0;
   /// Gaps below this are the rounding of coordinates.
   virtual double touching(const ConstField& u) const = 0;
-
-  /// Whether event functions of the series under way are wrong at a state on it (path::Pieces::eventsAstray).
-  /// `numbers`: of conditions.
-  virtual bool eventsAstray(const ConstField& /*u*/, double /*lambda*/,
-                            const std::vector<int>& /*numbers*/) const {
-    return false;
-  }
+  /// [own condition] not 0: at this state one of its points here is on another piece than in the series.
+  virtual std::vector<double> moved(const ConstField& u, double lambda) const = 0;
 
   /// Whether the own conditions are active, 1, or free, 0.
   virtual void setConditions(const std::vector<int>& conditions) = 0;

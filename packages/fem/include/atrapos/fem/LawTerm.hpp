@@ -7,6 +7,7 @@
 
 #include "atrapos/fem/LawArrays.hpp"
 #include "atrapos/fem/PointPieces.hpp"
+#include "atrapos/fem/Rows.hpp"
 
 namespace atrapos::fem {
 
@@ -90,17 +91,8 @@ class LawTerm final : public Term {
     kept_ = part.entities;
     a_.keep(part, batches_);
     if (!update_) return;
-    const std::size_t each = static_cast<std::size_t>(a_.Q) * D;
-    std::vector<double> data;
-    for (const int e : part.entities)
-      data.insert(data.end(), initialData_.begin() + e * each, initialData_.begin() + (e + 1) * each);
-    initialData_ = std::move(data);
-    if (pieces_) {
-      std::vector<int> points;
-      for (const int e : part.entities)
-        for (int q = 0; q < a_.Q; ++q) points.push_back(e * a_.Q + q);
-      pieces_->keep(points);
-    }
+    initialData_ = rowsOf(initialData_, part.entities, static_cast<std::size_t>(a_.Q) * D);
+    if (pieces_) pieces_->keep(pointsOf(part.entities, a_.Q));
     seriesData_ = View<double*>("seriesData", a_.data.size());
   }
 

@@ -14,6 +14,7 @@
 #include "atrapos/fem/LawArrays.hpp"
 #include "atrapos/fem/Multipliers.hpp"
 #include "atrapos/fem/PointPieces.hpp"
+#include "atrapos/fem/Rows.hpp"
 
 namespace atrapos::fem {
 
@@ -30,7 +31,7 @@ namespace atrapos::fem {
 /// where the pressure at a point is P over its weight.
 /// A law with data (pieces: PieceSearch) has also
 ///     bool exists(const double* data) const;   // false: the point is over nothing, its gap infinite
-/// and a positive constant for h where that is false.
+/// and zeros for its outputs where that is false: mean gaps are those of the points that are over something.
 ///
 /// The unknown r_i is the multiplier as a length: P_i = p_i int psi_i dA = s_i r_i with s_i the body's
 /// stiffness there. The last nodes of an entity are those of its multipliers. The row of r_i reads -s_i g_i =
@@ -106,13 +107,32 @@ class UnilateralTerm final : public EventTerm {
   /// The same with a law that is analytic piece by piece. A law's data: [point][datum].
   UnilateralTerm(const Law& law, const PointSet& points, const std::vector<double>& data, PieceSearch search)
       : UnilateralTerm(law, UnilateralPoints{points, 1, std::vector<double>(points.numPoints(), 1.0)}, data,
-                       std::move(search)) {
-    if (points.pointsPerEntity != 1) throw std::logic_error("UnilateralTerm: pieces need points");
-  }
+                       std::move(search)) {}
 
   /// Conditions over faces.
   UnilateralTerm(const Law& law, const UnilateralPoints& faces) : UnilateralTerm(law, faces, {}, {}) {
     static_assert(D == 0, "a law with data needs the search that keeps them up to date");
+  }
+
+  /// The same with a law that is analytic piece by piece.
+  UnilateralTerm(const Law& law, const UnilateralPoints& faces, const std::vector<double>& data,
+                 PieceSearch search)
+      : entityNodes_(faces.points.nodes),
+        weights_(faces.points.weights),
+        shape_(faces.points.shape),
+        batches_(makeBatches(L, faces.points.numEntities, faces.points.nodesPerEntity, faces.points.nodes)) {
+    const PointSet& points = faces.points;
+    if (faces.conditions > kMaxConditions)
+      throw std::logic_error("UnilateralTerm: too many conditions a face");
+    a_.fill(law, points, data, batches_);
+    a_.M = faces.conditions;
+    findConditions(faces);
+    makeArrays();
+    if constexpr (D > 0) {
+      pieces_ = std::make_unique<PointPieces>(std::move(search), points.numPoints(), data);
+      seriesData_ = View<double*>("seriesData", a_.data.size());
+    }
+    for (const double x : points.positions) a_.extent = std::max(a_.extent, std::abs(x));
   }
 
   int numEntities() const override { return a_.numEntities; }
@@ -134,15 +154,10 @@ class UnilateralTerm final : public EventTerm {
     kept_ = part.entities;
     batches_ = makeBatches(L, static_cast<int>(kept_.size()), a_.N, part.nodes);
     const std::size_t N = a_.N, Q = a_.Q, M = a_.M;
-    const auto select = [&](auto& of, std::size_t each) {
-      auto whole = std::move(of);
-      of.clear();
-      for (const int e : kept_) of.insert(of.end(), whole.begin() + e * each, whole.begin() + (e + 1) * each);
-    };
-    select(weights_, Q);
-    select(shape_, Q * N);
-    select(meanShape_, Q * M);
-    select(conditionOf_, M);
+    weights_ = rowsOf(weights_, kept_, Q);
+    shape_ = rowsOf(shape_, kept_, Q * N);
+    meanShape_ = rowsOf(meanShape_, kept_, Q * M);
+    conditionOf_ = rowsOf(conditionOf_, kept_, M);
     entityNodes_ = part.nodes;
     a_.keep(part, batches_);
     std::vector<int> present = conditionOf_;
@@ -158,7 +173,7 @@ class UnilateralTerm final : public EventTerm {
     active_.assign(numbers_.size(), 0);
     stiffness_.assign(numbers_.size(), 1.0);
     if (pieces_) {
-      pieces_->keep(kept_);
+      pieces_->keep(pointsOf(kept_, a_.Q));
       seriesData_ = View<double*>("seriesData", a_.data.size());
     }
     makeArrays();
@@ -357,51 +372,75 @@ class UnilateralTerm final : public EventTerm {
     if (!pieces_) return {};
     constexpr int stride = seesLambda ? 4 : 3;
     const Arrays a = a_;
-    const View<double*> all("places", static_cast<std::size_t>(a.numEntities) * stride);
+    const View<double*> all("places", static_cast<std::size_t>(a.numEntities) * a.Q * stride);
     forEachBatch(
         "places", batches_, a.order, KOKKOS_LAMBDA(int b) {
           Pack local[3 * kMaxNodes], in[J];
           a.gather(b, u, local);
-          a.inputs(b, 0, local, lambda, true, in);
-          for (int lane = 0; lane < a.lanesIn(b); ++lane) {
-            double* place = &all((static_cast<std::size_t>(b) * L + lane) * stride);
-            for (int i = 0; i < 3; ++i) place[i] = in[i][lane];
-            if (seesLambda) place[3] = lambda;
+          for (int q = 0; q < a.Q; ++q) {
+            a.inputs(b, q, local, lambda, true, in);
+            for (int lane = 0; lane < a.lanesIn(b); ++lane) {
+              double* place = &all((static_cast<std::size_t>(b * L + lane) * a.Q + q) * stride);
+              for (int i = 0; i < 3; ++i) place[i] = in[i][lane];
+              if (seesLambda) place[3] = lambda;
+            }
           }
         });
     const auto host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), all);
     return {host.data(), host.data() + host.size()};
   }
 
-  bool eventsAstray(const ConstField& u, double lambda, const std::vector<int>& numbers) const override {
-    if (!pieces_) return false;
-    const auto in = places(u, lambda);
-    const auto shown = observe(u, lambda);
-    // Roots and states are good to some digits less than coordinates; another piece is further off.
-    const double small = 1e-9 * sizeAt(u);
-    for (int p = 0; p < a_.numEntities; ++p) {
-      if (active_[p] || stiffness_[p] == 0) continue;
-      if (pieces_->pieceAt(p, &in[static_cast<std::size_t>(p) * pieces_->numInputs()]) ==
-          pieces_->pieceOfSeries(p))
-        continue;
-      const double h = shown.values[2 * p];
-      const bool falls = std::find(numbers.begin(), numbers.end(), numbers_[p]) != numbers.end();
-      if (h < -small || (falls && h > small)) return true;
-    }
-    return false;
+  std::vector<double> covered() const override {
+    Arrays a = a_;
+    if (D > 0) a.data = seriesData_;
+    const View<double*> parts("covered", static_cast<std::size_t>(batches_.count) * a.M * L);
+    forEachBatch(
+        "covered", batches_, a.order, KOKKOS_LAMBDA(int b) {
+          for (int m = 0; m < a.M; ++m) {
+            Pack sum(0.0), on;
+            for (int q = 0; q < a.Q; ++q) {
+              for (int lane = 0; lane < L; ++lane) on[lane] = exists(a, b, q, lane);
+              sum += a.weightAt(b, q) * a.meanAt(b, q, m) * on;
+            }
+            sum.store(&parts(a.condition(b, m)));
+          }
+        });
+    const auto own = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), parts);
+    std::vector<double> sums(active_.size(), 0.0);
+    forEachCondition([&](int c, int, std::size_t at) {
+      if (stiffness_[c] != 0 && !active_[c])
+        sums[c] += own(at);
+      else if (tells_[c])
+        sums[c] = 1;
+    });
+    return sums;
   }
 
-  std::vector<double> gapsAt(const ConstField& u, double lambda) const override {
+  std::vector<double> moved(const ConstField& u, double lambda) const override {
+    std::vector<double> found(active_.size(), 0.0);
+    if (!pieces_) return found;
+    const auto in = places(u, lambda);
+    const int stride = pieces_->numInputs(), Q = a_.Q, M = a_.M;
+    for (int p = 0; p < pieces_->numPoints(); ++p)
+      if (pieces_->pieceAt(p, &in[static_cast<std::size_t>(p) * stride]) != pieces_->pieceOfSeries(p))
+        for (int m = 0; m < M; ++m)
+          if (meanShape_[static_cast<std::size_t>(p) * M + m] != 0) found[conditionOf_[p / Q * M + m]] = 1;
+    return found;
+  }
+
+  MeanGaps gapsAt(const ConstField& u, double lambda) const override {
     const auto shown = observe(u, lambda);
-    std::vector<double> gaps(active_.size(), 0.0);
+    MeanGaps gaps{std::vector<double>(active_.size(), 0.0), std::vector<double>(active_.size(), 0.0)};
     const std::size_t Q = a_.Q, M = a_.M;
     forEachCondition([&](int c, int m, std::size_t at) {
-      const std::size_t e = entityAt(at);
-      for (std::size_t q = 0; q < Q; ++q)
-        gaps[c] += weights_[e * Q + q] * meanShape_[(e * Q + q) * M + m] * shown.values[2 * (e * Q + q)];
+      if (stiffness_[c] == 0 || active_[c]) return;
+      for (std::size_t p = entityAt(at) * Q; p < (entityAt(at) + 1) * Q; ++p) {
+        const double part = weights_[p] * meanShape_[p * M + m], h = shown.values[2 * p];
+        if (std::isinf(h)) continue;
+        gaps.sum[c] += part * h;
+        gaps.covered[c] += part;
+      }
     });
-    for (std::size_t c = 0; c < gaps.size(); ++c)
-      if (stiffness_[c] == 0 || active_[c]) gaps[c] = std::numeric_limits<double>::infinity();
     return gaps;
   }
 
@@ -455,8 +494,9 @@ class UnilateralTerm final : public EventTerm {
             a.evaluate(b, q, in, out);
             for (int lane = 0; lane < a.lanesIn(b); ++lane) {
               double* shown = &values(2 * (static_cast<std::size_t>(b * L + lane) * a.Q + q));
-              shown[0] = shownGap(a, b, lane, out[3][lane]);
-              shown[1] = in[3][lane];
+              const bool on = exists(a, b, q, lane);
+              shown[0] = on ? out[3][lane] : std::numeric_limits<double>::infinity();
+              shown[1] = on ? in[3][lane] : 0.0;
             }
           }
         });
@@ -466,26 +506,6 @@ class UnilateralTerm final : public EventTerm {
   }
 
  private:
-  UnilateralTerm(const Law& law, const UnilateralPoints& faces, const std::vector<double>& data,
-                 PieceSearch search)
-      : entityNodes_(faces.points.nodes),
-        weights_(faces.points.weights),
-        shape_(faces.points.shape),
-        batches_(makeBatches(L, faces.points.numEntities, faces.points.nodesPerEntity, faces.points.nodes)) {
-    const PointSet& points = faces.points;
-    if (faces.conditions > kMaxConditions)
-      throw std::logic_error("UnilateralTerm: too many conditions a face");
-    a_.fill(law, points, data, batches_);
-    a_.M = faces.conditions;
-    findConditions(faces);
-    makeArrays();
-    if constexpr (D > 0) {
-      pieces_ = std::make_unique<PointPieces>(std::move(search), points.numPoints(), data);
-      seriesData_ = View<double*>("seriesData", a_.data.size());
-    }
-    for (const double x : points.positions) a_.extent = std::max(a_.extent, std::abs(x));
-  }
-
   /// The conditions are numbered as their nodes are.
   void findConditions(const UnilateralPoints& faces) {
     const std::size_t N = a_.N, Q = a_.Q, M = a_.M, entities = a_.numEntities;
@@ -583,13 +603,14 @@ class UnilateralTerm final : public EventTerm {
     return a;
   }
 
-  KOKKOS_INLINE_FUNCTION static double shownGap(const Arrays& a, int b, int lane, double h) {
+  /// Whether a point is over something, by the data of the arrays.
+  KOKKOS_INLINE_FUNCTION static bool exists(const Arrays& a, int b, int q, int lane) {
     if constexpr (D > 0) {
       double data[D];
-      a.lanesOf(a.dataAt(b, 0), D, lane, data);
-      if (!a.law.exists(data)) return std::numeric_limits<double>::infinity();
+      a.lanesOf(a.dataAt(b, q), D, lane, data);
+      return a.law.exists(data);
     }
-    return h;
+    return true;
   }
 
   /// The largest coordinate and displacement.
