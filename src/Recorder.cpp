@@ -236,6 +236,7 @@ void Recorder::printStep(const path::StepReport& r) const {
       events += ": the directions of its branches are not known, none is followed";
     events += "; ";
   }
+  if (r.jump > 0) events += fmt::format("forces jump by {:.2g} at a border of patches; ", r.jump);
   if (r.unexplained > 0)
     events += fmt::format("{} eigenvalue(s) changed sign at a place not found; ", r.unexplained);
   if (!events.empty()) events.resize(events.size() - 2);

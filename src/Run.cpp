@@ -68,7 +68,9 @@ class Single final : public path::Observer {
     last.criticalFactorizations += first.criticalFactorizations;
     last.closings += first.closings;
     last.cutBacks += first.cutBacks;
+    last.jumps += first.jumps;
     last.worstResidual = std::max(last.worstResidual, first.worstResidual);
+    last.worstJump = std::max(last.worstJump, first.worstJump);
     last.seconds.tangent += first.seconds.tangent;
     last.seconds.analysis += first.seconds.analysis;
     last.seconds.factor += first.seconds.factor;

@@ -17,6 +17,7 @@ path::Options pathOptions(const PathCase& pathCase) {
   options.autoOrder = path.autoOrder;
   options.delta = path.accuracy;
   options.residualBound = path.residual;
+  options.jumpBound = path.jump;
   options.direction = path.direction * pathCase.direction();
   options.weight = path.weight;
   options.pade = path.pade;

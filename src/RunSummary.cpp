@@ -111,9 +111,14 @@ nlohmann::ordered_json runSummary(const PathCase& pathCase, const path::BranchDi
   json["cut_backs"] = sum(diagram, &Outcome::cutBacks);
   json["residual_bound"] = deck.path.residual;
   json["worst_residual"] = recorder.worstResidual();
-  double worst = 0;
-  for (const path::Branch& b : diagram.branches) worst = std::max(worst, b.outcome.worstResidual);
+  double worst = 0, worstJump = 0;
+  for (const path::Branch& b : diagram.branches) {
+    worst = std::max(worst, b.outcome.worstResidual);
+    worstJump = std::max(worstJump, b.outcome.worstJump);
+  }
   json["worst_residual_at_step_ends"] = worst;
+  json["jumps"] = sum(diagram, &Outcome::jumps);
+  json["worst_jump"] = worstJump;
   json["limit_points"] = recorder.limitPoints();
   json["bifurcation_points"] = diagram.points.size();
   json["unexplained_sign_changes"] = recorder.unexplained();

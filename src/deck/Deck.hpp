@@ -336,9 +336,10 @@ struct Path {
   /// Newton steps: largest distance of the path from the cubic between their ends; empty: only the ends are
   /// wanted.
   std::optional<double> cubicAccuracy;
-  double residual = 1e-6;        ///< bound of the relative residual
-  int direction = 1;             ///< sign of the load factor's first change
-  std::optional<double> weight;  ///< w of the path parameter, > 0; empty = by the first step
+  double residual = 1e-6;                   ///< bound of the relative residual
+  double jump = path::Options{}.jumpBound;  ///< the same where points go on to another patch
+  int direction = 1;                        ///< sign of the load factor's first change
+  std::optional<double> weight;             ///< w of the path parameter, > 0; empty = by the first step
   path::PadeUse pade = path::Options{}.pade;
   Critical criticalPoints = Critical::Automatic;
   path::Follow branches = path::Follow::none;

@@ -19,6 +19,7 @@ const Check any{[](double) { return true; }, "finite"};
 const Check positive{[](double x) { return x > 0; }, "positive"};
 const Check nonzero{[](double x) { return x != 0; }, "different from zero"};
 const Check fraction{[](double x) { return x > 0 && x < 1; }, "above 0 and below 1"};
+const Check fractionOrZero{[](double x) { return x >= 0 && x < 1; }, "at least 0 and below 1"};
 const Check count{[](double x) { return x >= 1; }, "at least 1"};
 const Check natural{[](double x) { return x >= 0; }, "at least 0"};
 const Check order{[](double x) { return x >= 1 && x <= 60; }, "from 1 to 60"};

@@ -233,6 +233,10 @@ Table<Path> pathKeys(const Table<Stop>& stops, Need needStop, bool ofModel) {
       ofSeries(orderOrAuto()),
       accuracyOfMethod(),
       real("residual", optional, &Path::residual, check::fraction, "bound of the relative residual"),
+      ofSeries(
+          real("jump", optional, &Path::jump, check::fractionOrZero,
+               "largest relative residual that is corrected where contact points go on to another patch of "
+               "their tool; 0: the path ends there")),
       integer("direction", optional, &Path::direction, check::direction,
               "1: the load factor first grows, -1: falls; of model problems: its own sense, or the other"),
       real("weight", &Path::weight, check::positive,

@@ -249,6 +249,55 @@ TEST_F(Slide, BreaksAreAtTheBorderAndRestart) {
   }
 }
 
+/// Two plates that meet at x = 0.55 under an angle; the second one rises with this slope, from `step` above
+/// the first.
+std::vector<BezierPatch> creased(double slope, double step) {
+  std::vector<BezierPatch> plates(2);
+  plates[0].points = {{-1, -1, -0.05}, {-1, 2, -0.05}, {0.55, -1, -0.05}, {0.55, 2, -0.05}};
+  const double low = -0.05 + step, high = low + slope * 1.45;
+  plates[1].points = {{0.55, -1, low}, {0.55, 2, low}, {2, -1, high}, {2, 2, high}};
+  return plates;
+}
+
+// What modellers leave where faces meet: tangents off by 2e-3 either way, a gap of 2e-6. Pressed points come
+// over it, forces jump by some 1e-4, and the path goes on from the corrected state. Beyond a thousandth of
+// the forces, or where none is allowed, it ends.
+TEST_F(Slide, ASlightCreaseIsPassed) {
+  const auto run = [&](double slope, double step, double jumpBound) {
+    fem::FeModel model = slid(mesh);
+    addContact(model, points, setOf(creased(slope, step)), 1e-3);
+    fem::FeProblem problem(std::move(model));
+    const auto solver = linear::makeTangentSolver();
+    path::Stops stops;
+    stops.loadFactors = {1.0};
+    auto options = tightOptions(1e-8);
+    options.jumpBound = jumpBound;
+    NoObserver observer;
+    return path::PathFollower(problem, *solver, options, stops).run({problem.initialState(0), 0.0}, observer);
+  };
+  const auto flat = run(0, 0, 1e-3);
+  ASSERT_EQ(flat.reason, path::EndReason::stopReached) << flat.text;
+  EXPECT_EQ(flat.jumps, 0);
+  const Numbers u = fem::FeProblem::values(*flat.final.u);
+  for (const double slope : {2e-3, -2e-3}) {
+    const auto end = run(slope, -2e-6, 1e-3);
+    ASSERT_EQ(end.reason, path::EndReason::stopReached) << end.text;
+    EXPECT_GE(end.jumps, 2);
+    EXPECT_GT(end.worstJump, 1e-6);
+    EXPECT_LT(end.worstJump, 1e-3);
+    EXPECT_LE(end.worstResidual, 1e-8);
+    const Numbers v = fem::FeProblem::values(*end.final.u);
+    // The plate is 1.9e-3 higher or lower where the block ends, at x = 1.5.
+    for (std::size_t i = 0; i < u.size(); ++i) EXPECT_NEAR(v[i], u[i], 2.2e-3);
+    const auto strict = run(slope, -2e-6, 0);
+    EXPECT_EQ(strict.reason, path::EndReason::problemFailed);
+    EXPECT_NE(strict.text.find("the surface has a crease or a gap there"), std::string::npos) << strict.text;
+  }
+  const auto sharp = run(0.2, 0, 1e-3);
+  EXPECT_EQ(sharp.reason, path::EndReason::problemFailed);
+  EXPECT_NE(sharp.text.find("the surface has a crease or a gap there"), std::string::npos) << sharp.text;
+}
+
 /// Keeps how every step ended.
 struct Ends final : path::Observer {
   std::vector<path::Start> next;

@@ -139,7 +139,11 @@ PieceTerms::Place PieceTerms::placeOf(int index) const {
 
 bool PieceTerms::continues(const path::Vector& u, double lambda, int index) const {
   const Place at = placeOf(index);
-  return pieceAt(*at.entry, at.point, u, lambda) == pieceOfSeries(*at.entry, at.point);
+  const int own = pieceOfSeries(*at.entry, at.point);
+  const int prefers = ofPoint(*at.entry, at.point, [&](int p) { return at.entry->pieces->preferred()[p]; });
+  // High above a crease a point may prefer a piece that it is not over: its place alone decides.
+  if (prefers == at.piece && own != at.piece) return true;
+  return pieceAt(*at.entry, at.point, u, lambda) == own;
 }
 
 std::string PieceTerms::text(int index) const {

@@ -22,6 +22,7 @@ void Options::validate() const {
   require(direction == 1 || direction == -1, "direction", direction, "+1 or -1");
   if (weight) require(positive(*weight), "weight", *weight, "positive and finite");
   require(positive(residualBound), "residualBound", residualBound, "positive and finite");
+  require(jumpBound >= 0 && jumpBound < 1, "jumpBound", jumpBound, "in [0, 1)");
   require(correctAbove > 0 && correctAbove <= 1, "correctAbove", correctAbove, "in (0, 1]");
   require(maxCorrections >= 0, "maxCorrections", maxCorrections, ">= 0");
   require(maxStartIterations >= 0, "maxStartIterations", maxStartIterations, ">= 0");

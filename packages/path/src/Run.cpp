@@ -102,7 +102,9 @@ bool Run::step() {
     throw;
   }
   report.residualOfSeries = trial.residual;
-  correct(series, trial, report, correctAbove());
+  // A break stays on its border, where it is told which way the path goes on.
+  const bool atBreak = !trial.events.empty() && trial.events.back() >= calls_.problem().eventCount();
+  if (!atBreak) correct(series, trial, report, correctAbove());
   stop_ = trial.stop;
   due_ = trial.events;
   accept(std::move(trial), std::move(report), std::move(series));

@@ -99,6 +99,8 @@ class Run {
   std::vector<int> falling(const Series& series, const std::vector<int>& candidates, double sense);
   std::vector<int> overdue(const Series& series) const;
   Series seriesOfChoice(const std::vector<int>& chosen = {});
+  bool passesStop(const State& from, const State& to) const;
+  bool passJump();
   Series seriesAfterEvents(StepReport& report);
   Series seriesAfterRestart();
 
@@ -153,6 +155,7 @@ class Run {
   std::vector<int> applied_;  ///< applied at the state: their functions start at zero
   bool turned_ = false;       ///< lambda goes the other way after the events
   std::string mechanism_;     ///< the null vector of a singular start that was left aside
+  double jump_ = 0;           ///< the residual that passJump has corrected at this state
   int standing_ = 0;          ///< events in a row without a step of sensible length
   int padeFailures_ = 0;      ///< steps in a row that the rational form did not lengthen
   int padeWait_ = 0;          ///< steps until it is tried again

@@ -7,7 +7,9 @@
 
 #include <Tpetra_Vector.hpp>
 
+#include "Newton.hpp"
 #include "Run.hpp"
+#include "atrapos/linear/Dot.hpp"
 
 namespace atrapos::path {
 
@@ -123,12 +125,58 @@ std::vector<int> Run::falling(const Series& series, const std::vector<int>& cand
   return violated;
 }
 
+/// Whether a stop lies between two states.
+bool Run::passesStop(const State& from, const State& to) const {
+  const auto between = [](double value, double a, double b) {
+    return (value - a) * (value - b) <= 0 && a != b;
+  };
+  for (const double lambda : stops_.loadFactors)
+    if (between(lambda, from.lambda, to.lambda)) return true;
+  for (const StopFunctional& f : stops_.functionals)
+    if (between(f.value, linear::dot(*f.weights, *from.u), linear::dot(*f.weights, *to.u))) return true;
+  return false;
+}
+
+/// A break at which forces jump a little, or a contact that closes where a gap does: Newton corrections lead
+/// on to the path beyond. Where forces that rise turn the state back over the border, its path begins a
+/// little ahead. False, and nothing changed, where they jump by more than Options::jumpBound, the corrections
+/// do not converge or would miss a stop.
+bool Run::passJump() {
+  if (!(residual_ <= options_.jumpBound)) return false;
+  constexpr int maxIterations = 10, maxHalvings = 0;
+  const bool along = tangent_ && weight_;
+  const Border border = along ? holdPathParameter(calls_.problem(), *weight_, *tangent_) : holdLoad();
+  for (const double ahead : {0.0, 1e-4, 1e-3}) {
+    if (ahead > 0 && !along) break;
+    State state{copy(*outcome_.final.u), outcome_.final.lambda};
+    if (ahead > 0) {
+      state.u->update(ahead * lastLength_, *tangent_->x.u, 1);
+      state.lambda += ahead * lastLength_ * tangent_->lambda;
+    }
+    auto r = copy(*r_);
+    const auto result = newton(calls_, state, *r, border, correctAbove(), maxIterations, maxHalvings);
+    outcome_.corrections += result.iterations;
+    if (pending_) pending_->corrections += result.iterations;
+    if (!result.converged) continue;
+    if (passesStop(outcome_.final, state)) return false;
+    jump_ = residual_;
+    outcome_.final = state;
+    r_ = r;
+    residual_ = result.residual;
+    return true;
+  }
+  return false;
+}
+
 /// The series of the Problem as it is, in the sense that led here; `chosen` has just been applied.
 Series Run::seriesOfChoice(const std::vector<int>& chosen) {
   relaxOver_ = 0;
+  jump_ = 0;
   residual_ = calls_.residual(outcome_.final, *r_).relative();
+  const auto isBreak = [&](int i) { return i >= calls_.problem().eventCount(); };
+  if (residual_ > bound() && !chosen.empty() && calls_.hasPieces()) passJump();
   for (const int i : chosen)
-    if (!(residual_ <= boundAtEvents()) && i >= calls_.problem().eventCount())
+    if (!(residual_ <= boundAtEvents()) && isBreak(i))
       throw PathError(EndReason::problemFailed,
                       line("at lambda = ", outcome_.final.lambda, ": ", calls_.breakText(i)));
   if (!(residual_ <= boundAtEvents()))
@@ -177,13 +225,19 @@ Series Run::seriesAfterEvents(StepReport& report) {
     std::vector<int> falls[2];
   };
   std::map<std::vector<int>, Choice> tried;
+  std::string crease;  // of a jump behind which no sense was admissible
   const int senses = tangent_ ? 2 : 1;
   std::optional<Series> found;
   const auto attempt = [&](const std::vector<int>& chosen) -> const Choice& {
     const auto [at, isNew] = tried.try_emplace(chosen);
     Choice& choice = at->second;
     if (!isNew) return choice;
-    calls_.applyEvent(chosen, outcome_.final);
+    const State before = outcome_.final;
+    const auto undo = [&] {
+      outcome_.final = before;
+      calls_.applyEvent(chosen, before);
+    };
+    calls_.applyEvent(chosen, before);
     try {
       const Series series = seriesOfChoice(chosen);
       for (int s = 0; s < senses && !found; ++s) {
@@ -193,7 +247,7 @@ Series Run::seriesAfterEvents(StepReport& report) {
     } catch (const PathError& error) {
       // A set of constraints that depend on each other, or a mechanism: another choice.
       if (error.reason() != EndReason::singularTangent) {
-        calls_.applyEvent(chosen, outcome_.final);
+        undo();
         due_ = due;  // as the step left it, for who goes on from there
         throw;
       }
@@ -202,12 +256,18 @@ Series Run::seriesAfterEvents(StepReport& report) {
     if (found) {
       applied_ = candidates;
       if (!chosen.empty()) ++outcome_.events;
+      if (jump_ > 0) ++outcome_.jumps;
+      outcome_.worstJump = std::max(outcome_.worstJump, jump_);
+      if (pending_) pending_->jump = jump_;
       turned_ = tangent_ && (tangent_->lambda > 0) != (found->lambdaCoefficient(1) > 0);
       if (pending_) pending_->events = difference(pending_->events, chosen);
     } else {
+      // Breaks have the last indices.
+      if (jump_ > 0 && chosen.back() >= calls_.problem().eventCount())
+        crease = calls_.breakText(chosen.back());
       ++outcome_.eventTrials;
       ++report.restarts;
-      calls_.applyEvent(chosen, outcome_.final);
+      undo();
     }
     return choice;
   };
@@ -237,6 +297,8 @@ Series Run::seriesAfterEvents(StepReport& report) {
   }
   if (found) return *found;
   due_ = due;
+  if (!crease.empty())
+    throw PathError(EndReason::problemFailed, line("at lambda = ", outcome_.final.lambda, ": ", crease));
   throw PathError(EndReason::noAdmissibleDirection,
                   line("at lambda = ", outcome_.final.lambda, ": no choice among the ", count,
                        " event(s) there lets the path go on"));

@@ -31,6 +31,11 @@ struct Options {
 
   double residualBound = 1e-6;  ///< largest relative residual accepted at the end of a step
 
+  /// Where a path goes on to another piece (Pieces) on which its state has a relative residual up to this, in
+  /// [0, 1), forces jump there, as at a slight crease of a surface: Newton corrections lead on to the path
+  /// beyond. Where they jump by more the path ends.
+  double jumpBound = 1e-3;
+
   /// The residual left at a step's start is taken to zero along the step: order 1 gets -R0 / (last length) on
   /// its right-hand side. Costs one solve and no factorization, and does most of what Newton corrections do.
   bool relaxResidual = true;

@@ -109,6 +109,9 @@ struct StepReport {
   /// on; see Pieces), that were applied: the Problem is the changed one already. An observer that evaluates
   /// it inside the step applies them again before, and once more after.
   std::vector<int> events;
+  /// Relative residual of `end` on the piece that the path goes on to, where forces jump and corrections were
+  /// needed (Options::jumpBound): the next step does not start from `end`. Else 0.
+  double jump = 0;
   std::vector<CriticalPoint> criticalPoints;  ///< bifurcation points inside the step, ascending
   /// Eigenvalues that changed sign inside the step and are explained by no point found: the tangent says that
   /// there is a bifurcation, its place is not known.
@@ -188,15 +191,17 @@ struct Outcome : Work {
   std::string text;  ///< one line
   int steps = 0;
   int startIterations = 0;         ///< Newton iterations before the first step
-  int corrections = 0;             ///< Newton iterations at the ends of steps
+  int corrections = 0;             ///< Newton iterations at the ends of steps, and beyond breaks
   int restarts = 0;                ///< singular tangents met at the start of a step
   int retreats = 0;                ///< steps halved because the direction at their end was another one
   int criticalFactorizations = 0;  ///< spent on locating critical points
   int events = 0;                  ///< applied
+  int jumps = 0;                   ///< passed by corrections (StepReport::jump)
   int eventTrials = 0;             ///< factorizations of changes that turned out not to be admissible
   int closings = 0;                ///< factorizations at the path's end, for its inertia
   int cutBacks = 0;
   double worstResidual = 0;  ///< largest relative residual at the end of a step
+  double worstJump = 0;      ///< largest StepReport::jump
   double weight = 0;         ///< w of the path parameter; 0 where no step was started
   double pathLength = 0;
   State final;  ///< the last accepted state
