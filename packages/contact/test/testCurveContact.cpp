@@ -28,6 +28,12 @@ fem::FeModel column(const fem::Mesh& mesh) {
   return model;
 }
 
+/// x but for the two dofs of a multiplier's node that are held.
+Numbers withoutHeld(const fem::Mesh& mesh, Numbers x) {
+  for (std::size_t d = mesh.coordinates.size(); d < x.size(); d += 3) x[d + 1] = x[d + 2] = 0;
+  return x;
+}
+
 struct Result {
   double w = 0, force = 0;
   path::Outcome outcome;
@@ -97,11 +103,7 @@ TEST(CurveContact, TangentIsTheSymmetricDerivativeOfTheResidual) {
   addCurveContact(model, points, tool, {1e-1, 1e-1}, Numbers(points.numPoints(), 0.05));
   fem::FeProblem problem(std::move(model));
   const std::size_t dofs = fem::FeProblem::values(*problem.initialState(0)).size();
-  const auto without = [&](Numbers x) {  // the two dofs of a multiplier's node that are held
-    for (std::size_t d = mesh.coordinates.size(); d < x.size(); d += 3) x[d + 1] = x[d + 2] = 0;
-    return x;
-  };
-  Numbers u = without(fem::test::randomNumbers(dofs, 0.08, 5));
+  Numbers u = withoutHeld(mesh, fem::test::randomNumbers(dofs, 0.08, 5));
   for (std::size_t d = mesh.coordinates.size(); d < dofs; d += 3) u[d] *= 10;  // t between -0.8 and 0.8
   const double lambda = 0.3;
   const auto K = fem::test::tangent(problem, u, lambda);
@@ -110,7 +112,7 @@ TEST(CurveContact, TangentIsTheSymmetricDerivativeOfTheResidual) {
     for (std::size_t e = K.start[i]; e < K.start[i + 1]; ++e)
       // Sums of some 100 rounded products.
       ASSERT_NEAR(K.value[e], K.at(K.column[e], static_cast<int>(i)), 1e-13 * largest);
-  expectDerivative(problem, K, u, lambda, without(fem::test::randomNumbers(dofs, 1, 6)), 0.7, 4e-3);
+  expectDerivative(problem, K, u, lambda, withoutHeld(mesh, fem::test::randomNumbers(dofs, 1, 6)), 0.7, 4e-3);
 }
 
 namespace {
@@ -121,11 +123,6 @@ fem::FeModel pushed(const fem::Mesh& mesh, double aside) {
   for (int n : fem::test::nodesOfSet(mesh, "z_max"))
     for (int i = 0; i < 3; ++i) model.supports.prescribe(n, i, 0, i == 2 ? -0.12 : i == 0 ? aside : 0);
   return model;
-}
-
-PatchSearch<PatchTool> searchOf(const std::vector<BezierPatch>& patches) {
-  const auto set = std::make_shared<const PatchSet>(patches);
-  return {set, set->tool()};
 }
 
 Numbers bodyOf(const fem::Mesh& mesh, const path::Outcome& outcome) {
@@ -214,15 +211,11 @@ TEST(CurveContact, TangentOnMovingPatches) {
                   Numbers(points.numPoints(), 0.05));
   fem::FeProblem problem(std::move(model));
   const std::size_t dofs = fem::FeProblem::values(*problem.initialState(0)).size();
-  const auto without = [&](Numbers x) {  // the two dofs of a multiplier's node that are held
-    for (std::size_t d = mesh.coordinates.size(); d < x.size(); d += 3) x[d + 1] = x[d + 2] = 0;
-    return x;
-  };
-  Numbers u = without(fem::test::randomNumbers(dofs, 0.08, 5));
+  Numbers u = withoutHeld(mesh, fem::test::randomNumbers(dofs, 0.08, 5));
   for (std::size_t d = mesh.coordinates.size(); d < dofs; d += 3) u[d] *= 10;
   const double lambda = 0.3;
   const auto K = fem::test::tangent(problem, u, lambda);
-  expectDerivative(problem, K, u, lambda, without(fem::test::randomNumbers(dofs, 1, 6)), 0.7, 4e-3);
+  expectDerivative(problem, K, u, lambda, withoutHeld(mesh, fem::test::randomNumbers(dofs, 1, 6)), 0.7, 4e-3);
 }
 
 TEST(CurveContact, RefusesAGapBelowTheBound) {

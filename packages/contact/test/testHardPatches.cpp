@@ -41,11 +41,6 @@ std::vector<BezierPatch> plateAndArc(double border) {
   return {plate(-1, border), plate(border, 1.05), arc};
 }
 
-PatchSearch<PatchTool> searchOf(const std::vector<BezierPatch>& patches) {
-  const auto set = std::make_shared<const PatchSet>(patches);
-  return {set, set->tool()};
-}
-
 struct Seen final : path::Observer {
   std::vector<path::StepReport> steps;
   bool onStep(const path::StepReport& report, const path::Series&) override {

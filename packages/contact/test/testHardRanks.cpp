@@ -38,8 +38,7 @@ PatchSearch<PatchTool> plateAndArc(double border) {
   arc.degree = {2, 1};
   arc.points = {{border, -1, -0.05}, {border, 2, -0.05}, {1.7, -1, -0.05},
                 {1.7, 2, -0.05},     {2.4, -1, 0},       {2.4, 2, 0}};
-  const auto set = std::make_shared<const PatchSet>(std::vector<BezierPatch>{plate, arc});
-  return {set, set->tool()};
+  return searchOf({plate, arc});
 }
 
 enum class Kind { points, faces, patches, patchFaces, softPatches };

@@ -140,9 +140,9 @@ PieceTerms::Place PieceTerms::placeOf(int index) const {
 bool PieceTerms::continues(const path::Vector& u, double lambda, int index) const {
   const Place at = placeOf(index);
   const int own = pieceOfSeries(*at.entry, at.point);
-  const int prefers = ofPoint(*at.entry, at.point, [&](int p) { return at.entry->pieces->preferred()[p]; });
   // High above a crease a point may prefer a piece that it is not over: its place alone decides.
-  if (prefers == at.piece && own != at.piece) return true;
+  const auto prefers = [&](int p) { return at.entry->pieces->preferred()[p]; };
+  if (own != at.piece && ofPoint(*at.entry, at.point, prefers) == at.piece) return true;
   return pieceAt(*at.entry, at.point, u, lambda) == own;
 }
 

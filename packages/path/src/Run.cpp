@@ -103,7 +103,7 @@ bool Run::step() {
   }
   report.residualOfSeries = trial.residual;
   // A break stays on its border, where it is told which way the path goes on.
-  const bool atBreak = !trial.events.empty() && trial.events.back() >= calls_.problem().eventCount();
+  const bool atBreak = !trial.events.empty() && isBreak(trial.events.back());
   if (!atBreak) correct(series, trial, report, correctAbove());
   stop_ = trial.stop;
   due_ = trial.events;

@@ -121,6 +121,9 @@ class Run {
   void correct(const Series& series, Trial& trial, StepReport& report, double above);
   Border borderAt(const Series& series, double a, const std::optional<StopHit>& stop);
 
+  /// Of the indices of events: breaks come behind the event functions.
+  bool isBreak(int i) const { return i >= calls_.problem().eventCount(); }
+
   double bound() const { return options_.residualBound; }
   /// The states of a path meet the bound but for what an event that has just been applied adds to a residual.
   double boundAtEvents() const { return 10 * bound(); }

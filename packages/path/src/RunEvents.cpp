@@ -173,7 +173,6 @@ Series Run::seriesOfChoice(const std::vector<int>& chosen) {
   relaxOver_ = 0;
   jump_ = 0;
   residual_ = calls_.residual(outcome_.final, *r_).relative();
-  const auto isBreak = [&](int i) { return i >= calls_.problem().eventCount(); };
   if (residual_ > bound() && !chosen.empty() && calls_.hasPieces()) passJump();
   for (const int i : chosen)
     if (!(residual_ <= boundAtEvents()) && isBreak(i))
@@ -262,9 +261,7 @@ Series Run::seriesAfterEvents(StepReport& report) {
       turned_ = tangent_ && (tangent_->lambda > 0) != (found->lambdaCoefficient(1) > 0);
       if (pending_) pending_->events = difference(pending_->events, chosen);
     } else {
-      // Breaks have the last indices.
-      if (jump_ > 0 && chosen.back() >= calls_.problem().eventCount())
-        crease = calls_.breakText(chosen.back());
+      if (jump_ > 0 && isBreak(chosen.back())) crease = calls_.breakText(chosen.back());
       ++outcome_.eventTrials;
       ++report.restarts;
       undo();

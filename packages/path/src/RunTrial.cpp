@@ -42,7 +42,7 @@ bool Run::astray(const Trial& trial) {
   if (!calls_.hasPieces() || calls_.problem().eventCount() == 0) return false;
   std::vector<int> functions;
   for (const int i : trial.events)
-    if (i < calls_.problem().eventCount()) functions.push_back(i);
+    if (!isBreak(i)) functions.push_back(i);
   return calls_.eventsAstray(trial.state, functions);
 }
 

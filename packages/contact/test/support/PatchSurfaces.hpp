@@ -114,6 +114,12 @@ inline std::vector<BezierPatch> halves(const BezierPatch& patch, int d) {
   return both;
 }
 
+/// The search on these patches, with their tool.
+inline PatchSearch<PatchTool> searchOf(const std::vector<BezierPatch>& patches) {
+  const auto set = std::make_shared<const PatchSet>(patches);
+  return {set, set->tool()};
+}
+
 /// Gap and normal by the law from a global search; NaN where the point is over no patch.
 inline std::array<double, 4> project(const PatchSet& set, const Vector3& x) {
   const auto data = set.locate(x.data());
