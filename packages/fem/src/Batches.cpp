@@ -6,45 +6,63 @@
 
 namespace atrapos::fem {
 
-Batches makeBatches(int lanes, int numEntities, int nodesPerEntity, const std::vector<int>& nodes) {
-  Batches batches;
-  batches.lanes = lanes;
-  batches.count = (numEntities + lanes - 1) / lanes;
+namespace {
+
+constexpr int longestChunk = 16;
+constexpr int chunksForAColour = 32;
+
+Batches colour(Batches batches, int nodesPerEntity, const std::vector<int>& nodes) {
+  const int numChunks = batches.chunks();
   const int numNodes = nodes.empty() ? 0 : *std::max_element(nodes.begin(), nodes.end()) + 1;
+  const std::size_t nodesOfChunk =
+      static_cast<std::size_t>(batches.perChunk) * batches.lanes * nodesPerEntity;
 
   // One bit a colour, 64 colours at a time: neighbours in a mesh's own order need few, elements numbered at
-  // random more; the batches left over take the next 64.
-  std::vector<int> colourOf(batches.count), left(batches.count), later;
+  // random more; the chunks left over take the next 64.
+  std::vector<int> colourOf(numChunks), left(numChunks), later;
   std::iota(left.begin(), left.end(), 0);
   int numColours = 0;
   for (int base = 0; !left.empty(); base += 64) {
     std::vector<std::uint64_t> usedAt(numNodes, 0);
     later.clear();
-    for (int b : left) {
-      const std::size_t first = static_cast<std::size_t>(b) * lanes * nodesPerEntity;
-      const std::size_t last =
-          std::min<std::size_t>(first + static_cast<std::size_t>(lanes) * nodesPerEntity, nodes.size());
+    for (int chunk : left) {
+      const std::size_t first = chunk * nodesOfChunk;
+      const std::size_t last = std::min(first + nodesOfChunk, nodes.size());
       std::uint64_t used = 0;
       for (std::size_t i = first; i < last; ++i) used |= usedAt[nodes[i]];
       int colour = 0;
       while (colour < 64 && (used >> colour & 1)) ++colour;
       if (colour == 64) {
-        later.push_back(b);
+        later.push_back(chunk);
         continue;
       }
       for (std::size_t i = first; i < last; ++i) usedAt[nodes[i]] |= std::uint64_t{1} << colour;
-      colourOf[b] = base + colour;
+      colourOf[chunk] = base + colour;
       numColours = std::max(numColours, base + colour + 1);
     }
     left.swap(later);
   }
   for (int c = 0; c < numColours; ++c) {
     batches.colourStart.push_back(static_cast<int>(batches.order.size()));
-    for (int b = 0; b < batches.count; ++b)
-      if (colourOf[b] == c) batches.order.push_back(b);
+    for (int chunk = 0; chunk < numChunks; ++chunk)
+      if (colourOf[chunk] == c) batches.order.push_back(chunk);
   }
   batches.colourStart.push_back(static_cast<int>(batches.order.size()));
   return batches;
+}
+
+}  // namespace
+
+Batches makeBatches(int lanes, int numEntities, int nodesPerEntity, const std::vector<int>& nodes) {
+  Batches plain;
+  plain.lanes = lanes;
+  plain.count = (numEntities + lanes - 1) / lanes;
+  for (plain.perChunk = longestChunk; plain.perChunk > 1; plain.perChunk /= 2) {
+    auto batches = colour(plain, nodesPerEntity, nodes);
+    if (batches.chunks() >= chunksForAColour * static_cast<int>(batches.colourStart.size() - 1))
+      return batches;
+  }
+  return colour(plain, nodesPerEntity, nodes);
 }
 
 }  // namespace atrapos::fem

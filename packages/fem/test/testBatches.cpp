@@ -12,22 +12,23 @@ using namespace atrapos::fem::test;
 
 namespace {
 
-/// Every batch once, and no node in two batches of a colour.
+/// Every chunk once, and no node in two chunks of a colour.
 void check(const Batches& batches, int numEntities, int nodesPerEntity, const std::vector<int>& nodes) {
   ASSERT_EQ(batches.count, (numEntities + batches.lanes - 1) / batches.lanes);
   std::vector<int> sorted = batches.order;
   std::sort(sorted.begin(), sorted.end());
-  ASSERT_EQ(static_cast<int>(sorted.size()), batches.count);
-  for (int b = 0; b < batches.count; ++b) ASSERT_EQ(sorted[b], b);
+  ASSERT_EQ(static_cast<int>(sorted.size()), batches.chunks());
+  for (int b = 0; b < batches.chunks(); ++b) ASSERT_EQ(sorted[b], b);
   ASSERT_EQ(batches.colourStart.front(), 0);
-  ASSERT_EQ(batches.colourStart.back(), batches.count);
+  ASSERT_EQ(batches.colourStart.back(), batches.chunks());
+  const int entities = batches.perChunk * batches.lanes;  // of a chunk
   for (std::size_t c = 0; c + 1 < batches.colourStart.size(); ++c) {
     ASSERT_LT(batches.colourStart[c], batches.colourStart[c + 1]) << "an empty colour";
     std::set<int> taken;
     for (int i = batches.colourStart[c]; i < batches.colourStart[c + 1]; ++i) {
       std::set<int> own;
-      const int first = batches.order[i] * batches.lanes;
-      for (int e = first; e < std::min(first + batches.lanes, numEntities); ++e)
+      const int first = batches.order[i] * entities;
+      for (int e = first; e < std::min(first + entities, numEntities); ++e)
         own.insert(nodes.begin() + e * nodesPerEntity, nodes.begin() + (e + 1) * nodesPerEntity);
       for (int n : own) ASSERT_TRUE(taken.insert(n).second) << "node " << n << " twice in colour " << c;
     }
@@ -68,6 +69,20 @@ TEST(Batches, ElementsInRandomOrder) {
   const auto batches = makeBatches(8, count, 4, nodes);
   check(batches, count, 4, nodes);
   EXPECT_GT(batches.colourStart.size() - 1, 64u) << "this mesh no longer tests more than 64 colours";
+}
+
+// A large mesh in its own order is worked through in chunks, a small one and one in random order are not.
+TEST(Batches, ChunksLeaveWorkForManyThreads) {
+  for (const int each : {4, 12, 40}) {
+    const Block block = box(Topology::Hex8, {each, each, each}).blocks[0];
+    const int count = each * each * each;
+    const auto batches = makeBatches(8, count, 8, block.nodes);
+    check(batches, count, 8, block.nodes);
+    const int colours = static_cast<int>(batches.colourStart.size()) - 1;
+    if (each == 4) EXPECT_EQ(batches.perChunk, 1);
+    if (each == 40) EXPECT_GT(batches.perChunk, 4);
+    if (batches.perChunk > 1) EXPECT_GE(batches.chunks(), 32 * colours);
+  }
 }
 
 TEST(Batches, NothingToDo) {

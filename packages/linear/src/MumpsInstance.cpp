@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string>
 
 #include "OrderingOnRoot.hpp"
 #include "atrapos/linear/BlasThreads.hpp"
@@ -23,6 +24,12 @@ bool needsWorkspace(int code) { return code == -8 || code == -9 || code == -17 |
 
 // Operations from which a second thread of the BLAS pays (docs/install.md).
 constexpr double manyOperations = 1e10;
+
+// On few ranks MUMPS may give a separator to another rank than what is below it, where it waits in every
+// backward solve until that rank has gone through its own part of the tree: half of the solve is then done by
+// one rank after the other. With KEEP(198) = 2 ranks get whole subtrees (docs/theory/parallel.md). That is not
+// in the users' guide, hence only for the version whose sources say so.
+bool sharesWholeSubtrees() { return std::string(MUMPS_VERSION).rfind("5.5.", 0) == 0; }
 
 const char* meaning(int code) {
   if (needsWorkspace(code)) return "its work space stayed too small after repeated enlargement";
@@ -59,6 +66,7 @@ MumpsInstance<P>::MumpsInstance(MPI_Comm comm, int sym) : comm_(comm) {
   if (run(-1) < 0) fail("initialisation");
   for (int stream = 1; stream <= 3; ++stream) icntl(stream) = -1;
   icntl(4) = 0;
+  if (sharesWholeSubtrees()) data_.keep[197] = 2;
   icntl(16) = std::max(1, blasThreads());  // of its own OpenMP regions, where it has any
 }
 

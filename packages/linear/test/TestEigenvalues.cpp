@@ -100,7 +100,8 @@ TEST(Eigenvalues, SignOfTheDeterminant) {
           n,
           [&](int i) {
             Row row{{i, (i < negative ? -1 : 1) * std::pow(10.0, i % 7 - 3)}};
-            if (i + 1 < n) row.emplace_back(i + 1, 5.0);  // upper triangular
+            // Upper triangular; small, so that K stays far from singular (columns grow by 0.5 / |diagonal|).
+            if (i + 1 < n) row.emplace_back(i + 1, 0.5);
             return row;
           },
           layout);

@@ -23,6 +23,15 @@ bool turns(const Rational& f, double a, double length) {
   return false;
 }
 
+/// Whether the only limit point that a series shows in a step is none of the path. Passing one turns the load
+/// and, the tangent being symmetric, changes the number of its negative eigenvalues by one. Where the load
+/// hardly changes, as along a branch that has just left a bifurcation point, the residual that a series
+/// leaves may look like one.
+bool isOfTheSeriesAlone(const StepReport& report, const std::optional<linear::Inertia>& end, bool turned) {
+  if (report.limitPoints.size() != 1 || turned || !report.inertia || !end) return false;
+  return report.inertia->null == 0 && end->null == 0 && report.inertia->negative == end->negative;
+}
+
 }  // namespace
 
 RCP<Vector> copy(const Vector& v) { return Teuchos::rcp(new Vector(v, Teuchos::Copy)); }
@@ -149,6 +158,9 @@ bool Run::settle(const EndTangent* end) {
       report.limitPoints.push_back({a, last_->lambda(a), curvature(a) < 0, true});
   if (turned_) report.limitPoints.push_back({report.length, report.lambdaEnd, tangent_->lambda > 0, false});
   turned_ = false;
+  if (end &&
+      isOfTheSeriesAlone(report, end->inertia, (last_->lambdaCoefficient(1) > 0) != (end->lambda1 > 0)))
+    report.limitPoints.clear();
   for (int i = 0; i < static_cast<int>(monitors_.size()); ++i) {
     const Rational value = last_->functional(*monitors_[i].weights);
     const Rational rate = value.derivative();

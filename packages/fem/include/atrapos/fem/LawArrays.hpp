@@ -313,13 +313,18 @@ struct LawArrays {
   }
 };
 
-/// Runs kernel(batch) colour by colour; within a colour in parallel.
+/// Runs kernel(batch) colour by colour; within a colour chunks of batches in parallel. `order` is that of the
+/// chunks, where the kernel runs.
 template <class Kernel>
 void forEachBatch(const char* name, const Batches& batches, const View<int*>& order, const Kernel& kernel) {
+  const int perChunk = batches.perChunk, count = batches.count;
   for (std::size_t c = 0; c + 1 < batches.colourStart.size(); ++c)
     Kokkos::parallel_for(
         name, Kokkos::RangePolicy<Execution>(batches.colourStart[c], batches.colourStart[c + 1]),
-        KOKKOS_LAMBDA(int i) { kernel(order(i)); });
+        KOKKOS_LAMBDA(int i) {
+          const int first = order(i) * perChunk, end = first + perChunk < count ? first + perChunk : count;
+          for (int b = first; b < end; ++b) kernel(b);
+        });
   Execution().fence();
 }
 
