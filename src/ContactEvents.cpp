@@ -20,39 +20,73 @@ std::vector<std::vector<double>> coefficients(const path::Series& series) {
   return all;
 }
 
+/// [node] How far nodes go up to a, at most: by the polynomial, or at the samples of a rational form, where
+/// `samples` has the factors of U_0, U_1, ... instead of powers of a.
+std::vector<double> longestWays(const std::vector<std::vector<double>>& u, double a,
+                                const std::vector<std::vector<double>>& samples) {
+  const std::size_t numNodes = u[0].size() / 3;
+  const auto length = [](const double* x) { return std::sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]); };
+  std::vector<double> ways(numNodes, 0.0);
+  double power = 1;
+  for (std::size_t k = 1; samples.empty() && k < u.size(); ++k) {
+    power *= a;
+    for (std::size_t n = 0; n < numNodes; ++n) ways[n] += power * length(&u[k][3 * n]);
+  }
+  // Some nodes after the others, so that their coefficients stay in the caches for all samples.
+  constexpr std::size_t together = 64;
+  for (std::size_t first = 0; !samples.empty() && first < numNodes; first += together) {
+    const std::size_t count = std::min(together, numNodes - first);
+    for (const std::vector<double>& factors : samples) {
+      double moved[3 * together] = {};
+      for (std::size_t k = 1; k < factors.size(); ++k)
+        for (std::size_t d = 0; d < 3 * count; ++d) moved[d] += factors[k] * u[k][3 * first + d];
+      for (std::size_t n = 0; n < count; ++n)
+        ways[first + n] = std::max(ways[first + n], length(&moved[3 * n]));
+    }
+  }
+  return ways;
+}
+
+/// What all points of a step are looked at with; its parts outlive the points.
+struct Motion {
+  const path::Series& series;
+  const path::Rational& lambda;
+  const std::vector<std::vector<double>>& u;  ///< [order][dof]
+  const std::vector<double>& ways;            ///< longestWays
+};
+
 /// One point of a contact along a step.
 class PointOnSeries {
  public:
-  /// `lambda` is the series' and outlives this.
-  PointOnSeries(const ContactPoints& contact, std::size_t term, int point, const path::Series& series,
-                const path::Rational& lambda, const std::vector<std::vector<double>>& u)
-      : tool_(*contact.tool), closedGap_(contact.closedGaps[term][point]), series_(series), lambda_(lambda) {
+  PointOnSeries(const ContactPoints& contact, std::size_t term, int point, const Motion& motion)
+      : tool_(*contact.tool),
+        closedGap_(contact.closedGaps[term][point]),
+        motion_(motion),
+        N_(contact.points[term].nodesPerEntity) {
     const fem::PointSet& points = contact.points[term];
-    const int N = points.nodesPerEntity, e = point / points.pointsPerEntity;
-    const double* shape = &points.shape[static_cast<std::size_t>(point) * N];
-    const int* nodes = &points.nodes[static_cast<std::size_t>(e) * N];
-    for (int i = 0; i < 3; ++i) {
-      std::vector<double>& x = x_[i];
-      x.reserve(u.size());
-      for (const auto& field : u) {
-        double sum = 0;
-        for (int n = 0; n < N; ++n) sum += shape[n] * field[3 * static_cast<std::size_t>(nodes[n]) + i];
-        x.push_back(sum);
-      }
-      x[0] += points.positions[3 * static_cast<std::size_t>(point) + i];
-    }
+    const std::size_t e = point / points.pointsPerEntity;
+    shape_ = &points.shape[static_cast<std::size_t>(point) * N_];
+    nodes_ = &points.nodes[e * N_];
+    reference_ = &points.positions[3 * static_cast<std::size_t>(point)];
   }
 
   /// Most points never ask beyond the start: their functions are not made before.
   void place(double a, double* x) {
     if (position_.empty())
-      for (const auto& coefficients : x_) position_.push_back(series_.scalar(coefficients));
+      for (int i = 0; i < 3; ++i) {
+        std::vector<double> coefficients;
+        for (const auto& field : motion_.u) coefficients.push_back(component(field, i));
+        coefficients[0] += reference_[i];
+        position_.push_back(motion_.series.scalar(coefficients));
+      }
     for (int i = 0; i < 3; ++i) x[i] = position_[i](a);
-    x[3] = lambda_(a);
+    x[3] = motion_.lambda(a);
   }
 
   ToolProjection atStart() const {
-    const double x[4] = {x_[0][0], x_[1][0], x_[2][0], lambda_(0)};
+    double x[4];
+    for (int i = 0; i < 3; ++i) x[i] = component(motion_.u[0], i) + reference_[i];
+    x[3] = motion_.lambda(0);
     return tool_.project(x);
   }
 
@@ -64,27 +98,13 @@ class PointOnSeries {
 
   bool closed(double a) { return gap(a) <= closedGap_; }
 
-  /// Whether the way that the point goes up to a is too short to close or open it: gaps change by no more.
-  /// `samples`: the factors of X_0, X_1, ... where a rational form is looked at, instead of a.
-  bool staysFrom(const ToolProjection& start, double a,
-                 const std::vector<std::vector<double>>& samples) const {
+  /// Whether the way that the point goes within the step is too short to close or open it: gaps change by no
+  /// more.
+  bool staysFrom(const ToolProjection& start) const {
     if (tool_.moves()) return false;
-    const double room =
-        std::isfinite(start.gap) ? std::abs(start.gap - closedGap_) : start.distance - closedGap_;
-    if (series_.form() == nullptr) {
-      double way = 0, power = 1;
-      for (std::size_t k = 1; k < x_[0].size(); ++k) {
-        power *= a;
-        way += power * std::sqrt(x_[0][k] * x_[0][k] + x_[1][k] * x_[1][k] + x_[2][k] * x_[2][k]);
-      }
-      return room > way;
-    }
-    return std::all_of(samples.begin(), samples.end(), [&](const std::vector<double>& factors) {
-      double way[3] = {0, 0, 0};
-      for (std::size_t k = 1; k < factors.size(); ++k)
-        for (int i = 0; i < 3; ++i) way[i] += factors[k] * x_[i][k];
-      return room > std::hypot(way[0], way[1], way[2]);
-    });
+    double way = 0;
+    for (int n = 0; n < N_; ++n) way += std::abs(shape_[n]) * motion_.ways[nodes_[n]];
+    return way < (std::isfinite(start.gap) ? std::abs(start.gap - closedGap_) : start.distance - closedGap_);
   }
 
   /// Where it changes between two places, one closed and one open.
@@ -101,11 +121,18 @@ class PointOnSeries {
   }
 
  private:
+  double component(const std::vector<double>& field, int i) const {
+    double sum = 0;
+    for (int n = 0; n < N_; ++n) sum += shape_[n] * field[3 * static_cast<std::size_t>(nodes_[n]) + i];
+    return sum;
+  }
+
   const RigidTool& tool_;
   double closedGap_;
-  const path::Series& series_;
-  const path::Rational& lambda_;
-  std::vector<double> x_[3];  ///< coefficients
+  const Motion& motion_;
+  int N_;
+  const double *shape_, *reference_;
+  const int* nodes_;
   std::vector<path::Rational> position_;
 };
 
@@ -136,6 +163,8 @@ void ContactEvents::onStep(int branch, int step, double pathLengthStart, double 
   std::vector<std::vector<double>> factors;  // of the coefficients at the samples
   if (series.form())
     for (int i = 1; i <= samples; ++i) factors.push_back(series.form()->weights(length * i / samples));
+  const auto ways = longestWays(u, length, factors);
+  const Motion motion{series, lambda, u, ways};
   const bool first = closed_.empty();
   closed_.resize(scene_.contacts().size());
   std::vector<ContactEvent> events;
@@ -151,7 +180,7 @@ void ContactEvents::onStep(int branch, int step, double pathLengthStart, double 
       for (int p = 0; p < contact.points[t].numPoints(); ++p) {
         ++number;
         char& wasClosed = closed_[c][number];
-        PointOnSeries point(contact, t, p, series, lambda, u);
+        PointOnSeries point(contact, t, p, motion);
         const ToolProjection start = point.atStart();
         const auto note = [&](double a, bool closes) {
           ContactEvent event;
@@ -174,7 +203,7 @@ void ContactEvents::onStep(int branch, int step, double pathLengthStart, double 
         // A correction at the end of the last step may have moved it.
         if (!first && before != (wasClosed != 0)) note(0, before);
         double from = 0;
-        if (!point.staysFrom(start, length, factors))
+        if (!point.staysFrom(start))
           for (int i = 1; i <= samples; ++i) {
             const double to = length * i / samples;
             const bool now = point.closed(to);

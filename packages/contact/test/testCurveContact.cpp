@@ -80,7 +80,7 @@ TEST(CurveContact, ColumnAsWithThePressureCondensed) {
   }
 }
 
-/// Every step moves by as much along the curve: a nearly hard law takes few.
+/// Every step moves by as much along the curve: a nearly hard law takes few, at most half as many.
 TEST(CurveContact, FewerStepsOnAColumn) {
   const auto mesh = fem::test::box(fem::Topology::Hex8, {1, 1, 1}, {1, 1, 4}, {0, 0, 1});
   const auto points = contactPoints(mesh, "z_min", Where::Nodes);
@@ -89,7 +89,7 @@ TEST(CurveContact, FewerStepsOnAColumn) {
   addContact(condensed, points, Plane{}, law, 0);
   addCurveContact(onCurve, points, Plane{}, law, Numbers(points.numPoints(), 1.0));
   const Result a = followed(mesh, std::move(condensed), 3), b = followed(mesh, std::move(onCurve), 3);
-  EXPECT_LT(2 * b.outcome.steps, a.outcome.steps);
+  EXPECT_LE(2 * b.outcome.steps, a.outcome.steps);
 }
 
 // Tangent and load direction of a body on a cylinder that moves, against central differences.

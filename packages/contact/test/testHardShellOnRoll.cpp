@@ -49,7 +49,9 @@ struct Followed final : path::Observer {
     if (report.inertia) unstable += report.inertia->negative;
     EXPECT_TRUE(report.limitPoints.empty());
     EXPECT_EQ(report.unexplained, 0);
-    if (!report.events.empty()) events.push_back(report.lambdaEnd);
+    // The nodes of a station touch at loads that differ by 1e-7 of themselves: together or one by one.
+    if (!report.events.empty() && (events.empty() || report.lambdaEnd > (1 + 1e-6) * events.back()))
+      events.push_back(report.lambdaEnd);
     std::vector<char> active(StripOnRoll::stations, 0);
     const auto conditions = problem.conditions();
     for (std::size_t p = 0; p < conditions.size(); ++p)

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstdint>
 #include <numeric>
+#include <optional>
+#include <utility>
 
 namespace atrapos::fem {
 
@@ -11,7 +13,9 @@ namespace {
 constexpr int longestChunk = 16;
 constexpr int chunksForAColour = 32;
 
-Batches colour(Batches batches, int nodesPerEntity, const std::vector<int>& nodes) {
+// Chunks of one colour share no node; nothing where more than `most` colours are needed.
+std::optional<Batches> coloured(Batches batches, int nodesPerEntity, const std::vector<int>& nodes,
+                                int most) {
   const int numChunks = batches.chunks();
   const int numNodes = nodes.empty() ? 0 : *std::max_element(nodes.begin(), nodes.end()) + 1;
   const std::size_t nodesOfChunk =
@@ -22,7 +26,7 @@ Batches colour(Batches batches, int nodesPerEntity, const std::vector<int>& node
   std::vector<int> colourOf(numChunks), left(numChunks), later;
   std::iota(left.begin(), left.end(), 0);
   int numColours = 0;
-  for (int base = 0; !left.empty(); base += 64) {
+  for (int base = 0; !left.empty() && numColours <= most; base += 64) {
     std::vector<std::uint64_t> usedAt(numNodes, 0);
     later.clear();
     for (int chunk : left) {
@@ -42,6 +46,7 @@ Batches colour(Batches batches, int nodesPerEntity, const std::vector<int>& node
     }
     left.swap(later);
   }
+  if (numColours > most) return std::nullopt;
   for (int c = 0; c < numColours; ++c) {
     batches.colourStart.push_back(static_cast<int>(batches.order.size()));
     for (int chunk = 0; chunk < numChunks; ++chunk)
@@ -58,11 +63,10 @@ Batches makeBatches(int lanes, int numEntities, int nodesPerEntity, const std::v
   plain.lanes = lanes;
   plain.count = (numEntities + lanes - 1) / lanes;
   for (plain.perChunk = longestChunk; plain.perChunk > 1; plain.perChunk /= 2) {
-    auto batches = colour(plain, nodesPerEntity, nodes);
-    if (batches.chunks() >= chunksForAColour * static_cast<int>(batches.colourStart.size() - 1))
-      return batches;
+    auto batches = coloured(plain, nodesPerEntity, nodes, plain.chunks() / chunksForAColour);
+    if (batches) return *std::move(batches);
   }
-  return colour(plain, nodesPerEntity, nodes);
+  return *coloured(plain, nodesPerEntity, nodes, plain.chunks());
 }
 
 }  // namespace atrapos::fem

@@ -43,6 +43,7 @@ PointSet volume(const Mesh& mesh, const Block& block, const Tabulation& t, bool 
   p.shapeComponents = gradients ? 3 : 1;
   p.nodes = block.nodes;
   p.numEntities = static_cast<int>(block.nodes.size()) / t.numNodes;
+  if (gradients && p.numEntities > 0) p.shape = t.gradients;
   for (int e = 0; e < p.numEntities; ++e) {
     const int* nodes = &block.nodes[static_cast<std::size_t>(e) * t.numNodes];
     for (int q = 0; q < t.numPoints; ++q) {
@@ -57,25 +58,29 @@ PointSet volume(const Mesh& mesh, const Block& block, const Tabulation& t, bool 
                         block.name, e + 1, det));
       p.weights.push_back(t.weights[q] * det);
       appendPosition(mesh, nodes, t, q, p);
-      // Rows of the inverse Jacobian are the contravariant vectors.
-      const Vec3 c[3] = {cross(g[1], g[2]), cross(g[2], g[0]), cross(g[0], g[1])};
-      for (int n = 0; n < t.numNodes; ++n) {
-        if (!gradients) {
-          p.shape.push_back(t.values[q * t.numNodes + n]);
-          continue;
-        }
-        for (int i = 0; i < 3; ++i) {
-          double dN = 0;
-          for (int d = 0; d < 3; ++d) dN += t.gradients[(q * t.numNodes + n) * 3 + d] * c[d][i];
-          p.shape.push_back(dN / det);
-        }
-      }
+      if (gradients)
+        // Rows of the inverse Jacobian are the contravariant vectors.
+        for (const Vec3& row : {cross(g[1], g[2]), cross(g[2], g[0]), cross(g[0], g[1])})
+          for (int i = 0; i < 3; ++i) p.maps.push_back(row[i] / det);
+      else
+        for (int n = 0; n < t.numNodes; ++n) p.shape.push_back(t.values[q * t.numNodes + n]);
     }
   }
   return p;
 }
 
 }  // namespace
+
+double PointSet::shapeAt(std::size_t point, int node, int component) const {
+  const auto entry = [&](std::size_t p, int c) {
+    return shape[(p * nodesPerEntity + node) * shapeComponents + c];
+  };
+  if (maps.empty()) return entry(point, component);
+  double sum = 0;
+  for (int d = 0; d < 3; ++d)
+    sum += entry(point % pointsPerEntity, d) * maps[(point * 3 + d) * 3 + component];
+  return sum;
+}
 
 PointSet volumePoints(const Mesh& mesh, const Block& block, const Tabulation& cell) {
   return volume(mesh, block, cell, true);

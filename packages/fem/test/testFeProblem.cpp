@@ -20,19 +20,29 @@ Numbers plainForces(const Law& law, const PointSet& p, const Numbers& data, cons
   for (int e = 0; e < p.numEntities; ++e)
     for (int q = 0; q < p.pointsPerEntity; ++q) {
       const int point = e * p.pointsPerEntity + q;
-      const double* shape = &p.shape[static_cast<std::size_t>(point) * p.nodesPerEntity * C];
       double in[9] = {}, out[9];
       for (int i = 0; C == 1 && i < 3; ++i) in[i] = p.positions[3 * point + i];
       for (int n = 0; n < p.nodesPerEntity; ++n)
         for (int m = 0; m < I; ++m)
-          in[m] += u[3 * p.nodes[e * p.nodesPerEntity + n] + m / C] * shape[n * C + m % C];
+          in[m] += u[3 * p.nodes[e * p.nodesPerEntity + n] + m / C] * p.shapeAt(point, n, m % C);
       law(in, data.data() + point * Law::numData, out);
       for (int n = 0; n < p.nodesPerEntity; ++n)
         for (int m = 0; m < I; ++m)
           f[3 * p.nodes[e * p.nodesPerEntity + n] + m / C] +=
-              p.weights[point] * out[m] * shape[n * C + m % C];
+              p.weights[point] * out[m] * p.shapeAt(point, n, m % C);
     }
   return f;
+}
+
+/// The same points with all gradients written out for each entity.
+PointSet writtenOut(PointSet p) {
+  Numbers shape;
+  for (int point = 0; point < p.numPoints(); ++point)
+    for (int n = 0; n < p.nodesPerEntity; ++n)
+      for (int i = 0; i < 3; ++i) shape.push_back(p.shapeAt(point, n, i));
+  p.shape = shape;
+  p.maps.clear();
+  return p;
 }
 
 /// A change of (u, lambda) that keeps to the supports.
@@ -92,6 +102,29 @@ TEST_P(Cells, ForcesAreThoseOfAPlainLoop) {
   const Numbers expected = plainForces(ExponentialSolid{}, points, scale, u);
   // Sums of about a hundred terms.
   EXPECT_LT(norm(sum(residual(problem, u, 0).r, -1, expected)), 1e-14 * norm(expected) * 10);
+}
+
+// Shared gradients with maps and gradients of each entity's own go through different loops.
+TEST_P(Cells, OwnGradientsDoAsThoseThatEntitiesShare) {
+  const Mesh mesh = distorted(box(GetParam()), 0.03);
+  const PointSet points = volumePoints(mesh, mesh.blocks[0], tabulate(GetParam()));
+  ASSERT_FALSE(points.maps.empty());
+  const Numbers u = randomNumbers(3 * mesh.numNodes(), 0.02, 12),
+                x = randomNumbers(3 * mesh.numNodes(), 1, 13);
+  const auto along = [&](const PointSet& p) {
+    FeModel model;
+    model.numNodes = mesh.numNodes();
+    model.terms.push_back(std::make_unique<LawTerm<ExponentialSolid, DisplacementGradient>>(
+        ExponentialSolid{}, p, unevenScale(p, 11)));
+    model.supports = Supports(mesh.numNodes());
+    FeProblem problem(std::move(model));
+    return std::pair(residual(problem, u, 0).r, tangent(problem, u, 0).times(x));
+  };
+  const auto [r, Kx] = along(points);
+  const auto [ownR, ownKx] = along(writtenOut(points));
+  // Sums of some hundred terms.
+  EXPECT_LT(norm(sum(ownR, -1, r)), 1e-13 * norm(r));
+  EXPECT_LT(norm(sum(ownKx, -1, Kx)), 1e-13 * norm(Kx));
 }
 
 TEST_P(Cells, TangentIsTheDerivativeOfTheResidual) {
@@ -401,6 +434,23 @@ TEST(FeProblem, ObserveShowsEveryPointInItsPlace) {
   ASSERT_EQ(places.values.size(), 3u * faces.numPoints());
   for (int p = 0; p < faces.numPoints(); ++p)  // x + u of a linear field, rounding of six terms
     EXPECT_NEAR(places.values[3 * p + 1], 0.7 * faces.positions[3 * p + 1], 1e-14);
+}
+
+// As an empty block of a mesh makes them.
+TEST(FeProblem, TermsMayHaveNoEntities) {
+  const Mesh mesh = box(Topology::Hex8, {2, 1, 1});
+  Block none = mesh.blocks[0];
+  none.nodes.clear();
+  const Numbers u = randomNumbers(3 * mesh.numNodes(), 0.02, 12);
+  const auto along = [&](bool withEmptyTerm) {
+    FeModel model = busyModel(mesh);
+    if (withEmptyTerm)
+      model.terms.push_back(std::make_unique<LawTerm<ExponentialSolid, DisplacementGradient>>(
+          ExponentialSolid{}, volumePoints(mesh, none, tabulate(Topology::Hex8)), Numbers{}));
+    FeProblem problem(std::move(model));
+    return std::pair(residual(problem, u, 0.4).r, tangent(problem, u, 0.4).value);
+  };
+  EXPECT_EQ(along(true), along(false));
 }
 
 TEST(FeProblem, MistakesAreNamed) {

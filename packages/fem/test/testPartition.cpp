@@ -77,6 +77,12 @@ TEST(Partition, FacesGoWithTheirElementsAndCount) {
   for (const PointSet& points : facePoints(mesh, sideSet(mesh, "z_min"), 2)) {
     PointSet some = points;  // the faces of the first quarter, each many times as costly as an element
     some.numEntities = 4;
+    const std::size_t Q = some.pointsPerEntity, N = some.nodesPerEntity;
+    some.nodes.resize(4 * N);
+    some.shape.resize(4 * Q * N);
+    some.weights.resize(4 * Q);
+    some.positions.resize(4 * Q * 3);
+    some.normals.resize(4 * Q * 3);
     for (int i = 0; i < 40; ++i)
       model.terms.push_back(std::make_unique<LawTerm<CentralForce, CurrentPosition>>(CentralForce{}, some));
   }

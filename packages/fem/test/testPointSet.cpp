@@ -42,7 +42,7 @@ TEST(PointSet, LinearFieldsAndTheirGradientsAreExactOnDistortedCells) {
       for (int n = 0; n < g.nodesPerEntity; ++n) {
         const double f = linear(&mesh.coordinates[3 * g.nodes[p / g.pointsPerEntity * g.nodesPerEntity + n]]);
         value += f * v.shape[p * g.nodesPerEntity + n];
-        for (int i = 0; i < 3; ++i) gradient[i] += f * g.shape[(p * g.nodesPerEntity + n) * 3 + i];
+        for (int i = 0; i < 3; ++i) gradient[i] += f * g.shapeAt(p, n, i);
       }
       EXPECT_NEAR(value, linear(&v.positions[3 * p]), rounding);
       for (int i = 0; i < 3; ++i) EXPECT_NEAR(gradient[i], expected[i], rounding);

@@ -42,9 +42,7 @@ void dissect(SeparatorGraph graph, std::vector<int>& sequence) {
 }  // namespace
 
 std::vector<int> nestedDissection(int n, const std::vector<int>& rows, const std::vector<int>& columns) {
-  auto graph = rowGraph(n, rows, columns);
-  const auto groups = equalRows(graph);
-  graph = groupGraph(graph, groups);
+  auto [groups, graph] = groupEqual(rowGraph(n, rows, columns));
   std::vector<int> sequence;
   dissect(std::move(graph), sequence);
   std::vector<int> place(n);

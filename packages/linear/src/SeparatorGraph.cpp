@@ -95,8 +95,9 @@ SeparatorGraph rowGraph(int n, const std::vector<int>& rows, const std::vector<i
   return graph;
 }
 
-std::vector<std::vector<int>> equalRows(const SeparatorGraph& rows) {
-  std::vector<std::vector<int>> groups;
+EqualRows groupEqual(const SeparatorGraph& rows) {
+  EqualRows result;
+  auto& [groups, graph] = result;
   std::vector<int> groupOf(rows.size());
   for (int v = 0; v < rows.size(); ++v) {
     // Equal rows are neighbours: the first of the group, if there is one, is among v's.
@@ -110,14 +111,6 @@ std::vector<std::vector<int>> equalRows(const SeparatorGraph& rows) {
     groupOf[v] = group;
     groups[group].push_back(v);
   }
-  return groups;
-}
-
-SeparatorGraph groupGraph(const SeparatorGraph& rows, const std::vector<std::vector<int>>& groups) {
-  std::vector<int> groupOf(rows.size());
-  for (std::size_t g = 0; g < groups.size(); ++g)
-    for (const int row : groups[g]) groupOf[row] = static_cast<int>(g);
-  SeparatorGraph graph;
   for (std::size_t g = 0; g < groups.size(); ++g) {
     const int first = groups[g].front();
     for (const idx_t* w = beginOf(rows, first); w != endOf(rows, first); ++w)
@@ -127,7 +120,7 @@ SeparatorGraph groupGraph(const SeparatorGraph& rows, const std::vector<std::vec
     graph.weights.push_back(static_cast<idx_t>(groups[g].size()));
     graph.numbers.push_back(static_cast<int>(g));
   }
-  return graph;
+  return result;
 }
 
 Separated separate(SeparatorGraph& graph) {

@@ -20,11 +20,13 @@ struct SeparatorGraph {
 /// of one triangle are enough, duplicates do no harm. Throws SolverError where METIS' indices are too short.
 SeparatorGraph rowGraph(int n, const std::vector<int>& rows, const std::vector<int>& columns);
 
-/// Rows with equal neighbours, themselves included, as those of a node are: [group][row], ascending.
-std::vector<std::vector<int>> equalRows(const SeparatorGraph& rows);
+/// Groups of rows with equal neighbours, themselves included, as those of a node are.
+struct EqualRows {
+  std::vector<std::vector<int>> rows;  ///< [group][row], ascending
+  SeparatorGraph graph;                ///< its vertices are the groups
+};
 
-/// The graph of these groups of equal rows.
-SeparatorGraph groupGraph(const SeparatorGraph& rows, const std::vector<std::vector<int>>& groups);
+EqualRows groupEqual(const SeparatorGraph& rows);
 
 /// A separator and the two halves that no edge joins without it; a half may be empty.
 struct Separated {

@@ -158,9 +158,7 @@ bool Run::settle(const EndTangent* end) {
       report.limitPoints.push_back({a, last_->lambda(a), curvature(a) < 0, true});
   if (turned_) report.limitPoints.push_back({report.length, report.lambdaEnd, tangent_->lambda > 0, false});
   turned_ = false;
-  if (end &&
-      isOfTheSeriesAlone(report, end->inertia, (last_->lambdaCoefficient(1) > 0) != (end->lambda1 > 0)))
-    report.limitPoints.clear();
+  if (end && isOfTheSeriesAlone(report, end->inertia, loadTurned(*end))) report.limitPoints.clear();
   for (int i = 0; i < static_cast<int>(monitors_.size()); ++i) {
     const Rational value = last_->functional(*monitors_[i].weights);
     const Rational rate = value.derivative();

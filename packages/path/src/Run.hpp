@@ -92,6 +92,7 @@ class Run {
   void explainStability(StepReport& report, const EndTangent& end);
   std::vector<Mode> modesHere(const PathTangent& along, double weight);
   void countHere(EndTangent& tangent);
+  bool loadTurned(const EndTangent& end) const;
 
   // RunEvents.cpp: where the Problem changes.
   std::vector<double> falls(const Series& series, double end) const;

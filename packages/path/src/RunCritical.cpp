@@ -146,6 +146,11 @@ void Run::countHere(EndTangent& tangent) {
   }
 }
 
+/// Whether the load goes the other way at the pending step's end than at its start.
+bool Run::loadTurned(const EndTangent& end) const {
+  return (last_->lambdaCoefficient(1) > 0) != (end.lambda1 > 0);
+}
+
 /// Eigenvalues that changed sign inside the step are those of its limit points, or there are bifurcation
 /// points.
 ///
@@ -157,8 +162,7 @@ void Run::explainStability(StepReport& report, const EndTangent& end) {
   const auto before = *report.inertia, after = *report.inertiaEnd;
   if (before.null > 0 || after.null > 0) return;
   const long long change = std::llabs(after.negative - before.negative);
-  const bool lambdaTurned = (last_->lambdaCoefficient(1) > 0) != (end.lambda1 > 0);
-  const bool odd = (change % 2 != 0) != lambdaTurned;
+  const bool odd = (change % 2 != 0) != loadTurned(end);
   const long long limits = static_cast<long long>(report.limitPoints.size());
   // Of an unsymmetric tangent a conjugate pair may cross the imaginary axis, which is no critical point: two
   // more prove nothing, an odd number does, and real ones are a reason to look.

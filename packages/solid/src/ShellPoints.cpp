@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -33,6 +34,7 @@ struct Place {
   const double* xi;        ///< [2]
   double zeta;
   Base base, middle;  ///< at zeta and at 0
+  bool scaled;        ///< directors of some elements are
 
   double N(int a) const { return table.values[q * 8 + a]; }
   const double* dN(int a) const { return &table.gradients[(q * 8 + a) * 2]; }
@@ -54,18 +56,24 @@ void addEnhancedVector(const Place& at, std::vector<double>& data) {
   for (int i = 0; i < 3; ++i) data.push_back(std::sqrt(jMiddle / j) * dual[i] / jMiddle);
 }
 
-/// Gradients with respect to X of N_a, then of zeta N_a (times the director's scale).
+/// Gradients of N_a, then of zeta N_a (times the director's scale): with respect to X where directors are
+/// scaled, else by (xi, eta, zeta), which all elements share, and each element's map.
 void addGradients(const Place& at, fem::EnhancedPoints& result) {
+  fem::PointSet& p = result.points;
   const Contravariant c(at.base);
-  for (int half = 0; half < 2; ++half)
+  for (int half = 0; half < 2 && (at.scaled || at.element == 0); ++half)
     for (int a = 0; a < 8; ++a) {
-      const double own = half == 0 ? 1.0 : at.scale(a);
-      const double N = half == 0 ? 0.0 : at.N(a);  // d/dzeta
-      const double z = half == 0 ? 1.0 : at.zeta;
-      for (int i = 0; i < 3; ++i)
-        result.points.shape.push_back(
-            own * (z * (at.dN(a)[0] * c.c1[i] + at.dN(a)[1] * c.c2[i]) + N * c.c3[i]) / c.j);
+      const double z = half == 0 ? 1.0 : at.zeta * at.scale(a);
+      const double d[3] = {z * at.dN(a)[0], z * at.dN(a)[1], half == 0 ? 0.0 : at.scale(a) * at.N(a)};
+      if (at.scaled)
+        for (int i = 0; i < 3; ++i)
+          p.shape.push_back((d[0] * c.c1[i] + d[1] * c.c2[i] + d[2] * c.c3[i]) / c.j);
+      else
+        p.shape.insert(p.shape.end(), d, d + 3);
     }
+  if (!at.scaled)
+    for (const Vec3& row : {c.c1, c.c2, c.c3})
+      for (int i = 0; i < 3; ++i) p.maps.push_back(row[i] / c.j);
   addEnhancedVector(at, result.data);
 }
 
@@ -116,6 +124,8 @@ fem::EnhancedPoints makePoints(const ShellElements& elements, const ShellCubatur
   p.pointsPerEntity = static_cast<int>(plane.weights.size() * through.x.size());
   p.shapeComponents = components;
   p.nodes = elements.nodes;
+  const bool scaled = std::any_of(elements.directorScale.begin(), elements.directorScale.end(),
+                                  [](double scale) { return scale != 1; });
   for (std::size_t q = 0; q < plane.weights.size(); ++q)
     for (double zeta : through.x) {
       const double xi = plane.xi[2 * q], eta = plane.xi[2 * q + 1];
@@ -138,7 +148,7 @@ fem::EnhancedPoints makePoints(const ShellElements& elements, const ShellCubatur
         const double zeta = through.x[layer];
         const Base base = baseAt(t, at, zeta, R, D);
         p.weights.push_back(plane.weights[q] * through.w[layer] * base.jacobian());
-        add(Place{elements, t, e, q, &plane.xi[2 * q], zeta, base, middle}, result);
+        add(Place{elements, t, e, q, &plane.xi[2 * q], zeta, base, middle, scaled}, result);
         for (int i = 0; i < 3; ++i) {
           double x = 0;
           for (int a = 0; a < 8; ++a) x += t.values[q * 8 + a] * (R[3 * a + i] + zeta * D[3 * a + i]);

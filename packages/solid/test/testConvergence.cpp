@@ -117,7 +117,7 @@ Errors solve(fem::Topology cell, int divisions) {
       for (int i = 0; i < 3; ++i) {
         const double un = u[3 * values.nodes[p / values.pointsPerEntity * N + n] + i];
         du[i] += un * values.shape[p * N + n];
-        for (int j = 0; j < 3; ++j) dH[3 * i + j] += un * gradients.shape[(p * N + n) * 3 + j];
+        for (int j = 0; j < 3; ++j) dH[3 * i + j] += un * gradients.shapeAt(p, n, j);
       }
     for (double d : du) errors.L2 += values.weights[p] * d * d;
     for (double d : dH) errors.H1 += values.weights[p] * d * d;

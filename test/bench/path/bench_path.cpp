@@ -34,7 +34,8 @@ struct Options {
   std::vector<std::string> cases = bench::pathCases();
   std::vector<std::string> methods{"series", "newton", "modified", "points", "loca"};
   int refinement = 1, samples = 100;
-  double unknowns = 0;  ///< 0: by the refinement
+  double unknowns = 0;             ///< 0: by the refinement
+  std::vector<double> accuracies;  ///< of Newton steps; empty: those of the whole picture
   bool quick = false;
   std::string csv;
 };
@@ -163,7 +164,8 @@ class Bench {
 
   void newton(path::NewtonKind kind, const std::string& name) {
     for (const double residual : tolerances({1e-6, 1e-3}))
-      for (const double accuracy : tolerances({1e-3, 1e-2, 1e-4, 1e-5, 1e-6})) {
+      for (const double accuracy :
+           options_.accuracies.empty() ? tolerances({1e-3, 1e-2, 1e-4, 1e-5, 1e-6}) : options_.accuracies) {
         path::NewtonOptions options;
         options.kind = kind;
         options.accuracy = accuracy;
@@ -261,6 +263,8 @@ int main(int argc, char** argv) {
   app.add_option("--samples", options.samples, "places along a path where its error is measured")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
+  app.add_option("--accuracies", options.accuracies, "of the paths of Newton steps, in place of 1e-2 to 1e-6")
+      ->check(CLI::PositiveNumber);
   app.add_flag("--quick", options.quick, "one tolerance of each method");
   app.add_option("--csv", options.csv, "file to write");
   CLI11_PARSE(app, argc, argv);

@@ -133,14 +133,6 @@ class EnhancedTerm final : public Term {
         in[q * J + I] = -e;
       }
     }
-
-    /// force += B^T out without the point's weight.
-    KOKKOS_INLINE_FUNCTION void accumulateWeighted(int b, int q, const Pack* out, Pack* force) const {
-      const double* s = this->shapeAt(b, q);
-      for (int n = 0; n < this->N; ++n)
-        for (int i = 0; i < 3; ++i)
-          for (int c = 0; c < C; ++c) force[3 * n + i] += out[i * C + c] * Pack::load(s + (n * C + c) * L);
-    }
   };
 
  public:
@@ -232,7 +224,7 @@ class EnhancedTerm final : public Term {
                 block[3 * i + j] = sum;
               }
           };
-          a.addBlocks(b, dfdh, condensed, sink);
+          a.addBlocks(b, dfdh, Law::symmetric, condensed, sink);
         });
   }
 

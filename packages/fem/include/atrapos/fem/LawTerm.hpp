@@ -148,7 +148,7 @@ class LawTerm final : public Term {
           const auto nothing = [](int, int, Pack* block) {
             for (int i = 0; i < 9; ++i) block[i] = Pack(0.0);
           };
-          a.addBlocks(b, moduli, nothing, sink);
+          a.addBlocks(b, moduli, Law::symmetric, nothing, sink);
         });
   }
 
@@ -261,7 +261,7 @@ class LawTerm final : public Term {
     update_(a.numEntities * a.Q, in.data(), renewed.data());
     if (pieces) pieces->beginSeries(renewed);
     auto mirror = Kokkos::create_mirror_view(data);
-    a.pack(renewed, D, batches_.count, mirror.data());
+    a.pack(renewed, static_cast<std::size_t>(a.Q) * D, batches_.count, mirror.data());
     Kokkos::deep_copy(data, mirror);
     a.data = data;
     return a;

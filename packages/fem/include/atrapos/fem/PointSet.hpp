@@ -15,13 +15,18 @@ struct PointSet {
   int pointsPerEntity = 0;
   int shapeComponents = 0;    ///< 3: gradients dN/dX (reference configuration); 1: values N
   std::vector<int> nodes;     ///< [entity][node]
-  std::vector<double> shape;  ///< [entity][point][node][component]
+  std::vector<double> shape;  ///< [entity][point][node][component]; with `maps` [point][node][direction]
+  /// Of gradients whose cells differ by their maps alone: dxi_d/dX_i, [entity][point][d][i]; `shape` has
+  /// dN/dxi_d then, once for all entities. Empty: `shape` is all.
+  std::vector<double> maps;
   /// [entity][point] cubature weight times Jacobian (volume, area; 1 at a node)
   std::vector<double> weights;
   std::vector<double> positions;  ///< [entity][point][3] in the reference configuration
   std::vector<double> normals;    ///< faces only: outward unit normals [entity][point][3]
 
   int numPoints() const { return numEntities * pointsPerEntity; }
+  /// A component of a node's shape function; points are counted over all entities.
+  double shapeAt(std::size_t point, int node, int component) const;
 };
 
 /// Volume points of one block: gradients with respect to the reference configuration.

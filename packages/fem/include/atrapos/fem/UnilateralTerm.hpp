@@ -262,7 +262,7 @@ class UnilateralTerm final : public EventTerm {
             const int m = (na < first ? nb : na) - first, n = na < first ? na : nb;
             const Pack on = a.at(a.active, b, m) * a.at(a.stiffness, b, m);
             for (int q = 0; q < a.Q; ++q) {
-              const Pack factor = on * a.meanAt(b, q, m) * Pack::load(a.shapeAt(b, q) + n * L);
+              const Pack factor = on * a.meanAt(b, q, m) * a.valueAt(b, q, n);
               for (int i = 0; i < 3; ++i)
                 if (na < first)
                   block[3 * i] += factor * byMultiplier[3 * q + i];
@@ -270,7 +270,7 @@ class UnilateralTerm final : public EventTerm {
                   block[i] += factor * ofGap[3 * q + i];
             }
           };
-          a.addBlocks(b, moduli, withMultipliers, sink);
+          a.addBlocks(b, moduli, false, withMultipliers, sink);
         });
   }
 
@@ -547,7 +547,7 @@ class UnilateralTerm final : public EventTerm {
   void makeArrays() {
     const std::size_t Q = a_.Q, M = a_.M, lanes = static_cast<std::size_t>(batches_.count) * L;
     std::vector<double> mean(lanes * Q * M), share(lanes * M, 0.0);
-    a_.pack(meanShape_, a_.M, batches_.count, mean.data());
+    a_.pack(meanShape_, static_cast<std::size_t>(a_.Q) * a_.M, batches_.count, mean.data());
     forEachCondition([&](int, int m, std::size_t at) {
       const std::size_t e = entityAt(at);
       for (std::size_t q = 0; q < Q; ++q) share[at] += weights_[e * Q + q] * meanShape_[(e * Q + q) * M + m];
@@ -596,7 +596,7 @@ class UnilateralTerm final : public EventTerm {
     const auto renewed = pieces_->at(places(u, lambda));
     if (pieces) pieces->beginSeries(renewed);
     auto mirror = Kokkos::create_mirror_view(data);
-    a_.pack(renewed, D, batches_.count, mirror.data());
+    a_.pack(renewed, static_cast<std::size_t>(a_.Q) * D, batches_.count, mirror.data());
     Kokkos::deep_copy(data, mirror);
     Arrays a = a_;
     a.data = data;
