@@ -2,17 +2,19 @@
 
 #include <cstddef>
 
+#include "atrapos/taylor/Lanes.hpp"
+
 /// Saint Venant-Kirchhoff's order-k sweep written by hand: the yardstick of the generic one.
 ///
 ///     S = lambda tr(E) I + 2 mu E,   2 E = H + H^T + H^T H,   P = (I + H) S
 ///
-/// A batch is 8 points, one to a SIMD lane; its history is [order][slot][lane] with the slots H (9,
-/// row-major) and S (xx, yy, zz, xy, yz, zx). Every loop over orders loads each coefficient once and feeds
-/// all sums with it. Orders come one after the other: start, then for k = 1, 2, ...: sweep (or sweepBlock,
-/// sweepWithin) of order k, complete of order k.
+/// A batch is a point for each lane of the widest SIMD register; its history is [order][slot][lane] with the
+/// slots H (9, row-major) and S (xx, yy, zz, xy, yz, zx). Every loop over orders loads each coefficient once
+/// and feeds all sums with it. Orders come one after the other: start, then for k = 1, 2, ...: sweep (or
+/// sweepBlock, sweepWithin) of order k, complete of order k.
 namespace atrapos::bench::hand {
 
-constexpr int kLanes = 8;
+constexpr int kLanes = taylor::nativeLanes;
 constexpr int kSlots = 15;
 
 typedef double Vector __attribute__((vector_size(8 * kLanes), may_alias));

@@ -8,7 +8,7 @@
 
 namespace atrapos::bench {
 
-constexpr int kLanes = 8;
+constexpr int kLanes = taylor::nativeLanes;
 /// Points with inputs of their own; further points repeat them, so that inputs stay in cache as what an
 /// element loop gathers from the nodes mostly does, and memory traffic is that of the histories.
 constexpr int kDistinct = 64;

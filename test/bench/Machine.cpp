@@ -10,11 +10,13 @@
 #include <stdexcept>
 #include <string>
 
+#include "atrapos/taylor/Lanes.hpp"
+
 namespace atrapos::bench {
 
 namespace {
 
-typedef double Vector __attribute__((vector_size(64), may_alias));
+using Vector = taylor::Lanes<taylor::nativeLanes>;
 
 /// Seconds that this thread has been running.
 double now() {
@@ -39,15 +41,16 @@ double bestRate(double seconds, double work, const F& f) {
 volatile double sink;
 
 double fmaRate(double seconds) {
-  constexpr int chains = 24, count = 1000000;  // latency times throughput needs 8 to 10 chains
+  // Latency times throughput needs 8 to 10 chains, and 12 with x and y fit into the 16 registers of AVX2.
+  constexpr int chains = 12, count = 1000000;
   Vector a[chains];
-  for (int i = 0; i < chains; ++i) a[i] = Vector{} + (1.0 + i);
-  const Vector x = Vector{} + 0.999, y = Vector{} + 1e-3;
-  const double rate = bestRate(seconds, 16.0 * chains * count, [&] {
+  for (int i = 0; i < chains; ++i) a[i] = 1.0 + i;
+  const Vector x = 0.999, y = 1e-3;
+  const double rate = bestRate(seconds, 2.0 * Vector::size * chains * count, [&] {
     Vector b[chains];
     for (int i = 0; i < chains; ++i) b[i] = a[i];
     for (int n = 0; n < count; ++n) {
-#pragma GCC unroll 24
+#pragma GCC unroll 12
       for (int i = 0; i < chains; ++i) b[i] = b[i] * x + y;
     }
     for (int i = 0; i < chains; ++i) a[i] = b[i];
@@ -90,10 +93,12 @@ Peaks measurePeaks(Arena& arena, double seconds) {
                      for (std::size_t i = 0; i < n; ++i) a[i] = b[i] + 3 * c[i];
                    });
   peaks.readGBs = 1e-9 * bestRate(seconds, 24.0 * n, [&] {
-                    Vector sum[8] = {};
-                    for (std::size_t i = 0; i < 3 * n; i += 64)
-                      for (int j = 0; j < 8; ++j) sum[j] += *reinterpret_cast<const Vector*>(a + i + 8 * j);
-                    for (int j = 1; j < 8; ++j) sum[0] += sum[j];
+                    constexpr int chains = 8;
+                    Vector sum[chains] = {};
+                    for (std::size_t i = 0; i < 3 * n; i += chains * Vector::size)
+#pragma GCC unroll 8
+                      for (int j = 0; j < chains; ++j) sum[j] += Vector::load(a + i + j * Vector::size);
+                    for (int j = 1; j < chains; ++j) sum[0] += sum[j];
                     sink = sum[0][0];
                   });
   return peaks;

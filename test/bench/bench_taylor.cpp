@@ -70,7 +70,7 @@ void addOptions(CLI::App& app, Options& o) {
   app.add_option("--orders", o.selection.orders, "highest orders K")
       ->capture_default_str()
       ->check(CLI::Range(1, 200));
-  app.add_option("--points", o.selection.points, "numbers of points, rounded up to multiples of 8")
+  app.add_option("--points", o.selection.points, "numbers of points, rounded up to whole batches")
       ->capture_default_str()
       ->check(CLI::Range(1, 100000000));
   app.add_option("--memory", o.memoryGB, "GB to use at most (default: 80 % of what is available)")

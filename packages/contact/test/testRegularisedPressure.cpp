@@ -138,12 +138,13 @@ TEST(RegularisedPressure, DerivativeThreeWays) {
     }
 }
 
-// Curved h(a), every lane its own gap on both sides of h = 0 and beyond Delta; orders to 20.
+// Curved h(a), every lane its own gap on both sides of h = 0 and beyond Delta, none at it (R = 0 has no
+// relative error), however many lanes there are; orders to 20.
 TEST(RegularisedPressure, OrdersOfTheSeries) {
   struct Case {
     double compliance, first, last;
   };
-  for (const Case& c : {Case{1e-3, -0.3, 0.3}, Case{1e-3, 0.5, 2.0}, Case{0.0, 0.4, 2.0}}) {
+  for (const Case& c : {Case{1e-3, -0.3, 0.3}, Case{1e-3, 0.5, 2.1}, Case{0.0, 0.4, 2.0}}) {
     const PressureOfGap law{{c.compliance, 0.1}};
     const Values Delta(1.0);
     const auto h = testSeries(20, c.first, c.last, 1);

@@ -90,9 +90,13 @@ class Cells : public testing::TestWithParam<Topology> {};
 }  // namespace
 
 TEST_P(Cells, ForcesAreThoseOfAPlainLoop) {
-  const Mesh mesh = distorted(box(GetParam()), 0.03);
+  Mesh mesh = distorted(box(GetParam()), 0.03);
+  auto& cells = mesh.blocks[0].nodes;
+  const std::size_t nodesPerCell = nodesPerElement(GetParam());
+  // An odd number of cells: the last batch is an incomplete one however many lanes there are.
+  if (cells.size() / nodesPerCell % 2 == 0) cells.resize(cells.size() - nodesPerCell);
   const PointSet points = volumePoints(mesh, mesh.blocks[0], tabulate(GetParam()));
-  ASSERT_NE(points.numEntities % kLanes, 0) << "the last batch must be an incomplete one";
+  ASSERT_NE(points.numEntities % kLanes, 0);
   const Numbers scale = unevenScale(points, 11), u = randomNumbers(3 * mesh.numNodes(), 0.02, 12);
   FeModel model;
   model.numNodes = mesh.numNodes();

@@ -135,7 +135,7 @@ TEST(SaintVenantKirchhoff, TangentIsTheDerivative) {
 
 // Way three: order-k sweeps against the paper's formulae (7)-(9), written out here.
 TEST(SaintVenantKirchhoff, SweepsAreThePapersOrders) {
-  constexpr int L = 8, K = 6;
+  constexpr int L = taylor::nativeLanes, K = 6;
   const auto& law = steel;
   // Eight lanes with different series, alike in size to those of a step: |H_k| about 0.3.
   std::vector<Numbers> H;  // [lane * (K + 1) + k]
@@ -155,7 +155,6 @@ TEST(SaintVenantKirchhoff, SweepsAreThePapersOrders) {
     context.order = k;
     for (auto& x : nonlinear) x = 0.0;
     if (k > 0) {
-
       taylor::sweep(law, context, static_cast<const taylor::Lanes<L>*>(nullptr), nonlinear);
     }
     give(k);

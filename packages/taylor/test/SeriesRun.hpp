@@ -12,7 +12,7 @@
 #include "LongSeries.hpp"
 #include "atrapos/taylor/Law.hpp"
 
-constexpr int L = 8;
+constexpr int L = atrapos::taylor::nativeLanes;
 using Values = atrapos::taylor::Lanes<L>;
 using Coefficients = std::vector<std::vector<Values>>;  ///< [input or output][order]
 

@@ -1,4 +1,5 @@
-// First derivatives of whole laws computed four ways: Fad, Taylor order 1, completion, finite differences.
+// First derivatives of whole laws computed five ways: Fad, Taylor order 1, completion,
+// unit vectors in lanes, finite differences.
 
 #include "SeriesRun.hpp"
 #include "TestLaws.hpp"
@@ -26,12 +27,26 @@ void checkDerivatives(const Law& law, const std::vector<double>& in, const std::
     scale = std::max(scale, std::fabs(byFad[i]));
   }
 
+  // In lanes: NaN in the memory would show what is read before it is written.
+  Context<L> context;
+  context.shape = historyShape(law);
+  std::vector<double> memory(context.shape.template doubles<L>(0), std::nan(""));
+  context.memory = memory.data();
+  const std::vector<Values> lanes(data.begin(), data.end()), there(in.begin(), in.end());
+  Values valueInLanes[m], jacobianInLanes[n * m];
+  tangent(law, context, there.data(), lanes.data(), valueInLanes, jacobianInLanes);
+  double size = 0;
+  for (const double d : jacobian) size = std::max(size, std::fabs(d));
+  for (int l = 0; l < L; ++l) {
+    for (int i = 0; i < m; ++i) EXPECT_NEAR(valueInLanes[i][l], values[i], 1e-13 * std::fabs(values[i]));
+    for (int i = 0; i < n * m; ++i) EXPECT_NEAR(jacobianInLanes[i][l], jacobian[i], 1e-12 * size) << i;
+  }
+
   Coefficients series(n, std::vector<Values>(2));
   for (int j = 0; j < n; ++j) {
     series[j][0] = in[j];
     series[j][1] = direction[j];
   }
-  std::vector<Values> lanes(data.begin(), data.end());
   for (const Mode mode : {Mode::Direct, Mode::AsASolver}) {
     const auto r = runSeries(law, series, mode, lanes.data());
     for (int i = 0; i < m; ++i)

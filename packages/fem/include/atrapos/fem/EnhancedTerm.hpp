@@ -26,15 +26,15 @@ struct EnhancedPoints {
 ///
 /// beta follows from the displacements alone. Where an element has none, its forces are NaN, failure() says
 /// why and beginSeries throws it. M: number of parameters.
-template <class Law, int M>
+template <class Law, int M, int Width = kLanes>
 class EnhancedTerm final : public Term {
-  static constexpr int L = kLanes, C = Law::components, I = 3 * C, J = I + 1, D = Law::numData;
+  static constexpr int L = Width, C = Law::components, I = 3 * C, J = I + 1, D = Law::numData;
   static_assert(Law::numInputs == J && Law::numOutputs == J, "the law's inputs are vectors and one strain");
   /// Points of an element: bounds the stack, 16 shell nodes need no more than 3 x 3 x 3.
   static constexpr int maxPoints = 27;
   using Pack = taylor::Lanes<L>;
 
-  struct Arrays : LawArrays<Law, C> {
+  struct Arrays : LawArrays<Law, C, L> {
     View<double*> modes;    // [q][parameter]
     View<double*> dfde;     // [batch][q][I][lane], times the weight
     View<double*> dsdh;     // the same, times the weight
@@ -74,27 +74,21 @@ class EnhancedTerm final : public Term {
     }
 
     /// Weighted derivatives of the law at all points: f by h (where wanted), f by e, s by h, and K_bb^-1.
-    KOKKOS_INLINE_FUNCTION void moduli(int b, const Pack* in, Pack* dfdh, Pack* byE, Pack* byh,
-                                       Pack* Kinverse) const {
-      Pack K[M * M];
+    KOKKOS_INLINE_FUNCTION void moduli(int b, double* memory, const Pack* in, Pack* dfdh, Pack* byE,
+                                       Pack* byh, Pack* Kinverse) const {
+      Pack K[M * M], out[J], jacobian[J * J];
       for (int i = 0; i < M * M; ++i) K[i] = Pack(0.0);
       for (int q = 0; q < this->Q; ++q) {
         const Pack w = this->weightAt(b, q);
-        Pack dsde;
-        for (int lane = 0; lane < L; ++lane) {
-          double one[J], data[D + 1], out[J], jacobian[J * J];
-          this->lanesOf(in + q * J, J, lane, one);
-          this->lanesOf(this->dataAt(b, q), D, lane, data);
-          taylor::tangent(this->law, one, data, out, jacobian);
-          if (dfdh)
-            for (int m = 0; m < I; ++m)
-              for (int n = 0; n < I; ++n) dfdh[(q * I + m) * I + n][lane] = w[lane] * jacobian[m * J + n];
-          for (int m = 0; m < I; ++m) {
-            byE[q * I + m][lane] = w[lane] * jacobian[m * J + I];
-            byh[q * I + m][lane] = w[lane] * jacobian[I * J + m];
-          }
-          dsde[lane] = w[lane] * jacobian[I * J + I];
+        this->tangent(b, q, memory, in + q * J, out, jacobian);
+        if (dfdh)
+          for (int m = 0; m < I; ++m)
+            for (int n = 0; n < I; ++n) dfdh[(q * I + m) * I + n] = w * jacobian[m * J + n];
+        for (int m = 0; m < I; ++m) {
+          byE[q * I + m] = w * jacobian[m * J + I];
+          byh[q * I + m] = w * jacobian[I * J + m];
         }
+        const Pack dsde = w * jacobian[I * J + I];
         for (int j = 0; j < M; ++j)
           for (int k = 0; k < M; ++k) K[j * M + k] += (mode(q, j) * mode(q, k)) * dsde;
       }
@@ -173,13 +167,15 @@ class EnhancedTerm final : public Term {
   double addResidual(const ConstField& u, double, const Field& f) const override {
     const Arrays a = a_;
     const View<double*> squares("squares", batches_.count);
+    const PointMemory memory = a_.pointMemory();
     forEachBatch(
         "residual", batches_, a.order, KOKKOS_LAMBDA(int b) {
+          const PointMemory::Held held(memory);
           Pack force[3 * kMaxNodes], in[maxPoints * J], out[J];
           for (int n = 0; n < 3 * a.N; ++n) force[n] = Pack(0.0);
           a.inputs(b, u, in);
           for (int q = 0; q < a.Q; ++q) {
-            a.evaluate(b, q, in + q * J, out);
+            a.evaluate(b, q, held.data(), in + q * J, out);
             a.accumulate(b, q, out, force);
           }
           a.scatter(b, force, f);
@@ -190,12 +186,14 @@ class EnhancedTerm final : public Term {
 
   void addTangent(const ConstField& u, double, const TangentSink& sink) const override {
     const Arrays a = a_;
+    const PointMemory memory = a_.pointMemory();
     forEachBatch(
         "tangent", batches_, a.order, KOKKOS_LAMBDA(int b) {
+          const PointMemory::Held held(memory);
           Pack in[maxPoints * J], dfdh[maxPoints * I * I], byE[maxPoints * I], byh[maxPoints * I],
               Kinverse[M * M];
           a.inputs(b, u, in);
-          a.moduli(b, in, dfdh, byE, byh, Kinverse);
+          a.moduli(b, held.data(), in, dfdh, byE, byh, Kinverse);
           // K_ub and -K_bb^-1 K_bu, node by node: [node][component][parameter].
           Pack ub[kMaxNodes * 3 * M], bu[kMaxNodes * 3 * M];
           for (int i = 0; i < a.N * 3 * M; ++i) ub[i] = bu[i] = Pack(0.0);
@@ -232,11 +230,13 @@ class EnhancedTerm final : public Term {
     a_.reserveHistory(batches_.count, maxOrder);
     const Arrays a = a_;
     const View<LawFailure*> failures("failures", batches_.count);
+    const PointMemory memory = a_.pointMemory();
     forEachBatch(
         "beginSeries", batches_, a.order, KOKKOS_LAMBDA(int b) {
+          const PointMemory::Held held(memory);
           Pack in[maxPoints * J], out[J];
           a.inputs(b, u, in);
-          a.moduli(b, in, nullptr, a.at(a.dfde, b, a.Q * I), a.at(a.dsdh, b, a.Q * I),
+          a.moduli(b, held.data(), in, nullptr, a.at(a.dfde, b, a.Q * I), a.at(a.dsdh, b, a.Q * I),
                    a.at(a.inverse, b, M * M));
           for (int q = 0; q < a.Q; ++q) {
             taylor::Failures<L> noted;

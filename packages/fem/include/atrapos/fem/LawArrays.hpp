@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "atrapos/fem/PointMemory.hpp"
 #include "atrapos/fem/ShapeArrays.hpp"
 #include "atrapos/taylor/Law.hpp"
 
@@ -21,9 +22,9 @@ struct LawFailure {
 ///
 /// B u has I = 3 C entries at a point: the first inputs of the law, and the work conjugates of its first
 /// outputs.
-template <class Law, int C>
-struct LawArrays : ShapeArrays<C> {
-  using Shapes = ShapeArrays<C>;
+template <class Law, int C, int Width = kLanes>
+struct LawArrays : ShapeArrays<C, Width> {
+  using Shapes = ShapeArrays<C, Width>;
   using Shapes::I, Shapes::L, Shapes::lanesIn, Shapes::lanesOf, Shapes::N, Shapes::number,
       Shapes::numEntities, Shapes::Q;
   using typename Shapes::Pack;
@@ -53,15 +54,27 @@ struct LawArrays : ShapeArrays<C> {
     for (int m = 0; m < I; ++m) in[m] += Pack::load(x + m * L);
   }
 
-  /// The law's values at point q, lane by lane.
-  KOKKOS_INLINE_FUNCTION void evaluate(int b, int q, const Pack* in, Pack* out) const {
-    for (int lane = 0; lane < L; ++lane) {
-      double one[Law::numInputs], datum[D + 1], result[Law::numOutputs];
-      lanesOf(in, Law::numInputs, lane, one);
-      lanesOf(dataAt(b, q), D, lane, datum);
-      taylor::value(law, one, datum, result);
-      for (int m = 0; m < Law::numOutputs; ++m) out[m][lane] = result[m];
-    }
+  /// For values and tangents.
+  PointMemory pointMemory() const { return PointMemory(histories.template doubles<L>(0)); }
+
+  /// The law's values at point q.
+  KOKKOS_INLINE_FUNCTION void evaluate(int b, int q, double* memory, const Pack* in, Pack* out) const {
+    auto order0 = ofOrder0(memory);
+    taylor::start(law, order0, in, dataAt(b, q), out);
+  }
+
+  /// The same and its derivatives, jacobian[output * Law::numInputs + input].
+  KOKKOS_INLINE_FUNCTION void tangent(int b, int q, double* memory, const Pack* in, Pack* out,
+                                      Pack* jacobian) const {
+    taylor::tangent(law, ofOrder0(memory), in, dataAt(b, q), out, jacobian);
+  }
+
+  KOKKOS_INLINE_FUNCTION taylor::Context<L> ofOrder0(double* memory) const {
+    taylor::Context<L> c;
+    c.memory = memory;
+    c.shape = histories;
+    c.plain = true;
+    return c;
   }
 
   /// Where the series of point q is kept, and the order asked of it.

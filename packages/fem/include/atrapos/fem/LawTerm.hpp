@@ -42,15 +42,15 @@ using DataUpdate = std::function<void(int numPoints, const double* in, double* d
 /// A law says `static constexpr bool symmetric` when d out/d in is symmetric.
 /// `data` holds Law::numData passive numbers a point: [entity][point][datum]. With an `update` they are
 /// brought up to date at every state that is evaluated; a series keeps those of its start.
-template <class Law, class Operator>
+template <class Law, class Operator, int Width = kLanes>
 class LawTerm final : public Term {
-  static constexpr int L = kLanes, C = Operator::components, I = Operator::numInputs, D = Law::numData;
+  static constexpr int L = Width, C = Operator::components, I = Operator::numInputs, D = Law::numData;
   static constexpr int J = Law::numInputs;
   static constexpr bool seesLambda = J == I + 1;
   static_assert((J == I || seesLambda) && Law::numOutputs == I,
                 "the law's inputs must be the operator's, and perhaps the load factor");
   using Pack = taylor::Lanes<L>;
-  using Arrays = LawArrays<Law, C>;
+  using Arrays = LawArrays<Law, C, L>;
 
  public:
   LawTerm(const Law& law, const PointSet& points, const std::vector<double>& data = {},
@@ -103,14 +103,16 @@ class LawTerm final : public Term {
   double addResidual(const ConstField& u, double lambda, const Field& f) const override {
     const Arrays a = updated(u, lambda, a_.data);
     const View<double*> squares("squares", batches_.count);
+    const PointMemory memory = a_.pointMemory();
     forEachBatch(
         "residual", batches_, a.order, KOKKOS_LAMBDA(int b) {
           Pack local[3 * kMaxNodes], force[3 * kMaxNodes], in[J], out[I];
+          const PointMemory::Held held(memory);
           for (int n = 0; n < 3 * a.N; ++n) force[n] = Pack(0.0);
           a.gather(b, u, local);
           for (int q = 0; q < a.Q; ++q) {
             inputs(a, b, q, local, lambda, in);
-            a.evaluate(b, q, in, out);
+            a.evaluate(b, q, held.data(), in, out);
             a.accumulate(b, q, out, force);
           }
           a.scatter(b, force, f);
@@ -121,26 +123,23 @@ class LawTerm final : public Term {
 
   void addTangent(const ConstField& u, double lambda, const TangentSink& sink) const override {
     const Arrays a = updated(u, lambda, a_.data);
+    const PointMemory memory = a_.pointMemory();
     forEachBatch(
         "tangent", batches_, a.order, KOKKOS_LAMBDA(int b) {
-          Pack local[3 * kMaxNodes], in[J];
+          Pack local[3 * kMaxNodes], in[J], out[I], jacobian[I * J];
           Pack moduli[kMaxPoints * I * I];  // weighted tangent of the law at every point
           Pack byLambda[I], direction[3 * kMaxNodes];
+          const PointMemory::Held held(memory);
           if constexpr (seesLambda)
             for (int n = 0; n < 3 * a.N; ++n) direction[n] = Pack(0.0);
           a.gather(b, u, local);
           for (int q = 0; q < a.Q; ++q) {
             inputs(a, b, q, local, lambda, in);
             const Pack w = a.weightAt(b, q);
-            for (int lane = 0; lane < L; ++lane) {
-              double one[J], data[D + 1], out[I], jacobian[I * J];
-              a.lanesOf(in, J, lane, one);
-              a.lanesOf(a.dataAt(b, q), D, lane, data);
-              taylor::tangent(a.law, one, data, out, jacobian);
-              for (int m = 0; m < I; ++m) {
-                for (int n = 0; n < I; ++n) moduli[(q * I + m) * I + n][lane] = w[lane] * jacobian[m * J + n];
-                if constexpr (seesLambda) byLambda[m][lane] = -jacobian[m * J + I];
-              }
+            a.tangent(b, q, held.data(), in, out, jacobian);
+            for (int m = 0; m < I; ++m) {
+              for (int n = 0; n < I; ++n) moduli[(q * I + m) * I + n] = w * jacobian[m * J + n];
+              if constexpr (seesLambda) byLambda[m] = -jacobian[m * J + I];
             }
             if constexpr (seesLambda) a.accumulate(b, q, byLambda, direction);
           }

@@ -13,8 +13,8 @@
 
 namespace atrapos::fem {
 
-/// Lanes of a batch: one AVX-512 register of doubles, two of AVX2.
-constexpr int kLanes = 8;
+/// Entities of a batch, one to a SIMD lane.
+constexpr int kLanes = taylor::nativeLanes;
 /// Bounds of the element loops' stack arrays.
 constexpr int kMaxNodes = 27;
 constexpr int kMaxPoints = 64;
@@ -30,17 +30,18 @@ View<T*> upload(const std::string& name, const std::vector<T>& host) {
 }
 
 /// What the element loops of a term read of its entities, whatever the law: nodes, weights, shape functions,
-/// and the steps made of them: gather, B, B^T, scatter, eight entities at a time. Copied by value into the
-/// kernels.
+/// and the steps made of them: gather, B, B^T, scatter, a batch of entities at a time. Copied by value into
+/// the kernels.
 ///
 /// C: components of a shape function at a point (3: gradient, 1: value). B u has I = 3 C entries at a point.
 ///
 /// Shape functions that all entities share are kept once, and gradients as those by reference coordinates,
 /// which are shared, with a 3 x 3 map at each point: a loop reads 9 numbers at a point of a HEX20 then
 /// instead of 60. Only where neither holds has each entity its own.
-template <int C>
+/// Width is a parameter so that parts compiled for different instruction sets are different classes.
+template <int C, int Width = kLanes>
 struct ShapeArrays {
-  static constexpr int L = kLanes, I = 3 * C;
+  static constexpr int L = Width, I = 3 * C;
   using Pack = taylor::Lanes<L>;
 
   int numEntities, N, Q;

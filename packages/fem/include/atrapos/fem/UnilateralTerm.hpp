@@ -41,16 +41,16 @@ namespace atrapos::fem {
 /// one.
 ///
 /// A condition all of whose nodes are held by supports is never active; its multiplier stays zero.
-template <class Law>
+template <class Law, int Width = kLanes>
 class UnilateralTerm final : public EventTerm {
-  static constexpr int L = kLanes, D = Law::numData, J = Law::numInputs, O = 4;
+  static constexpr int L = Width, D = Law::numData, J = Law::numInputs, O = 4;
   static constexpr bool seesLambda = J == 5;
   static_assert((J == 4 || J == 5) && Law::numOutputs == O,
                 "the law's inputs are the place, the multiplier and perhaps the load factor, its outputs the "
                 "force and the gap");
   using Pack = taylor::Lanes<L>;
 
-  struct Arrays : LawArrays<Law, 1> {
+  struct Arrays : LawArrays<Law, 1, L> {
     int M = 1;                // conditions of an entity, and their nodes
     View<double*> mean;       // [batch][q][m][lane] psi_m over the integral of psi_m on all faces
     View<double*> stiffness;  // [batch][m][lane] s; 0: held
@@ -186,14 +186,16 @@ class UnilateralTerm final : public EventTerm {
   double addResidual(const ConstField& u, double lambda, const Field& f) const override {
     const Arrays a = updated(u, lambda, a_.data);
     const View<double*> squares("squares", batches_.count);
+    const PointMemory memory = a_.pointMemory();
     forEachBatch(
         "residual", batches_, a.order, KOKKOS_LAMBDA(int b) {
+          const PointMemory::Held held(memory);
           Pack local[3 * kMaxNodes], force[3 * kMaxNodes], in[J], out[O];
           for (int n = 0; n < 3 * a.N; ++n) force[n] = Pack(0.0);
           a.gather(b, u, local);
           for (int q = 0; q < a.Q; ++q) {
             a.inputs(b, q, local, lambda, true, in);
-            a.evaluate(b, q, in, out);
+            a.evaluate(b, q, held.data(), in, out);
             a.addForces(b, q, out, force);
           }
           for (int m = 0; m < a.M; ++m)
@@ -219,9 +221,11 @@ class UnilateralTerm final : public EventTerm {
 
   void addTangent(const ConstField& u, double lambda, const TangentSink& sink) const override {
     const Arrays a = updated(u, lambda, a_.data);
+    const PointMemory memory = a_.pointMemory();
     forEachBatch(
         "tangent", batches_, a.order, KOKKOS_LAMBDA(int b) {
-          Pack local[3 * kMaxNodes], in[J], moduli[9 * kMaxPoints];
+          const PointMemory::Held held(memory);
+          Pack local[3 * kMaxNodes], in[J], out[O], jacobian[O * J], moduli[9 * kMaxPoints];
           Pack byMultiplier[3 * kMaxPoints], ofGap[3 * kMaxPoints];  // [q][component], times the weight
           Pack byLambda[O], direction[3 * kMaxNodes], own[kMaxConditions];
           if constexpr (seesLambda)
@@ -235,19 +239,14 @@ class UnilateralTerm final : public EventTerm {
           for (int q = 0; q < a.Q; ++q) {
             const Pack w = a.weightAt(b, q);
             a.inputs(b, q, local, lambda, true, in);
-            for (int lane = 0; lane < L; ++lane) {
-              double one[J], data[D + 1], result[O], jacobian[O * J];
-              a.lanesOf(in, J, lane, one);
-              a.lanesOf(a.dataAt(b, q), D, lane, data);
-              taylor::tangent(a.law, one, data, result, jacobian);
-              for (int i = 0; i < 3; ++i) {
-                for (int j = 0; j < 3; ++j) moduli[9 * q + 3 * i + j][lane] = w[lane] * jacobian[i * J + j];
-                byMultiplier[3 * q + i][lane] = w[lane] * jacobian[i * J + 3];
-                ofGap[3 * q + i][lane] = -w[lane] * jacobian[3 * J + i];
-              }
-              if constexpr (seesLambda)
-                for (int m = 0; m < O; ++m) byLambda[m][lane] = -jacobian[m * J + 4];
+            a.tangent(b, q, held.data(), in, out, jacobian);
+            for (int i = 0; i < 3; ++i) {
+              for (int j = 0; j < 3; ++j) moduli[9 * q + 3 * i + j] = w * jacobian[i * J + j];
+              byMultiplier[3 * q + i] = w * jacobian[i * J + 3];
+              ofGap[3 * q + i] = -(w * jacobian[3 * J + i]);
             }
+            if constexpr (seesLambda)
+              for (int m = 0; m < O; ++m) byLambda[m] = -jacobian[m * J + 4];
             if constexpr (seesLambda) a.addForces(b, q, byLambda, direction);
           }
           if constexpr (seesLambda) a.scatter(b, direction, sink.loadDirection);
@@ -278,9 +277,11 @@ class UnilateralTerm final : public EventTerm {
     a_.reserveHistory(batches_.count, maxOrder);
     const Arrays a = updated(u, lambda, seriesData_, pieces_.get());
     const View<LawFailure*> failures("failures", batches_.count);
+    const PointMemory memory = a_.pointMemory();
     forEachBatch(
         "beginSeries", batches_, a.order, KOKKOS_LAMBDA(int b) {
-          Pack local[3 * kMaxNodes], in[J], out[O];
+          const PointMemory::Held held(memory);
+          Pack local[3 * kMaxNodes], in[J], out[O], jacobian[O * J];
           a.gather(b, u, local);
           for (int m = 0; m < a.M; ++m) a.multiplier(local, m).store(&a.force(a.condition(b, m)));
           for (int q = 0; q < a.Q; ++q) {
@@ -291,15 +292,10 @@ class UnilateralTerm final : public EventTerm {
             taylor::start(a.law, context, in, a.dataAt(b, q), out);
             a.findFailure(b, q, out, noted, failures(b));
             out[3].store(&a.gapStart(a.point(b, q)));
-            for (int lane = 0; lane < L; ++lane) {
-              double one[J], data[D + 1], result[O], jacobian[O * J];
-              a.lanesOf(in, J, lane, one);
-              a.lanesOf(a.dataAt(b, q), D, lane, data);
-              taylor::tangent(a.law, one, data, result, jacobian);
-              double* gradient = &a.gradient(4 * a.point(b, q)) + lane;
-              for (int i = 0; i < 3; ++i) gradient[i * L] = jacobian[3 * J + i];
-              gradient[3 * L] = seesLambda ? jacobian[3 * J + J - 1] : 0.0;
-            }
+            a.tangent(b, q, held.data(), in, out, jacobian);
+            double* gradient = &a.gradient(4 * a.point(b, q));
+            for (int i = 0; i < 3; ++i) jacobian[3 * J + i].store(gradient + i * L);
+            (seesLambda ? jacobian[3 * J + J - 1] : Pack(0.0)).store(gradient + 3 * L);
           }
         });
     throwFirst(failures, kept_);
@@ -485,13 +481,15 @@ class UnilateralTerm final : public EventTerm {
     result.names = Law::observedNames();
     const Arrays a = updated(u, lambda, a_.data);
     View<double*> values("observed", 2 * static_cast<std::size_t>(a_.numEntities) * a_.Q);
+    const PointMemory memory = a_.pointMemory();
     forEachBatch(
         "observe", batches_, a.order, KOKKOS_LAMBDA(int b) {
+          const PointMemory::Held held(memory);
           Pack local[3 * kMaxNodes], in[J], out[O];
           a.gather(b, u, local);
           for (int q = 0; q < a.Q; ++q) {
             a.inputs(b, q, local, lambda, true, in);
-            a.evaluate(b, q, in, out);
+            a.evaluate(b, q, held.data(), in, out);
             for (int lane = 0; lane < a.lanesIn(b); ++lane) {
               double* shown = &values(2 * (static_cast<std::size_t>(b * L + lane) * a.Q + q));
               const bool on = exists(a, b, q, lane);

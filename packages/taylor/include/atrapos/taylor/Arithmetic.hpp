@@ -16,8 +16,7 @@ KOKKOS_INLINE_FUNCTION Sweep<X> quotient(const LanesOf<X>& ak, const Sweep<X>& b
   double* cs = takeSlots<X>(context);
   LanesOf<X> c;
   if (X::pass == Pass::Start) {
-    c = restrictTo(context.failures, Operation::Division, b.value(), ak / b.value(),
-                   [](double x) { return x != 0; });
+    c = restrictTo(context, Operation::Division, b.value(), ak / b.value(), [](double x) { return x != 0; });
   } else {
     c = ak - b.value() * LanesOf<X>::load(cs);
     if (X::pass == Pass::Sweep) c -= convolve<X::lanes>(bs, cs, context.stride, context.order);

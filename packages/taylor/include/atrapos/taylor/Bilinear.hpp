@@ -31,19 +31,22 @@ using TermIndices = std::make_index_sequence<Terms::list.size()>;
 template <int N>
 using Entries = std::make_index_sequence<N>;
 
-// A value loaded once and held in a register; GCC would load it again for each of its uses.
+// A value loaded once and held in a register where that pays.
 template <int L>
 KOKKOS_FORCEINLINE_FUNCTION Lanes<L> held(Lanes<L> a) {
-#if defined(__AVX512F__) && defined(__GNUC__) && !defined(__clang__)
-  if constexpr (L == 8) asm("" : "+v"(a.v));
-#endif
+  Lanes<L>::Register::hold(a.v);
   return a;
+}
+
+template <int L>
+KOKKOS_FORCEINLINE_FUNCTION Lanes<L> loadHeld(const double* p, int entry) {
+  return held(Lanes<L>::load(p + entry * L));
 }
 
 // Loops over the entries of local arrays are written as folds: only then do the arrays become registers.
 template <int L, std::size_t... n>
 KOKKOS_FORCEINLINE_FUNCTION void loadBlock(const double* p, Lanes<L>* a, std::index_sequence<n...>) {
-  ((a[n] = held(Lanes<L>::load(p + n * L))), ...);
+  ((a[n] = loadHeld<L>(p, n)), ...);
 }
 
 template <int L, std::size_t... n>
@@ -66,13 +69,53 @@ KOKKOS_FORCEINLINE_FUNCTION void addEntries(const Lanes<L>* a, Lanes<L>* out, st
   ((out[n] += a[n]), ...);
 }
 
-/// Fetches N lanes of doubles.
+/// Fetches the cache lines of N lanes of doubles; those that reach into one line more, where they do not
+/// begin with a line, fetch that as well.
 template <int L, std::size_t... n>
 KOKKOS_FORCEINLINE_FUNCTION void fetch([[maybe_unused]] const double* p, std::index_sequence<n...>) {
 #if defined(__GNUC__) && !defined(__CUDACC__) && !defined(__HIPCC__)
-  (__builtin_prefetch(p + n * L), ...);
+  constexpr int line = 8, end = L * static_cast<int>(sizeof...(n));
+  ((L * n % line == 0 ? __builtin_prefetch(p + L * n) : void()), ...);
+  if constexpr (L % line != 0) __builtin_prefetch(p + end - 1);
 #endif
 }
+
+// Whether term t is the first one of the list that reads entry `entry` of the left or the right block, or of
+// either where both are one.
+template <class Terms>
+constexpr bool readsFirst(std::size_t t, int entry, bool left, bool right) {
+  for (std::size_t s = 0; s < t; ++s)
+    if ((left && Terms::list[s].left == entry) || (right && Terms::list[s].right == entry)) return false;
+  return true;
+}
+
+/// The terms of two different blocks, each entry loaded where the first term reads it: with all loads in
+/// front, more values than a small register file holds would be alive at once.
+template <class Terms, int L>
+struct LoadedTerms {
+  const double *p, *q;
+  Lanes<L> x[Terms::numLeft], y[Terms::numRight];
+
+  KOKKOS_FORCEINLINE_FUNCTION LoadedTerms(const double* left, const double* right) : p(left), q(right) {}
+
+  KOKKOS_FORCEINLINE_FUNCTION void addTo(Lanes<L>* sum) { addAll(sum, TermIndices<Terms>()); }
+
+ private:
+  template <std::size_t... t>
+  KOKKOS_FORCEINLINE_FUNCTION void addAll(Lanes<L>* sum, std::index_sequence<t...>) {
+    (add<t>(sum), ...);
+  }
+  template <std::size_t t>
+  KOKKOS_FORCEINLINE_FUNCTION void add(Lanes<L>* sum) {
+    constexpr BilinearTerm term = Terms::list[t];
+    if constexpr (readsFirst<Terms>(t, term.left, true, false)) x[term.left] = loadHeld<L>(p, term.left);
+    if constexpr (readsFirst<Terms>(t, term.right, false, true)) y[term.right] = loadHeld<L>(q, term.right);
+    if constexpr (term.sign > 0)
+      sum[term.out] += x[term.left] * y[term.right];
+    else
+      sum[term.out] -= x[term.left] * y[term.right];
+  }
+};
 
 /// Adds the terms at (a_i, b_{k-i}), i = first..k-first, to out; a and b are different blocks of slots.
 /// Meanwhile the same place of b's `ahead` doubles on is fetched (a's is where a meets itself).
@@ -85,10 +128,7 @@ KOKKOS_FORCEINLINE_FUNCTION void convolveBlocks(const double* a, const double* b
   const double* q = b + (k - first) * stride;
   for (int i = first; i <= k - first; ++i, p += stride, q -= stride) {
     fetch<L>(q + ahead, Entries<Terms::numRight>());
-    Lanes<L> x[Terms::numLeft], y[Terms::numRight];
-    loadBlock(p, x, Entries<Terms::numLeft>());
-    loadBlock(q, y, Entries<Terms::numRight>());
-    addTerms<Terms>(x, y, sum, TermIndices<Terms>());
+    LoadedTerms<Terms, L>(p, q).addTo(sum);
   }
   addEntries(sum, out, Entries<Terms::numOut>());
 }
@@ -103,19 +143,14 @@ KOKKOS_FORCEINLINE_FUNCTION void convolveEnds(const double* a, const double* b, 
     const std::ptrdiff_t near = i * stride, far = (k - i) * stride;
     fetch<L>(b + near + ahead, Entries<Terms::numRight>());
     fetch<L>(b + far + ahead, Entries<Terms::numRight>());
-    Lanes<L> x[Terms::numLeft], y[Terms::numRight];
-    loadBlock(a + near, x, Entries<Terms::numLeft>());
-    loadBlock(b + far, y, Entries<Terms::numRight>());
-    addTerms<Terms>(x, y, sum, TermIndices<Terms>());
-    loadBlock(a + far, x, Entries<Terms::numLeft>());
-    loadBlock(b + near, y, Entries<Terms::numRight>());
-    addTerms<Terms>(x, y, sum, TermIndices<Terms>());
+    LoadedTerms<Terms, L>(a + near, b + far).addTo(sum);
+    LoadedTerms<Terms, L>(a + far, b + near).addTo(sum);
   }
   addEntries(sum, out, Entries<Terms::numOut>());
 }
 
 // A term of a block with itself at (i, j) and (j, i). Where an output consists of squares alone both are the
-// same: counted once here, doubled at the end.
+// same: counted once here, doubled at the end (addBoth).
 template <class Terms, std::size_t t, int L>
 KOKKOS_FORCEINLINE_FUNCTION void addSymmetricTerm(const Lanes<L>* x, const Lanes<L>* y, Lanes<L>* forward,
                                                   Lanes<L>* backward) {
@@ -153,6 +188,37 @@ KOKKOS_FORCEINLINE_FUNCTION void addPairs(const Lanes<L>* x, const Lanes<L>* y, 
   addBoth<Terms>(forward, backward, out, Entries<Terms::numOut>());
 }
 
+/// The terms of a block with itself at (x, y) and (y, x), loaded likewise.
+template <class Terms, int L>
+struct LoadedPairs {
+  const double *p, *q;
+  Lanes<L> x[Terms::numLeft], y[Terms::numLeft];
+
+  KOKKOS_FORCEINLINE_FUNCTION LoadedPairs(const double* one, const double* other) : p(one), q(other) {}
+
+  KOKKOS_FORCEINLINE_FUNCTION void addTo(Lanes<L>* forward, Lanes<L>* backward) {
+    addAll(forward, backward, TermIndices<Terms>());
+  }
+
+ private:
+  template <std::size_t... t>
+  KOKKOS_FORCEINLINE_FUNCTION void addAll(Lanes<L>* forward, Lanes<L>* backward, std::index_sequence<t...>) {
+    (add<t>(forward, backward), ...);
+  }
+  template <std::size_t t>
+  KOKKOS_FORCEINLINE_FUNCTION void add(Lanes<L>* forward, Lanes<L>* backward) {
+    constexpr BilinearTerm term = Terms::list[t];
+    if constexpr (readsFirst<Terms>(t, term.left, true, true)) load<term.left>();
+    if constexpr (term.right != term.left && readsFirst<Terms>(t, term.right, true, true)) load<term.right>();
+    addSymmetricTerm<Terms, t>(x, y, forward, backward);
+  }
+  template <int entry>
+  KOKKOS_FORCEINLINE_FUNCTION void load() {
+    x[entry] = loadHeld<L>(p, entry);
+    y[entry] = loadHeld<L>(q, entry);
+  }
+};
+
 /// convolveBlocks where both blocks are one.
 template <class Terms, int L>
 KOKKOS_FORCEINLINE_FUNCTION void convolveBlock(const double* a, std::ptrdiff_t stride, int k, int first,
@@ -167,10 +233,7 @@ KOKKOS_FORCEINLINE_FUNCTION void convolveBlock(const double* a, std::ptrdiff_t s
   for (; p < q; p += stride, q -= stride) {
     fetch<L>(p + ahead, All());
     fetch<L>(q + ahead, All());
-    Lanes<L> x[Terms::numLeft], y[Terms::numLeft];
-    loadBlock(p, x, All());
-    loadBlock(q, y, All());
-    addSymmetricTerms<Terms>(x, y, forward, backward, TermIndices<Terms>());
+    LoadedPairs<Terms, L>(p, q).addTo(forward, backward);
   }
   addBoth<Terms>(forward, backward, out, Outputs());
   if (p == q) {
@@ -195,10 +258,7 @@ KOKKOS_FORCEINLINE_FUNCTION void convolveBlockEnds(const double* a, std::ptrdiff
     const double* q = a + (k - i) * stride;
     fetch<L>(p + ahead, All());
     fetch<L>(q + ahead, All());
-    Lanes<L> x[Terms::numLeft], y[Terms::numLeft];
-    loadBlock(p, x, All());
-    loadBlock(q, y, All());
-    addSymmetricTerms<Terms>(x, y, forward, backward, TermIndices<Terms>());
+    LoadedPairs<Terms, L>(p, q).addTo(forward, backward);
   }
   addBoth<Terms>(forward, backward, out, Outputs());
 }

@@ -35,16 +35,14 @@ KOKKOS_INLINE_FUNCTION Mask<X::lanes> compare(const Sweep<X>& a, const Sweep<X>&
   Context<X::lanes>* context = a.isPassive() ? b.context() : a.context();
   LanesOf<X> outcome(0.0);
   if (context == nullptr || X::pass == Pass::Start)
-    for (int l = 0; l < X::lanes; ++l) outcome[l] = holds(a.value()[l], b.value()[l]) ? 1.0 : 0.0;
+    outcome = LanesOf<X>::of(LanesOf<X>::Register::compare(a.value().v, b.value().v, holds));
   return {context == nullptr ? outcome : keep<X>(*context, outcome)};
 }
 
 // yes in lanes where the mask holds, no elsewhere.
 template <int L>
 KOKKOS_INLINE_FUNCTION Lanes<L> select(const Mask<L>& mask, const Lanes<L>& yes, const Lanes<L>& no) {
-  Lanes<L> r;
-  for (int l = 0; l < L; ++l) r[l] = mask[l] ? yes[l] : no[l];
-  return r;
+  return Lanes<L>::of(Lanes<L>::Register::select(mask.v.v, yes.v, no.v));
 }
 
 // The smaller (sign = 1) or larger (-1) of two: order 0 decides; where it cannot, there is no series.
@@ -58,9 +56,8 @@ KOKKOS_INLINE_FUNCTION Sweep<X> extremum(const Sweep<X>& a, const Sweep<X>& b, d
   if (X::pass == Pass::Start)
     for (int l = 0; l < X::lanes; ++l) {
       const double x = sign * a.value()[l], y = sign * b.value()[l];
-      weight[l] = x < y ? 1.0 : y < x ? 0.0 : notANumber;
-      if (!(x < y || y < x) && context.failures != nullptr)
-        context.failures->note(l, operation, a.value()[l]);
+      weight[l] = x < y ? 1.0 : 0.0;
+      if (!(x < y || y < x)) refuse(context, l, operation, a.value()[l], weight);
     }
   weight = keep<X>(context, weight);
   LanesOf<X> c = select(Mask<X::lanes>{weight}, a.coefficient(), b.coefficient());
@@ -73,7 +70,7 @@ KOKKOS_INLINE_FUNCTION Sweep<X> extremum(const Sweep<X>& a, const Sweep<X>& b, d
   template <class A, class B, class X>                                                                      \
   KOKKOS_INLINE_FUNCTION Mask<X::lanes> operator OP(const Expression<A, X>& a, const Expression<B, X>& b) { \
     return detail::compare(Sweep<X>(a.self()), Sweep<X>(b.self()),                                          \
-                           [](double x, double y) { return x OP y; });                                      \
+                           [](const auto& x, const auto& y) { return x OP y; });                            \
   }                                                                                                         \
   template <class E, class X>                                                                               \
   KOKKOS_INLINE_FUNCTION Mask<X::lanes> operator OP(const Expression<E, X>& a, double b) {                  \
@@ -141,8 +138,7 @@ KOKKOS_INLINE_FUNCTION Sweep<X> fabs(const Expression<E, X>& e) {
   LanesOf<X> sign(0.0);
   if (X::pass == Pass::Start) {
     for (int l = 0; l < X::lanes; ++l) sign[l] = a.value()[l] < 0 ? -1.0 : 1.0;
-    sign = detail::restrictTo(context.failures, Operation::Abs, a.value(), sign,
-                              [](double x) { return x != 0; });
+    sign = detail::restrictTo(context, Operation::Abs, a.value(), sign, [](double x) { return x != 0; });
   }
   return {a.value() * detail::keep<X>(context, sign), &context};
 }

@@ -9,15 +9,16 @@ namespace atrapos::taylor {
 
 /// What one execution of a law computes (docs/theory/taylor.md).
 enum class Pass {
-  Start,    ///< order 0: ordinary values
-  Sweep,    ///< coefficient `order` of everything, from the inputs' coefficient `order` and the histories
-  Complete  ///< after a Sweep with the inputs' coefficient taken as zero: the linear response to the true
-            ///< one, added to the histories
+  Start,     ///< order 0: ordinary values
+  Sweep,     ///< coefficient `order` of everything, from the inputs' coefficient `order` and the histories
+  Complete,  ///< after a Sweep with the inputs' coefficient taken as zero: the linear response to the true
+             ///< one, added to the histories
+  Linear     ///< after Start: the same linear response, and nothing is recorded: a column of the tangent
 };
 
 /// How a law is executed on Sweep: for L points at a time, in one of the passes. With Counting it only tells
 /// what memory it takes: context.shape is what there is, and what does not fit shares the first slot.
-template <int L, Pass P, bool Counting = false>
+template <int L, Pass P, bool Counting = false, int Native = nativeLanes>
 struct Execution {
   static constexpr bool counting = Counting;
   static constexpr int lanes = L;
@@ -88,6 +89,7 @@ struct Context {
   int waiting = 0;           ///< HistoryShape::waiting(maxOrder) where sweeps work in blocks of orders
   std::ptrdiff_t ahead = 0;  ///< doubles from here to the memory that is wanted next, fetched meanwhile
   Failures<L>* failures = nullptr;  ///< where Start notes arguments outside an operation's domain
+  bool plain = false;  ///< Start gives the values of doubles also where an operation has no series
 
   // Of the execution under way.
   double* nextSlot = nullptr;
@@ -109,6 +111,7 @@ struct Context {
     waiting = alone(given.waiting);
     ahead = alone(given.ahead);
     failures = alone(given.failures);
+    plain = given.plain;
     nextConstant = memory;
     nextSum = nextConstant + static_cast<std::ptrdiff_t>(shape.constants) * L;
     nextSlot = nextSum + static_cast<std::ptrdiff_t>(shape.sums) * waiting * L;
@@ -127,6 +130,26 @@ struct Context {
 };
 
 namespace detail {
+
+/// Outside an operation's domain there is no series: NaN and a note.
+template <int L>
+KOKKOS_INLINE_FUNCTION void refuse(const Context<L>& context, int lane, Operation operation, double argument,
+                                   Lanes<L>& result) {
+  if (context.plain) return;
+  result[lane] = notANumber;
+  if (context.failures != nullptr) context.failures->note(lane, operation, argument);
+}
+
+/// What is `there` where `inside` holds for the lane's argument; elsewhere it is refused.
+template <int L, class Inside>
+KOKKOS_INLINE_FUNCTION Lanes<L> restrictTo(const Context<L>& context, Operation operation,
+                                           const Lanes<L>& argument, const Lanes<L>& there,
+                                           const Inside& inside) {
+  Lanes<L> result = there;
+  for (int l = 0; l < L; ++l)
+    if (!inside(argument[l])) refuse(context, l, operation, argument[l], result);
+  return result;
+}
 
 /// `count` consecutive slots; returns the order-0 lanes of the first.
 template <class X>
@@ -151,7 +174,10 @@ KOKKOS_FORCEINLINE_FUNCTION double* takeSums(Context<X::lanes>& context, int cou
 
 // In Complete the value is an increment of what Sweep left.
 template <Pass P, int L>
-KOKKOS_FORCEINLINE_FUNCTION void record(const Context<L>& context, double* slot, const Lanes<L>& value) {
+KOKKOS_FORCEINLINE_FUNCTION void record([[maybe_unused]] const Context<L>& context,
+                                        [[maybe_unused]] double* slot,
+                                        [[maybe_unused]] const Lanes<L>& value) {
+  if constexpr (P == Pass::Linear) return;
   double* p = slot + context.order * context.stride;
   if constexpr (P == Pass::Complete)
     (Lanes<L>::load(p) + value).store(p);

@@ -65,18 +65,6 @@ namespace detail {
 
 constexpr double notANumber = std::numeric_limits<double>::quiet_NaN();
 
-/// result where `inside` holds for the lane's argument, NaN and a note elsewhere.
-template <int L, class Inside>
-KOKKOS_INLINE_FUNCTION Lanes<L> restrictTo(Failures<L>* failures, Operation operation,
-                                           const Lanes<L>& argument, Lanes<L> result, const Inside& inside) {
-  for (int l = 0; l < L; ++l)
-    if (!inside(argument[l])) {
-      result[l] = notANumber;
-      if (failures != nullptr) failures->note(l, operation, argument[l]);
-    }
-  return result;
-}
-
 }  // namespace detail
 
 inline std::string describe(Operation operation, double value) {

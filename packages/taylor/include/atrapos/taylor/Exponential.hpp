@@ -67,7 +67,7 @@ KOKKOS_INLINE_FUNCTION Sweep<X> log(const Expression<E, X>& e) {
   if (a.isPassive()) return {log(a.value())};
   LanesOf<X> c0(0.0);
   if (detail::isStart(a))
-    c0 = detail::restrictTo(a.context()->failures, Operation::Log, a.value(), log(a.value()),
+    c0 = detail::restrictTo(*a.context(), Operation::Log, a.value(), log(a.value()),
                             [](double x) { return x > 0; });
   return detail::logarithm(a, c0, 0.0, 1.0);
 }
@@ -80,7 +80,7 @@ KOKKOS_INLINE_FUNCTION Sweep<X> log10(const Expression<E, X>& e) {
   if (a.isPassive()) return {log10(a.value())};
   LanesOf<X> c0(0.0);
   if (detail::isStart(a))
-    c0 = detail::restrictTo(a.context()->failures, Operation::Log10, a.value(), log10(a.value()),
+    c0 = detail::restrictTo(*a.context(), Operation::Log10, a.value(), log10(a.value()),
                             [](double x) { return x > 0; });
   return detail::logarithm(a, c0, 0.0, log10OfE);
 }
@@ -92,7 +92,7 @@ KOKKOS_INLINE_FUNCTION Sweep<X> log1p(const Expression<E, X>& e) {
   if (a.isPassive()) return {log1p(a.value())};
   LanesOf<X> c0(0.0);
   if (detail::isStart(a))
-    c0 = detail::restrictTo(a.context()->failures, Operation::Log1p, a.value(), log1p(a.value()),
+    c0 = detail::restrictTo(*a.context(), Operation::Log1p, a.value(), log1p(a.value()),
                             [](double x) { return x > -1; });
   return detail::logarithm(a, c0, 1.0, 1.0);
 }

@@ -82,7 +82,7 @@ KOKKOS_INLINE_FUNCTION Sweep<X> acosh(const Expression<E, X>& e) {
   if (a.isPassive()) return {acosh(a.value())};
   LanesOf<X> c0(0.0);
   if (detail::isStart(a))
-    c0 = detail::restrictTo(a.context()->failures, Operation::Acosh, a.value(), acosh(a.value()),
+    c0 = detail::restrictTo(*a.context(), Operation::Acosh, a.value(), acosh(a.value()),
                             [](double x) { return x > 1; });
   return detail::primitive(a, 1.0 / sqrt((a - 1.0) * (a + 1.0)), c0);
 }
@@ -94,7 +94,7 @@ KOKKOS_INLINE_FUNCTION Sweep<X> atanh(const Expression<E, X>& e) {
   if (a.isPassive()) return {atanh(a.value())};
   LanesOf<X> c0(0.0);
   if (detail::isStart(a))
-    c0 = detail::restrictTo(a.context()->failures, Operation::Atanh, a.value(), atanh(a.value()),
+    c0 = detail::restrictTo(*a.context(), Operation::Atanh, a.value(), atanh(a.value()),
                             [](double x) { return x > -1 && x < 1; });
   return detail::primitive(a, 1.0 / ((1.0 - a) * (1.0 + a)), c0);
 }

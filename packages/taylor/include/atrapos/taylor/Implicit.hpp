@@ -117,23 +117,29 @@ KOKKOS_INLINE_FUNCTION bool solveImplicit(const G& g, const Sweep<X>* x, const L
     yk[i] = -sum;
   }
 
-  // Second execution: the histories inside g become those of the true y_k (paper, Algorithm 3, leaves this
-  // out).
-  using Again = Execution<X::lanes, Pass::Complete, X::counting>;
-  double* const nextSum = context->nextSum;  // the sums of this pass: the second execution takes none
-  *context = before;
-  context->nextSum = nextSum;
-  Sweep<Again> xk[NX], dy[NY], unused[NY];
-  for (int j = 0; j < NX; ++j) xk[j] = still[j].template in<Again>();
-  for (int j = 0; j < NY; ++j) {
-    double* slot = y[j].slot();
-    record<Pass::Complete>(*context, slot, yk[j]);
-    y[j] = Sweep<X>(yk[j], context, slot);
-    dy[j] = y[j].template in<Again>();
+  // Nothing is recorded in Linear, and nobody asks for the histories inside g.
+  if constexpr (X::pass == Pass::Linear) {
+    for (int j = 0; j < NY; ++j) y[j] = y[j].withValue(yk[j]);
+    return true;
+  } else {
+    // Second execution: the histories inside g become those of the true y_k (paper, Algorithm 3, leaves this
+    // out).
+    using Again = Execution<X::lanes, Pass::Complete, X::counting>;
+    double* const nextSum = context->nextSum;  // the sums of this pass: the second execution takes none
+    *context = before;
+    context->nextSum = nextSum;
+    Sweep<Again> xk[NX], dy[NY], unused[NY];
+    for (int j = 0; j < NX; ++j) xk[j] = still[j].template in<Again>();
+    for (int j = 0; j < NY; ++j) {
+      double* slot = y[j].slot();
+      record<Pass::Complete>(*context, slot, yk[j]);
+      y[j] = Sweep<X>(yk[j], context, slot);
+      dy[j] = y[j].template in<Again>();
+    }
+    callImplicit<ND>(g, static_cast<const Sweep<Again>*>(xk), static_cast<const Sweep<Again>*>(dy), data,
+                     unused);
+    return true;
   }
-  callImplicit<ND>(g, static_cast<const Sweep<Again>*>(xk), static_cast<const Sweep<Again>*>(dy), data,
-                   unused);
-  return true;
 }
 
 }  // namespace detail

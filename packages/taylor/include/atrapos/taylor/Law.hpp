@@ -63,7 +63,7 @@ ATRAPOS_FLATTEN KOKKOS_INLINE_FUNCTION void execute(const Law& law, Context<L>& 
     double* slot = slots + j * X::lanes;
     if constexpr (Known) {
       x[j] = Sweep<X>(in[j], &context, slot);
-      in[j].store(slot + context.order * context.stride);
+      if constexpr (X::pass != Pass::Linear) in[j].store(slot + context.order * context.stride);
     } else {
       x[j] = Sweep<X>::unknown(&context, slot);
     }
@@ -120,6 +120,25 @@ template <int L, class Law>
 KOKKOS_FORCEINLINE_FUNCTION void sweepKnown(const Law& law, Context<L>& context, const Lanes<L>* in,
                                             const Lanes<L>* data, Lanes<L>* out) {
   detail::execute<Execution<L, Pass::Sweep>, true>(law, context, in, data, out);
+}
+
+/// out = law(in) and jacobian[i * numInputs + j] = d out[i] / d in[j] at L points: order 0, then the linear
+/// response to each unit vector (docs/theory/taylor.md, Tangents in lanes). context.memory holds
+/// shape.doubles<L>(0) doubles; the order is ignored. On a kink (abs, min, max) one side's, as with Fad
+/// types.
+template <int L, class Law>
+KOKKOS_INLINE_FUNCTION void tangent(const Law& law, Context<L> context, const Lanes<L>* in,
+                                    const Lanes<L>* data, Lanes<L>* out, Lanes<L>* jacobian) {
+  context.plain = true;
+  context.order = 0;
+  start(law, context, in, data, out);
+  context.order = 1;
+  for (int j = 0; j < Law::numInputs; ++j) {
+    Lanes<L> unit[Law::numInputs], column[Law::numOutputs];
+    for (int i = 0; i < Law::numInputs; ++i) unit[i] = i == j ? 1.0 : 0.0;
+    detail::execute<Execution<L, Pass::Linear>, true>(law, context, unit, data, column);
+    for (int i = 0; i < Law::numOutputs; ++i) jacobian[i * Law::numInputs + j] = column[i];
+  }
 }
 
 /// What the law needs to keep at a point, counted by executing it. Host.

@@ -21,7 +21,7 @@ namespace atrapos::taylor {
 ///                                                order k
 ///
 /// `data`, if the law has any: [point][datum].
-template <class Law, int L = 8>
+template <class Law, int L = nativeLanes>
 class PointSeries {
  public:
   PointSeries(const Law& law, int numPoints, std::vector<double> data = {})

@@ -41,8 +41,7 @@ KOKKOS_INLINE_FUNCTION Sweep<X> pow(const Expression<E, X>& e, int n) {
   if (rest > 1 && !a.isPassive()) a.slot();  // the variable's own, shared by the copy
   // Before the division below gives it another name.
   if (n < 0 && !a.isPassive() && detail::isStart(a))
-    detail::restrictTo(a.context()->failures, Operation::Pow, a.value(), a.value(),
-                       [](double x) { return x != 0; });
+    detail::restrictTo(*a.context(), Operation::Pow, a.value(), a.value(), [](double x) { return x != 0; });
   Sweep<X> power(1.0);
   Sweep<X> square = a;
   bool first = true;
@@ -66,7 +65,7 @@ KOKKOS_INLINE_FUNCTION Sweep<X> pow(const Expression<E, X>& e, double r) {
   if (a.isPassive()) return {pow(a.value(), LanesOf<X>(r))};
   LanesOf<X> c0(0.0);
   if (detail::isStart(a))
-    c0 = detail::restrictTo(a.context()->failures, Operation::Pow, a.value(), pow(a.value(), LanesOf<X>(r)),
+    c0 = detail::restrictTo(*a.context(), Operation::Pow, a.value(), pow(a.value(), LanesOf<X>(r)),
                             [r](double x) { return x > 0 || (x < 0 && detail::isInteger(r)); });
   return detail::powerSeries(a, c0, r);
 }
@@ -83,8 +82,7 @@ KOKKOS_INLINE_FUNCTION Sweep<X> pow(const Expression<E, X>& e, const LanesOf<X>&
     for (int l = 0; l < X::lanes; ++l) {
       const double x = a.value()[l];
       if (x > 0 || (x < 0 && detail::isInteger(r[l]))) continue;
-      c0[l] = detail::notANumber;
-      if (a.context()->failures != nullptr) a.context()->failures->note(l, Operation::Pow, x);
+      detail::refuse(*a.context(), l, Operation::Pow, x, c0);
     }
   }
   return detail::powerSeries(a, c0, r);
@@ -98,8 +96,7 @@ KOKKOS_INLINE_FUNCTION Sweep<X> pow(const LanesOf<X>& base, const Expression<E, 
   Context<X::lanes>& context = *exponent.context();
   LanesOf<X> logarithm(0.0);
   if (detail::isStart(exponent))
-    logarithm =
-        detail::restrictTo(context.failures, Operation::Pow, base, log(base), [](double x) { return x > 0; });
+    logarithm = detail::restrictTo(context, Operation::Pow, base, log(base), [](double x) { return x > 0; });
   logarithm = detail::keep<X>(context, logarithm);
   return exp(logarithm * exponent);
 }
@@ -109,7 +106,7 @@ KOKKOS_INLINE_FUNCTION Sweep<X> pow(double base, const Expression<E, X>& e) {
   if (exponent.isPassive()) return {pow(LanesOf<X>(base), exponent.value())};
   const LanesOf<X> logarithm = base > 0 ? std::log(base) : detail::notANumber;
   if (detail::isStart(exponent))
-    detail::restrictTo(exponent.context()->failures, Operation::Pow, LanesOf<X>(base), logarithm,
+    detail::restrictTo(*exponent.context(), Operation::Pow, LanesOf<X>(base), logarithm,
                        [](double x) { return x > 0; });
   return exp(logarithm * exponent);
 }
@@ -122,7 +119,7 @@ KOKKOS_INLINE_FUNCTION Sweep<X> pow(const Expression<A, X>& a, const Expression<
   if (exponent.isPassive()) return pow(base, exponent.value());
   if (base.isPassive()) return pow(base.value(), exponent);
   if (detail::isStart(base))  // before the logarithm gives it another name
-    detail::restrictTo(base.context()->failures, Operation::Pow, base.value(), base.value(),
+    detail::restrictTo(*base.context(), Operation::Pow, base.value(), base.value(),
                        [](double x) { return x > 0; });
   return exp(exponent * log(base));
 }

@@ -32,7 +32,7 @@ KOKKOS_INLINE_FUNCTION Sweep<X> sqrt(const Expression<E, X>& e) {
   if (a.isPassive()) return {sqrt(a.value())};
   LanesOf<X> c0(0.0);
   if (detail::isStart(a))
-    c0 = detail::restrictTo(a.context()->failures, Operation::Sqrt, a.value(), sqrt(a.value()),
+    c0 = detail::restrictTo(*a.context(), Operation::Sqrt, a.value(), sqrt(a.value()),
                             [](double x) { return x > 0; });
   return detail::squareRoot(a, c0);
 }
@@ -44,7 +44,7 @@ KOKKOS_INLINE_FUNCTION Sweep<X> cbrt(const Expression<E, X>& e) {
   if (a.isPassive()) return {cbrt(a.value())};
   LanesOf<X> c0(0.0);
   if (detail::isStart(a))
-    c0 = detail::restrictTo(a.context()->failures, Operation::Cbrt, a.value(), cbrt(a.value()),
+    c0 = detail::restrictTo(*a.context(), Operation::Cbrt, a.value(), cbrt(a.value()),
                             [](double x) { return x != 0; });
   return detail::powerSeries(a, c0, 1.0 / 3.0);
 }
@@ -59,7 +59,7 @@ KOKKOS_INLINE_FUNCTION Sweep<X> hypot(const Expression<A, X>& ea, const Expressi
   LanesOf<X> c0(0.0);
   if (detail::isStart(squares)) {
     const LanesOf<X> length = hypot(a.value(), b.value());
-    c0 = detail::restrictTo(squares.context()->failures, Operation::Hypot, length, length,
+    c0 = detail::restrictTo(*squares.context(), Operation::Hypot, length, length,
                             [](double x) { return x > 0; });
   }
   return detail::squareRoot(squares, c0);

@@ -78,7 +78,7 @@ KOKKOS_INLINE_FUNCTION Sweep<X> inverseSine(const Sweep<X>& a, Operation operati
                                             const Inverse& inverse) {
   LanesOf<X> c0(0.0);
   if (isStart(a))
-    c0 = restrictTo(a.context()->failures, operation, a.value(), inverse(a.value()),
+    c0 = restrictTo(*a.context(), operation, a.value(), inverse(a.value()),
                     [](double x) { return x > -1 && x < 1; });
   return primitive(a, 1.0 / sqrt((1.0 - a) * (1.0 + a)), c0, sign);
 }
@@ -113,7 +113,7 @@ KOKKOS_INLINE_FUNCTION Sweep<X> atan2(const Expression<A, X>& ey, const Expressi
   Context<X::lanes>* context = x.isPassive() ? y.context() : x.context();
   LanesOf<X> c0(0.0);
   if (X::pass == Pass::Start)
-    c0 = detail::restrictTo(context->failures, Operation::Atan2, hypot(x.value(), y.value()),
+    c0 = detail::restrictTo(*context, Operation::Atan2, hypot(x.value(), y.value()),
                             atan2(y.value(), x.value()), [](double r) { return r > 0; });
   const Sweep<X> squares = x * x + y * y;
   if (x.isPassive()) return detail::primitive(y, x.value() / squares, c0);
