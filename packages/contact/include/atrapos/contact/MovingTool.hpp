@@ -131,8 +131,9 @@ struct MovingTool {
     pull<numUnknowns>(x, y, X, Y);
   }
 
+  // Not inlined: it stands in several laws and passes.
   template <int N, class T>
-  KOKKOS_INLINE_FUNCTION void pull(const T* x, const T* y, T* X, T* Y) const {
+  ATRAPOS_NOINLINE KOKKOS_FUNCTION void pull(const T* x, const T* y, T* X, T* Y) const {
     T c[3], sine, cosine, v[3];
     motion.at(x[3], c, sine, cosine);
     for (int i = 0; i < N; ++i) Y[i] = y[i];

@@ -55,12 +55,12 @@ struct OneOf {
   /// The equation of a tool.
   template <class T>
   KOKKOS_INLINE_FUNCTION void operator()(const T* x, const T* y, T* g) const {
-    with([&](const auto& law) { law(x, y, g); });
+    with([&](const auto& law) { evaluate(law, x, y, g); });
   }
   /// The equation of a pressure.
   template <class T>
   KOKKOS_INLINE_FUNCTION void operator()(const T* x, const T* y, const taylor::Passive<T>* data, T* g) const {
-    with([&](const auto& law) { law(x, y, data, g); });
+    with([&](const auto& law) { evaluate(law, x, y, data, g); });
   }
   KOKKOS_INLINE_FUNCTION void start(const double* x, double* y) const {
     with([&](const auto& law) { law.start(x, y); });
@@ -91,6 +91,13 @@ struct OneOf {
   }
 
  private:
+  // Compiled once for each scalar, not once for every law and pass in which the alternatives stand: inlined,
+  // all of them together take compilers minutes.
+  template <class Law, class... Arguments>
+  ATRAPOS_NOINLINE KOKKOS_FUNCTION static void evaluate(const Law& law, Arguments... arguments) {
+    law(arguments...);
+  }
+
   template <class Law, std::size_t... I>
   static constexpr int position(std::index_sequence<I...>) {
     int at = 0;

@@ -34,8 +34,10 @@ struct PatchTool {
   /// on which points without a patch are projected so that all lanes have numbers.
   Kokkos::View<const double*> coefficients;
 
+  // Not inlined: it is large, and stands in several laws and passes.
   template <class T>
-  KOKKOS_INLINE_FUNCTION void operator()(const T* x, const T* y, const taylor::Passive<T>* data, T* g) const {
+  ATRAPOS_NOINLINE KOKKOS_FUNCTION void operator()(const T* x, const T* y, const taylor::Passive<T>* data,
+                                                   T* g) const {
     const int p = degree[0], q = degree[1];
     T power1[maxPatchDegree + 1], power2[maxPatchDegree + 1];
     power1[1] = y[4];
