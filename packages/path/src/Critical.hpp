@@ -9,6 +9,21 @@
 
 namespace atrapos::path {
 
+/// A place of a step at which the negative eigenvalues of the tangent have been counted.
+struct CountedPlace {
+  double a = 0;
+  long long negative = 0;
+  bool rising = true;  ///< lambda
+};
+
+/// Whether an odd number of eigenvalues has changed sign between them other than at limit points of the load.
+bool oddBetween(const CountedPlace& first, const CountedPlace& second);
+
+/// Eigenvalues that have changed sign for certain between two places of a step, other than at limit points of
+/// the load (docs/theory/path.md).
+int provenBetween(const CountedPlace& first, const CountedPlace& second,
+                  const std::vector<LimitPoint>& limits);
+
 /// A stretch of path in which the tangent says that there are bifurcation points.
 struct CriticalSearch {
   const Series& series;      ///< of the step
@@ -24,6 +39,7 @@ struct CriticalSearch {
   std::vector<ModeSample> samples;  ///< eigenvalues followed, at both ends of the step; may be empty
   std::vector<LimitPoint> limits;   ///< of the load, in the step: an eigenvalue vanishes there too
   int watchedModes = 0;
+  std::vector<CountedPlace> counts;  ///< at both ends of the step; empty where inertia does not tell
 };
 
 /// Where the eigenvalues followed vanish other than at limit points of lambda.

@@ -57,8 +57,10 @@ bool refineSimple(Calls& calls, const CriticalSearch& search, double guess, cons
   State state{calls.newVector(), 0};
   state.lambda = search.series.evaluate(guess, *state.u);
   double a = guess, moved = search.length;
-  // Newton goes on until its corrections no longer fall (rounding); one of `accepted` of the step confirms.
-  constexpr double accepted = 1e-8, far = 1e-2;
+  // Newton goes on until its corrections no longer fall. One of `accepted` of the step confirms; where they
+  // stop falling above that, what is left is the rounding of the tangent over the eigenvalue's rate, and the
+  // point is known to that.
+  constexpr double accepted = 1e-8, ofRounding = 1e-5, far = 1e-2;
   constexpr int maxIterations = 8;
   bool done = false;
   const int attempts = maxFactorizations + (held == Held::nothing ? 0 : 1);
@@ -79,15 +81,17 @@ bool refineSimple(Calls& calls, const CriticalSearch& search, double guess, cons
       continue;
     }
     double last = search.length;
+    bool stagnates = false;
     for (int i = 0; i < maxIterations; ++i) {
       double next = 0;
       if (!system->iterate(state, next)) break;
       moved = next;
       // Quadratic after the first few.
-      if (moved == 0 || moved > (i < 3 ? 1 : 0.1) * last) break;
+      stagnates = moved > (i < 3 ? 1 : 0.1) * last;
+      if (moved == 0 || stagnates) break;
       last = moved;
     }
-    done = moved <= accepted * search.length;
+    done = moved <= (stagnates ? ofRounding : accepted) * search.length;
     if (!done && frozen) {  // too far off: as if it had not been tried
       a = guess;
       state.u = calls.newVector();

@@ -32,6 +32,10 @@ bool isOfTheSeriesAlone(const StepReport& report, const std::optional<linear::In
   return report.inertia->null == 0 && end->null == 0 && report.inertia->negative == end->negative;
 }
 
+/// Where on a step, as a part of it, the load turns by the tangents at its ends: next to a bifurcation point
+/// the residual bends the end of a series, which may then not show what the corrected state has passed.
+double turningOf(double atStart, double atEnd) { return atStart / (atStart - atEnd); }
+
 }  // namespace
 
 RCP<Vector> copy(const Vector& v) { return Teuchos::rcp(new Vector(v, Teuchos::Copy)); }
@@ -159,6 +163,10 @@ bool Run::settle(const EndTangent* end) {
   if (turned_) report.limitPoints.push_back({report.length, report.lambdaEnd, tangent_->lambda > 0, false});
   turned_ = false;
   if (end && isOfTheSeriesAlone(report, end->inertia, loadTurned(*end))) report.limitPoints.clear();
+  if (end && report.limitPoints.empty() && loadTurned(*end)) {
+    const double a = turningOf(last_->lambdaCoefficient(1), end->lambda1) * report.length;
+    report.limitPoints.push_back({a, last_->lambda(a), end->lambda1 < 0, true});
+  }
   for (int i = 0; i < static_cast<int>(monitors_.size()); ++i) {
     const Rational value = last_->functional(*monitors_[i].weights);
     const Rational rate = value.derivative();

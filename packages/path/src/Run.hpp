@@ -58,7 +58,7 @@ class Run {
   /// What the tangent at a step's end tells.
   struct EndTangent {
     std::optional<linear::Inertia> inertia;
-    double lambda1 = 0;       ///< its load part, of which the sign counts
+    double lambda1 = 0;       ///< load part of the unit tangent
     std::vector<Mode> modes;  ///< eigenvalues next to zero that are followed
     int real = 0;             ///< of an unsymmetric tangent: negative eigenvalues that are real
   };

@@ -161,14 +161,15 @@ void Run::explainStability(StepReport& report, const EndTangent& end) {
   if (!options_.criticalPoints || !report.inertia || !report.inertiaEnd) return;
   const auto before = *report.inertia, after = *report.inertiaEnd;
   if (before.null > 0 || after.null > 0) return;
-  const long long change = std::llabs(after.negative - before.negative);
-  const bool odd = (change % 2 != 0) != loadTurned(end);
+  const std::vector<CountedPlace> counts{{0, before.negative, last_->lambdaCoefficient(1) > 0},
+                                         {report.length, after.negative, end.lambda1 > 0}};
   const long long limits = static_cast<long long>(report.limitPoints.size());
   // Of an unsymmetric tangent a conjugate pair may cross the imaginary axis, which is no critical point: two
   // more prove nothing, an odd number does, and real ones are a reason to look.
   const bool symmetric = calls_.problem().symmetric();
   const long long realChange = symmetric ? 0 : std::abs(end.real - real_);
-  const int needed = static_cast<int>(std::max(symmetric ? change - limits : 0LL, odd ? 1LL : 0LL));
+  const int needed =
+      symmetric ? provenBetween(counts[0], counts[1], report.limitPoints) : oddBetween(counts[0], counts[1]);
   // What the eigenvalues followed say beyond the count, in which two may cancel.
   const auto length = [&](const PathTangent& t) {
     return std::sqrt(last_->weight() * calls_.problem().inner(t.x, t.x) + t.lambda * t.lambda);
@@ -180,9 +181,10 @@ void Run::explainStability(StepReport& report, const EndTangent& end) {
       std::max<long long>(static_cast<long long>(evidence.zeros.size()), realChange - limits));
   const int signChanges = std::max(needed, suspected);
   if (signChanges == 0 && !evidence.suspect && !options_.searchEveryStep) return;
-  CriticalFound found = findCriticalPoints(
-      calls_, {*last_, report.length, outcome_.final, *tangent_, order_, signChanges, needed,
-               options_.residualBound, samples, report.limitPoints, options_.watchedModes});
+  CriticalFound found =
+      findCriticalPoints(calls_, {*last_, report.length, outcome_.final, *tangent_, order_, signChanges,
+                                  needed, options_.residualBound, samples, report.limitPoints,
+                                  options_.watchedModes, symmetric ? counts : std::vector<CountedPlace>{}});
   outcome_.criticalFactorizations += found.factorizations;
   report.unexplained = needed;
   for (const auto& point : found.points) report.unexplained -= point.nullity;
