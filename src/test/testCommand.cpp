@@ -135,6 +135,21 @@ TEST_F(CommandTest, QuietRunPrintsNothing) {
     EXPECT_TRUE(std::filesystem::is_regular_file(folder_ / "there" / "below" / name)) << name;
 }
 
+TEST_F(CommandTest, TitlesAndFoldersAreNeverRun) {
+  writeFile(folder_ / "`touch pwned`.yaml", "problem: {name: bratu_1d}\npath: {stop: {steps: 2}}\n");
+  writeFile(folder_ / "title.yaml",
+            "title: '`touch pwned` \"`touch pwned`\"'\n"
+            "problem: {name: bratu_1d}\npath: {stop: {steps: 2}}\n");
+  for (const char* deck : {"`touch pwned`.yaml", "title.yaml"}) {
+    const CommandResult r = runAtrapos({"run", "-q", deck, "-o", "it's `touch pwned`"}, folder_.path());
+    EXPECT_EQ(r.exitCode, 0) << r.err;
+    EXPECT_TRUE(std::filesystem::is_regular_file(folder_ / "it's `touch pwned`" / "path.png"));
+    std::filesystem::remove(folder_ / "it's `touch pwned`" / "path.png");
+  }
+  for (const auto& [name, content] : snapshot(folder_.path()))
+    EXPECT_NE(std::filesystem::path(name).filename().string(), "pwned") << name;
+}
+
 TEST_F(CommandTest, ThreadsAreUsedOrRefused) {
   ASSERT_EQ(runAtrapos({"run", "-q", "deck.yaml", "-t", "1"}, folder_.path()).exitCode, 0);
   EXPECT_EQ(summary("deck_results").at("threads"), 1);
