@@ -153,6 +153,11 @@ int makeMesh(const std::string& deckFile, const std::string& output, bool quiet)
   const auto deck = atrapos::deck::readDeck(deckFile);
   const auto mesh = atrapos::generateMesh(deck);
   const std::string file = output.empty() ? deck.mesh.path : output;
+  std::error_code notThere;
+  if (std::filesystem::equivalent(file, deckFile, notThere))  // links and other spellings too
+    throw atrapos::deck::DeckError(
+        fmt::format("{}: {}: {} is the deck itself, which the mesh would replace; expected another file",
+                    deckFile, output.empty() ? "mesh/file" : "--output", file));
   atrapos::exodus::writeMesh(mesh, file);
   if (!quiet) std::cout << fmt::format("{}: {}\n", file, atrapos::describeMesh(mesh));
   return 0;

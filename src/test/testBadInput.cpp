@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <fstream>
 #include <functional>
 #include <random>
 
@@ -246,6 +247,20 @@ TEST_F(BadInput, MeshThatTheDeckDoesNotDescribe) {
   writeFile(folder_ / "deck.yaml",
             edited(kSmallDeck, "  generate: {shape: box, lengths: [4, 1, 1], divisions: [4, 1, 1]}\n", ""));
   refuses({"mesh", "deck.yaml"}, {"mesh/generate", "missing"});
+}
+
+TEST_F(BadInput, MeshThatWouldReplaceTheDeck) {
+  std::filesystem::create_directory(folder_ / "sub");
+  std::filesystem::create_symlink("../deck.yaml", folder_ / "sub" / "link.exo");
+  std::filesystem::create_hard_link(folder_ / "deck.yaml", folder_ / "hard.exo");
+  for (const char* file : {"deck.yaml", "sub/../deck.yaml", "sub/link.exo", "hard.exo"}) {
+    refuses({"mesh", "deck.yaml", "-o", file}, {"deck.yaml: --output", file, "the deck itself"});
+    // In place: the hard link stays one.
+    std::ofstream(folder_ / "deck.yaml") << edited(kSmallDeck, "box.exo", file);
+    refuses({"mesh", "deck.yaml"}, {"deck.yaml: mesh/file", "the deck itself"});
+    const std::string named = std::filesystem::absolute(folder_ / "deck.yaml").string();
+    refuses({"mesh", "-q", named}, {"mesh/file", "the deck itself"});
+  }
 }
 
 TEST_F(BadInput, CheckRefusesAsRunDoes) {
