@@ -7,6 +7,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "SceneCase.hpp"
 #include "atrapos/fem/Multipliers.hpp"
 #include "atrapos/taylor/Implicit.hpp"
 
@@ -154,7 +155,8 @@ ContactEvents::ContactEvents(const Scene& scene, const std::string& file, bool a
       table_(file, "step,branch,path_length,load_factor,contact,event,point,node,x,y,z,force", append) {}
 
 void ContactEvents::onStep(int branch, int step, double pathLengthStart, double length,
-                           const path::Series& series, const std::vector<int>& changes) {
+                           const path::Series& series, const CaseState& end,
+                           const std::vector<int>& changes) {
   constexpr int samples = 16;
   if (branch != branch_) closed_.clear();
   branch_ = branch;
@@ -166,6 +168,8 @@ void ContactEvents::onStep(int branch, int step, double pathLengthStart, double 
   const auto ways = longestWays(u, length, factors);
   const Motion motion{series, lambda, u, ways};
   const bool first = closed_.empty();
+  // Most steps start from the state at which the last one has ended.
+  const bool goesOn = known_.lambda == series.lambdaCoefficient(0) && known_.u == u[0];
   closed_.resize(scene_.contacts().size());
   std::vector<ContactEvent> events;
   for (std::size_t c = 0; c < scene_.contacts().size(); ++c) {
@@ -181,7 +185,9 @@ void ContactEvents::onStep(int branch, int step, double pathLengthStart, double 
         ++number;
         char& wasClosed = closed_[c][number];
         PointOnSeries point(contact, t, p, motion);
-        const ToolProjection start = point.atStart();
+        ToolProjection start;
+        if (goesOn && !known_.gaps[c].empty()) start.gap = known_.gaps[c][number];
+        if (!std::isfinite(start.gap)) start = point.atStart();
         const auto note = [&](double a, bool closes) {
           ContactEvent event;
           double x[4], R[1] = {0};
@@ -225,6 +231,22 @@ void ContactEvents::onStep(int branch, int step, double pathLengthStart, double 
                               e.place[2], e.force));
   }
   count_ += static_cast<int>(events.size());
+  remember(end);
+}
+
+void ContactEvents::remember(const CaseState& end) {
+  const SceneState& state = dynamic_cast<const SceneCaseState&>(end).state();
+  known_ = {state.values(), state.lambda(), {}};
+  for (const ContactPoints& contact : scene_.contacts()) {
+    std::vector<double>& gaps = known_.gaps.emplace_back();
+    // Hard contact closes where the gap is zero, which is rounding: its gaps are all found in the same way.
+    if (contact.pressure.hard) continue;
+    for (const int term : contact.terms) {
+      const fem::PointValues& observed = state.observed(term);
+      for (std::size_t i = 0; i < observed.values.size(); i += observed.names.size())
+        gaps.push_back(observed.values[i]);
+    }
+  }
 }
 
 void ContactEvents::findCorners(std::size_t c, const path::Series& series, double length,

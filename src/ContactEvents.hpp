@@ -35,7 +35,7 @@ class ContactEvents final : public StepWatch {
   ContactEvents(const Scene& scene, const std::string& file, bool append = false);
 
   void onStep(int branch, int step, double pathLengthStart, double length, const path::Series& series,
-              const std::vector<int>& changes) override;
+              const CaseState& end, const std::vector<int>& changes) override;
   void copyFrom(const std::string& file, const RestartPlace& last) override { table_.copyFrom(file, last); }
   int count() const override { return count_; }
 
@@ -43,8 +43,17 @@ class ContactEvents final : public StepWatch {
   void findCorners(std::size_t c, const path::Series& series, double length, const std::vector<int>& changes,
                    std::vector<ContactEvent>& events) const;
 
+  /// Gaps that have been evaluated at the end of the last step.
+  struct KnownGaps {
+    std::vector<double> u;  ///< of that state
+    double lambda = 0;
+    std::vector<std::vector<double>> gaps;  ///< [contact][point]
+  };
+  void remember(const CaseState& end);
+
   const Scene& scene_;
   Table table_;
+  KnownGaps known_;
   int branch_ = 0;
   std::vector<std::vector<char>> closed_;  ///< [contact][point] at the end of the last step; empty: none yet
   int count_ = 0;

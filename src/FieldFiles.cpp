@@ -74,8 +74,8 @@ std::optional<int> branchOf(const std::string& name) {
 
 class SceneFields final : public FieldFile {
  public:
-  SceneFields(const SceneCase& owner, const Scene& scene, const std::string& file)
-      : owner_(owner), scene_(scene), file_(file), names_(names(scene)) {
+  SceneFields(const Scene& scene, const std::string& file)
+      : scene_(scene), file_(file), names_(names(scene)) {
     if (writesParts(scene.deck())) {
       const exodus::Decomposition cut(scene.resultMesh(), scene.elementRanks(), ranks::count());
       nodes_ = cut.nodes(ranks::own());
@@ -86,19 +86,21 @@ class SceneFields final : public FieldFile {
     }
   }
 
-  void write(const path::Vector& u, double lambda, const StateNumbers& n) override {
-    const auto nodal = scene_.nodalValues(u, lambda), element = scene_.elementValues(u, lambda);
-    const double active = owner_.activeContacts(u, lambda);
+  void write(const CaseState& state, const StateNumbers& n) override {
+    const SceneState& of = dynamic_cast<const SceneCaseState&>(state).state();
+    const auto nodal = scene_.nodalValues(of), element = scene_.elementValues(of);
+    const double active = state.activeContacts();
     writeStep(n.pathLength, nodal, element,
-              {lambda, n.pathLength, n.radius, double(n.order), double(n.negative), active, n.residual,
+              {n.lambda, n.pathLength, n.radius, double(n.order), double(n.negative), active, n.residual,
                double(n.branch)});
     if (writesParts(scene_.deck())) ranks::wait();  // a step is on disk when all parts are
   }
 
-  void copyFrom(const std::string& file, int count) override {
+  void copyFrom(const std::string& file, int count, double pathLength) override {
     if (std::filesystem::exists(file)) {
       const exodus::ResultReader reader(file);
-      copy(file, reader, reader.nodalNames(), reader.elementNames(), reader.globalNames(), count, {}, {});
+      copy(file, reader, reader.nodalNames(), reader.elementNames(), reader.globalNames(),
+           {count, pathLength}, {}, {});
       return;
     }
     const std::vector<int> parts = exodus::findParts(file);
@@ -109,7 +111,7 @@ class SceneFields final : public FieldFile {
     const exodus::JoinedResults reader(file, parts.front());
     const fem::Mesh &own = scene_.resultMesh(), &theirs = reader.joined().mesh;
     const exodus::ResultNames names = reader.names();
-    copy(file, reader, names.nodal, names.element, names.global, count,
+    copy(file, reader, names.nodal, names.element, names.global, {count, pathLength},
          placesOf(own.nodeIds, theirs.nodeIds, own.numNodes(), file),
          placesOf(own.elementIds, theirs.elementIds, own.numElements(), file));
   }
@@ -153,17 +155,29 @@ class SceneFields final : public FieldFile {
       writer_->writeStep(time, flat(nodal), flat(element), global);
   }
 
+  /// States up to a length of the path.
+  struct Wanted {
+    int count;
+    double pathLength;
+  };
+
   template <class Reader>
   void copy(const std::string& file, const Reader& reader, const std::vector<std::string>& nodalNames,
             const std::vector<std::string>& elementNames, const std::vector<std::string>& globalNames,
-            int count, const std::vector<int>& nodes, const std::vector<int>& elements) {
+            Wanted wanted, const std::vector<int>& nodes, const std::vector<int>& elements) {
     if (nodalNames != names_.nodal || elementNames != names_.element || globalNames != names_.global)
       throw std::invalid_argument(fmt::format("{}: holds other fields than output/fields asks for", file));
+    const int count = wanted.count;
     if (reader.numSteps() < count)
       throw std::invalid_argument(
           fmt::format("{}: holds {} states, {} are needed", file, reader.numSteps(), count));
-    if (!writer_) return;
     const auto times = reader.times();
+    constexpr double rounding = 1e-12;  // far below a step
+    if (times[count - 1] > wanted.pathLength * (1 + rounding) ||
+        (reader.numSteps() > count && times[count] < wanted.pathLength * (1 - rounding)))
+      throw std::invalid_argument(
+          fmt::format("{}: holds states of other steps than output/fields_every asks for", file));
+    if (!writer_) return;
     const auto inOrder = [](std::vector<double> values, const std::vector<int>& places) {
       return places.empty() ? values : reordered(values, places);
     };
@@ -176,7 +190,6 @@ class SceneFields final : public FieldFile {
     }
   }
 
-  const SceneCase& owner_;
   const Scene& scene_;
   std::string file_;  ///< without a part's numbers
   exodus::ResultNames names_;
@@ -215,9 +228,8 @@ std::string fieldsName(int branch) {
 
 bool writesParts(const deck::Deck& deck) { return deck.output.parts && ranks::count() > 1; }
 
-std::unique_ptr<FieldFile> makeSceneFields(const SceneCase& owner, const Scene& scene,
-                                           const std::string& file) {
-  return std::make_unique<SceneFields>(owner, scene, file);
+std::unique_ptr<FieldFile> makeSceneFields(const Scene& scene, const std::string& file) {
+  return std::make_unique<SceneFields>(scene, file);
 }
 
 void removeOtherFields(const std::string& folder, int last, const deck::Deck& deck) {

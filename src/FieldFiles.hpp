@@ -14,10 +14,9 @@ std::string fieldsName(int branch);
 /// Whether a run of this deck writes a result file on each of several ranks.
 bool writesParts(const deck::Deck& deck);
 
-/// The result file of a scene's states: one, by the first rank, or a part on each (writesParts). Both must
-/// outlive it. Collective, with all its members.
-std::unique_ptr<FieldFile> makeSceneFields(const SceneCase& owner, const Scene& scene,
-                                           const std::string& file);
+/// The result file of a scene's states (SceneCaseState): one, by the first rank, or a part on each
+/// (writesParts). The scene must outlive it. Collective, with all its members.
+std::unique_ptr<FieldFile> makeSceneFields(const Scene& scene, const std::string& file);
 
 /// Removes the result files in a folder of branches beyond `last`, and of that one those that this run does
 /// not write: parts or the whole.

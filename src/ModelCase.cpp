@@ -11,6 +11,24 @@
 #include "deck/DeckValue.hpp"
 
 namespace atrapos {
+namespace {
+
+class ModelState final : public CaseState {
+ public:
+  ModelState(const models::Setup& setup, const path::Vector& u) : setup_(setup), u_(u) {}
+
+  std::vector<double> monitors() const override {
+    std::vector<double> values;
+    for (const models::Monitor& m : setup_.monitors) values.push_back(linear::dot(*m.weights, u_));
+    return values;
+  }
+
+ private:
+  const models::Setup& setup_;
+  const path::Vector& u_;
+};
+
+}  // namespace
 
 ModelCase::ModelCase(const deck::Deck& deck) : deck_(deck) {
   const deck::ModelProblem& model = deck.problem.value();
@@ -47,10 +65,8 @@ std::vector<std::string> ModelCase::monitorNames() const {
   return names;
 }
 
-std::vector<double> ModelCase::monitors(const path::Vector& u, double /*lambda*/) const {
-  std::vector<double> values;
-  for (const models::Monitor& m : setup_.monitors) values.push_back(linear::dot(*m.weights, u));
-  return values;
+std::unique_ptr<CaseState> ModelCase::at(const path::Vector& u, double /*lambda*/) const {
+  return std::make_unique<ModelState>(setup_, u);
 }
 
 std::vector<std::pair<std::string, long long>> ModelCase::sizes() const {

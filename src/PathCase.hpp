@@ -16,9 +16,20 @@
 
 namespace atrapos {
 
+/// A state of a case, to which it refers. What it shows is evaluated when it is first asked for, and once;
+/// the case's problem must stay as it is meanwhile. Collective.
+class CaseState {
+ public:
+  virtual ~CaseState() = default;
+  /// Values of the monitors, in the order of their names.
+  virtual std::vector<double> monitors() const = 0;
+  /// Closed contact points.
+  virtual int activeContacts() const { return 0; }
+};
+
 /// Numbers of a state that go into the result file beside the fields.
 struct StateNumbers {
-  double pathLength = 0, radius = 0, residual = 0;
+  double lambda = 0, pathLength = 0, radius = 0, residual = 0;
   int order = 0;
   long long negative = -1;  ///< negative eigenvalues of the tangent; -1: not known
   int branch = 0;
@@ -28,10 +39,11 @@ struct StateNumbers {
 class FieldFile {
  public:
   virtual ~FieldFile() = default;
-  virtual void write(const path::Vector& u, double lambda, const StateNumbers& numbers) = 0;
-  /// Takes over the first `count` states of an earlier file. Throws std::invalid_argument, one line, where it
-  /// holds others than this one.
-  virtual void copyFrom(const std::string& file, int count) = 0;
+  /// A state of the case that made the file.
+  virtual void write(const CaseState& state, const StateNumbers& numbers) = 0;
+  /// Takes over the first `count` states of an earlier file: those up to this length of the path. Throws
+  /// std::invalid_argument, one line, where it holds others than this one.
+  virtual void copyFrom(const std::string& file, int count, double pathLength) = 0;
   /// Gives the file another name, under which it goes on.
   virtual void rename(const std::string& file) = 0;
   /// Removes the file, which is not written again.
@@ -42,9 +54,10 @@ class FieldFile {
 class StepWatch {
  public:
   virtual ~StepWatch() = default;
-  /// The problem is that of the step; `events`: what changes it at the end (path::StepReport).
+  /// The problem is that of the step, `end` the state at its end, of the case that made the watch; `events`:
+  /// what changes the problem there (path::StepReport).
   virtual void onStep(int branch, int step, double pathLengthStart, double length, const path::Series& series,
-                      const std::vector<int>& events) = 0;
+                      const CaseState& end, const std::vector<int>& events) = 0;
   /// Takes over what an earlier run wrote up to the step `last`. Throws std::invalid_argument, one line,
   /// where that was another table.
   virtual void copyFrom(const std::string& file, const RestartPlace& last) = 0;
@@ -64,14 +77,11 @@ class PathCase {
   virtual double direction() const { return 1; }
 
   virtual std::vector<std::string> monitorNames() const = 0;
-  /// Values of the monitors, in the order of their names.
-  virtual std::vector<double> monitors(const path::Vector& u, double lambda) const = 0;
+  virtual std::unique_ptr<CaseState> at(const path::Vector& u, double lambda) const = 0;
 
   /// The monitors that are linear functionals of the unknowns: their limit points are reported.
   virtual std::vector<path::Monitor> functionals() const = 0;
 
-  /// Closed contact points.
-  virtual int activeContacts(const path::Vector& /*u*/, double /*lambda*/) const { return 0; }
   /// Null where there are no fields to write.
   virtual std::unique_ptr<FieldFile> makeFieldFile(const std::string& /*file*/) const { return nullptr; }
   /// Null where there is nothing to watch. `append`: goes on with the file.

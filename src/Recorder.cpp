@@ -19,6 +19,8 @@ namespace {
 /// While an earlier run is taken over, new files stand beside the old ones.
 constexpr const char* kBeside = ".new";
 
+constexpr double kNotEvaluated = std::numeric_limits<double>::quiet_NaN();
+
 }  // namespace
 
 Recorder::Recorder(PathCase& pathCase, path::Problem& problem, std::string directory, std::ostream* progress,
@@ -63,7 +65,9 @@ void Recorder::goOn(const Continued& continued) {
   const auto old = [&](const std::string& name) { return continued.directory + "/" + name; };
   path_.copyFrom(old("path.csv"), last);
   points_.copyFrom(old("points.csv"), last);
-  if (fields_) fields_->copyFrom(old(fieldsName(branch_)), path->steps + 1);
+  if (fields_)
+    fields_->copyFrom(old(fieldsName(branch_)), 1 + numFieldStates(path->steps, !path->stop.empty()),
+                      path->pathLength);
   if (watch_) watch_->copyFrom(old("events.csv"), last);
   if (restart_) restart_->goOn(old("restart.bin"), continued);
   started_ = true;
@@ -80,6 +84,15 @@ void Recorder::goOn(const Continued& continued) {
   if (watch_) replace("events.csv");
   replace("path.csv");
   replace("points.csv");
+}
+
+bool Recorder::hasFields(int step, bool atStop) const {
+  return step % case_->deck().output.fieldsEvery == 0 || atStop;
+}
+
+int Recorder::numFieldStates(int steps, bool atStop) const {
+  const int every = case_->deck().output.fieldsEvery;
+  return steps / every + (atStop && steps % every != 0 ? 1 : 0);
 }
 
 double Recorder::seconds() const {
@@ -131,21 +144,23 @@ bool Recorder::onStep(int branch, const path::StepReport& report, const path::Se
   changeBack();
   if (!started_) writeStart(*series.coefficient(0).u, series.lambdaCoefficient(0), negativeAt(0));
   const int points = case_->deck().output.pointsPerStep;
-  worstResidual_ = std::max(worstResidual_, report.residual);
   for (int j = 1; j < points; ++j) {
     const double a = report.length * j / points;
     const double lambda = series.evaluate(a, *work_);
-    writeRow(report.step, report.pathLengthStart + a, *work_, lambda, negativeAt(a));
+    writeRow(report.step, report.pathLengthStart + a, lambda, *case_->at(*work_, lambda), negativeAt(a),
+             case_->deck().output.residuals == deck::Output::Residuals::Points ? residualAt(*work_, lambda)
+                                                                               : kNotEvaluated);
   }
   const long long negative = negativeAt(report.length);
-  writeRow(report.step, report.pathLengthEnd, *report.end.u, report.end.lambda, negative);
+  const auto end = case_->at(*report.end.u, report.end.lambda);
+  writeRow(report.step, report.pathLengthEnd, report.end.lambda, *end, negative, report.residual);
   writePoints(report, series);
   if (watch_)
-    watch_->onStep(branch, report.step, report.pathLengthStart, report.length, series, report.events);
-  if (fields_)
-    fields_->write(*report.end.u, report.end.lambda,
-                   {report.pathLengthEnd, report.radius, report.residual, report.order, negative, branch_});
-  printStep(report);
+    watch_->onStep(branch, report.step, report.pathLengthStart, report.length, series, *end, report.events);
+  if (fields_ && hasFields(report.step, !report.next.stop.empty()))
+    fields_->write(*end, {report.end.lambda, report.pathLengthEnd, report.radius, report.residual,
+                          report.order, negative, branch_});
+  printStep(report, *end);
   changeBack();
   outputSeconds_ += seconds() - before;
   return !Interrupt::agree();
@@ -161,17 +176,20 @@ void Recorder::finish(const path::State& start) {
 
 void Recorder::writeStart(const path::Vector& u, double lambda, long long negative) {
   started_ = true;
-  writeRow(0, 0.0, u, lambda, negative);
-  if (fields_)
-    fields_->write(u, lambda,
-                   {0, 0, problem_->residual(u, lambda, *residual_).relative(), 0, negative, branch_});
+  const auto state = case_->at(u, lambda);
+  const double residual = residualAt(u, lambda);
+  writeRow(0, 0.0, lambda, *state, negative, residual);
+  if (fields_) fields_->write(*state, {lambda, 0, 0, residual, 0, negative, branch_});
 }
 
-void Recorder::writeRow(int step, double pathLength, const path::Vector& u, double lambda,
-                        long long negative) {
-  const double r = problem_->residual(u, lambda, *residual_).relative();
-  if (step > 0) worstResidual_ = std::max(worstResidual_, r);
-  path_.append(text(PathRow{step, pathLength, lambda, case_->monitors(u, lambda), negative, branch_, r}));
+double Recorder::residualAt(const path::Vector& u, double lambda) {
+  return problem_->residual(u, lambda, *residual_).relative();
+}
+
+void Recorder::writeRow(int step, double pathLength, double lambda, const CaseState& state,
+                        long long negative, double residual) {
+  if (step > 0 && residual > worstResidual_) worstResidual_ = residual;
+  path_.append(text(PathRow{step, pathLength, lambda, state.monitors(), negative, branch_, residual}));
 }
 
 void Recorder::writePoints(const path::StepReport& report, const path::Series& series) {
@@ -180,7 +198,7 @@ void Recorder::writePoints(const path::StepReport& report, const path::Series& s
     series.evaluate(p.a, *work_);
     PointRow row{report.step, branch_, report.pathLengthStart + p.a, p.lambda,
                  p.maximum ? "maximum" : "minimum"};
-    row.monitors = case_->monitors(*work_, p.lambda);
+    row.monitors = case_->at(*work_, p.lambda)->monitors();
     rows.push_back(row);
   }
   for (const path::Extremum& e : report.extrema) {
@@ -193,7 +211,7 @@ void Recorder::writePoints(const path::StepReport& report, const path::Series& s
     if (!(change > case_->deck().path.residual * weights.norm2() * work_->norm2())) continue;
     PointRow row{report.step, branch_, report.pathLengthStart + e.a, e.lambda,
                  (e.maximum ? "maximum:" : "minimum:") + functionals_[e.monitor].name};
-    row.monitors = case_->monitors(*work_, e.lambda);
+    row.monitors = case_->at(*work_, e.lambda)->monitors();
     rows.push_back(row);
   }
   limitPoints_ += static_cast<int>(report.limitPoints.size());
@@ -202,7 +220,7 @@ void Recorder::writePoints(const path::StepReport& report, const path::Series& s
     row.negativeChange = p.negativeChange;
     row.nullity = p.nullity;
     row.uncertainty = p.uncertainty;
-    row.monitors = case_->monitors(*p.state.u, p.state.lambda);
+    row.monitors = case_->at(*p.state.u, p.state.lambda)->monitors();
     rows.push_back(row);
   }
   unexplained_ += report.unexplained;
@@ -219,9 +237,8 @@ void Recorder::printHead() const {
                               "residual", "cut", "corr", "contacts", "time s", "events");
 }
 
-void Recorder::printStep(const path::StepReport& r) const {
-  const int active =
-      progress_ || ranks::count() > 1 ? case_->activeContacts(*r.end.u, r.end.lambda) : 0;  // collective
+void Recorder::printStep(const path::StepReport& r, const CaseState& end) const {
+  const int active = progress_ || ranks::count() > 1 ? end.activeContacts() : 0;  // collective
   if (!progress_) return;
   std::string events;
   for (const path::LimitPoint& p : r.limitPoints)

@@ -48,10 +48,16 @@ class Recorder final : public path::BranchObserver {
   void begin(int branch);
   void goOn(const Continued& continued);
   void writeStart(const path::Vector& u, double lambda, long long negative);
-  void writeRow(int step, double pathLength, const path::Vector& u, double lambda, long long negative);
+  void writeRow(int step, double pathLength, double lambda, const CaseState& state, long long negative,
+                double residual);
+  /// Whether the state at the end of a step goes into the result file.
+  bool hasFields(int step, bool atStop) const;
+  /// How many of them do, up to this step.
+  int numFieldStates(int steps, bool atStop) const;
+  double residualAt(const path::Vector& u, double lambda);
   void writePoints(const path::StepReport& report, const path::Series& series);
   void printHead() const;
-  void printStep(const path::StepReport& report) const;
+  void printStep(const path::StepReport& report, const CaseState& end) const;
 
   PathCase* case_;          ///< under way
   path::Problem* problem_;  ///< its own, or an imperfect one

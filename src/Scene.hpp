@@ -12,6 +12,7 @@
 #include "DeckMesh.hpp"
 #include "NearContact.hpp"
 #include "RigidTool.hpp"
+#include "SceneState.hpp"
 #include "Shells.hpp"
 #include "atrapos/fem/FeProblem.hpp"
 #include "atrapos/fem/Mesh.hpp"
@@ -96,20 +97,22 @@ class Scene {
 
   path::Stops stops() const;
 
+  /// What there is to see at a state of the problem, which must stay meanwhile.
+  SceneState at(const path::Vector& u, double lambda) const { return {*problem_, u, lambda}; }
+
   std::vector<std::string> monitorNames() const;
   /// Values of the monitors, in the deck's order.
-  std::vector<double> monitors(const path::Vector& u, double lambda) const;
+  std::vector<double> monitors(const SceneState& state) const;
 
   /// The displacement monitors, linear functionals of the unknowns.
   std::vector<path::Monitor> functionals() const;
 
-  ContactState contactState(const ContactPoints& contact, const path::Vector& u, double lambda) const;
+  ContactState contactState(const ContactPoints& contact, const SceneState& state) const;
   /// Sum of the normal forces over a contact's points with other weights than their own: [term][point].
   double contactForce(const ContactPoints& contact, const std::vector<std::vector<double>>& weights,
-                      const path::Vector& u, double lambda) const;
+                      const SceneState& state) const;
   /// Total force of a contact on the body.
-  std::array<double, 3> contactResultant(const ContactPoints& contact, const path::Vector& u,
-                                         double lambda) const;
+  std::array<double, 3> contactResultant(const ContactPoints& contact, const SceneState& state) const;
 
   /// The mesh on which results are: the deck's own, or with the bodies of shells as solids.
   const fem::Mesh& resultMesh() const { return body_ ? body_->mesh : mesh_; }
@@ -118,9 +121,9 @@ class Scene {
   std::vector<std::string> nodalNames() const;
   std::vector<std::string> elementNames() const;
   /// [variable][node of the result mesh]
-  std::vector<std::vector<double>> nodalValues(const path::Vector& u, double lambda) const;
+  std::vector<std::vector<double>> nodalValues(const SceneState& state) const;
   /// [variable][element over all blocks]
-  std::vector<std::vector<double>> elementValues(const path::Vector& u, double lambda) const;
+  std::vector<std::vector<double>> elementValues(const SceneState& state) const;
 
  private:
   /// The whole model, on every rank; bodies, tools and contacts are those of its terms from then on.
@@ -156,10 +159,10 @@ class Scene {
   [[noreturn]] void fail(const std::string& key, const std::string& problem) const;
   bool writes(deck::OutputField field) const;
   /// Calls f(term of the contact, point, gap and pressure) at all points.
-  void forEachContactPoint(const ContactPoints& contact, const path::Vector& u, double lambda,
+  void forEachContactPoint(const ContactPoints& contact, const SceneState& state,
                            const std::function<void(std::size_t, int, const double*)>& f) const;
-  std::vector<std::vector<double>> nodalContact(const path::Vector& u, double lambda) const;
-  std::vector<std::vector<double>> nodalStress(const path::Vector& u, double lambda) const;
+  std::vector<std::vector<double>> nodalContact(const SceneState& state) const;
+  std::vector<std::vector<double>> nodalStress(const SceneState& state) const;
   std::vector<double> onResultNodes(std::vector<double> ofMesh) const;
 
   deck::Deck deck_;

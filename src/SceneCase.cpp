@@ -14,17 +14,17 @@
 
 namespace atrapos {
 
-path::State SceneCase::start() const { return {scene_.problem().initialState(0.0), 0.0}; }
-
-int SceneCase::activeContacts(const path::Vector& u, double lambda) const {
+int SceneCaseState::activeContacts() const {
   int active = 0;
   for (const ContactPoints& contact : scene_.contacts())
-    active += scene_.contactState(contact, u, lambda).active;
+    active += scene_.contactState(contact, state_).active;
   return active;
 }
 
+path::State SceneCase::start() const { return {scene_.problem().initialState(0.0), 0.0}; }
+
 std::unique_ptr<FieldFile> SceneCase::makeFieldFile(const std::string& file) const {
-  return makeSceneFields(*this, scene_, file);
+  return makeSceneFields(scene_, file);
 }
 
 std::unique_ptr<StepWatch> SceneCase::makeWatch(const std::string& file, bool append) const {

@@ -5,6 +5,21 @@
 
 namespace atrapos {
 
+/// A state of a scene.
+class SceneCaseState final : public CaseState {
+ public:
+  SceneCaseState(const Scene& scene, const path::Vector& u, double lambda)
+      : scene_(scene), state_(scene.at(u, lambda)) {}
+
+  const SceneState& state() const { return state_; }
+  std::vector<double> monitors() const override { return scene_.monitors(state_); }
+  int activeContacts() const override;
+
+ private:
+  const Scene& scene_;
+  SceneState state_;
+};
+
 /// A scene as something that a run follows; its states go into Exodus files. A scene given by reference must
 /// outlive it.
 class SceneCase final : public PathCase {
@@ -17,11 +32,10 @@ class SceneCase final : public PathCase {
   path::State start() const override;
   path::Stops stops() const override { return scene_.stops(); }
   std::vector<std::string> monitorNames() const override { return scene_.monitorNames(); }
-  std::vector<double> monitors(const path::Vector& u, double lambda) const override {
-    return scene_.monitors(u, lambda);
+  std::unique_ptr<CaseState> at(const path::Vector& u, double lambda) const override {
+    return std::make_unique<SceneCaseState>(scene_, u, lambda);
   }
   std::vector<path::Monitor> functionals() const override { return scene_.functionals(); }
-  int activeContacts(const path::Vector& u, double lambda) const override;
   std::unique_ptr<FieldFile> makeFieldFile(const std::string& file) const override;
   std::unique_ptr<StepWatch> makeWatch(const std::string& file, bool append) const override;
   std::unique_ptr<PathCase> moved(const path::Vector& shape, double size) const override;

@@ -90,7 +90,7 @@ std::vector<double> Scene::onResultNodes(std::vector<double> ofMesh) const {
   return ofMesh;
 }
 
-std::vector<std::vector<double>> Scene::nodalValues(const path::Vector& u, double lambda) const {
+std::vector<std::vector<double>> Scene::nodalValues(const SceneState& state) const {
   Fields result;
   const auto split = [&](const std::vector<double>& field) {
     for (int i = 0; i < 3; ++i) {
@@ -99,7 +99,7 @@ std::vector<std::vector<double>> Scene::nodalValues(const path::Vector& u, doubl
       result.push_back(std::move(component));
     }
   };
-  const std::vector<double> values = fem::FeProblem::values(u);
+  const std::vector<double>& values = state.values();
   if (writes(deck::OutputField::Displacement)) {
     split(body_ ? body_->displacements(shells_.geometry, values) : values);
     if (!shells_.empty())
@@ -107,22 +107,22 @@ std::vector<std::vector<double>> Scene::nodalValues(const path::Vector& u, doubl
         result.push_back(onResultNodes(std::move(variable)));
   }
   if (writes(deck::OutputField::Reaction)) {
-    const std::vector<double> reactions = problem_->reactions(u, lambda);
+    const std::vector<double>& reactions = state.reactions();
     split(body_ ? body_->forces(shells_.geometry, reactions) : reactions);
   }
   if (writes(deck::OutputField::Contact) && !contacts_.empty())
-    for (auto& variable : nodalContact(u, lambda)) result.push_back(onResultNodes(std::move(variable)));
-  if (writes(deck::OutputField::NodalStress)) append(nodalStress(u, lambda), result);
+    for (auto& variable : nodalContact(state)) result.push_back(onResultNodes(std::move(variable)));
+  if (writes(deck::OutputField::NodalStress)) append(nodalStress(state), result);
   return result;
 }
 
-std::vector<std::vector<double>> Scene::nodalContact(const path::Vector& u, double lambda) const {
+std::vector<std::vector<double>> Scene::nodalContact(const SceneState& state) const {
   // Point values to nodes: means weighted by weight * N^2 (positive, also at the corners of serendipity
   // faces). Nodes that carry no contact show zero; so do directors, whose nodes show it.
   const int numNodes = mesh_.numNodes();
   std::vector<double> gap(numNodes, 0.0), pressure(numNodes, 0.0), share(numNodes, 0.0);
   for (const ContactPoints& contact : contacts_)
-    forEachContactPoint(contact, u, lambda, [&](std::size_t t, int p, const double* gapAndPressure) {
+    forEachContactPoint(contact, state, [&](std::size_t t, int p, const double* gapAndPressure) {
       const fem::PointSet& points = contact.points[t];
       const int N = points.nodesPerEntity, e = p / points.pointsPerEntity;
       if (std::isinf(gapAndPressure[0])) return;  // over no part of the tool
@@ -144,7 +144,7 @@ std::vector<std::vector<double>> Scene::nodalContact(const path::Vector& u, doub
   return {std::move(gap), std::move(pressure)};
 }
 
-std::vector<std::vector<double>> Scene::nodalStress(const path::Vector& u, double lambda) const {
+std::vector<std::vector<double>> Scene::nodalStress(const SceneState& state) const {
   // Each element's cubature values fitted and taken to its nodes, then the mean over the elements at a node.
   // With bodies of shells each of their nodes has its own; otherwise a node has middle, top and bottom.
   const std::size_t meshNodes = mesh_.numNodes();
@@ -153,7 +153,7 @@ std::vector<std::vector<double>> Scene::nodalStress(const path::Vector& u, doubl
   for (std::size_t b = 0; b < mesh_.blocks.size(); ++b) {
     const BodyBlock& body = bodies_[b];
     const fem::Block& block = mesh_.blocks[b];
-    const auto observed = problem_->observe(body.term, u, lambda);
+    const auto& observed = state.observed(body.term);
     const int N = fem::nodesPerElement(block.topology), Q = static_cast<int>(body.toNodes.size()) / N;
     for (int layer = 0; layer < 3; ++layer) {
       constexpr double zetas[3] = {solid::midSurface, solid::topSurface, solid::bottomSurface};
@@ -179,22 +179,21 @@ std::vector<std::vector<double>> Scene::nodalStress(const path::Vector& u, doubl
   return result;
 }
 
-std::vector<std::vector<double>> Scene::elementValues(const path::Vector& u, double lambda) const {
+std::vector<std::vector<double>> Scene::elementValues(const SceneState& state) const {
   if (!writes(deck::OutputField::Stress)) return {};
   Fields result(elementNames().size());
   const auto add = [&](std::size_t first, const std::vector<double>& values, std::size_t each) {
     for (std::size_t i = 0; i < values.size(); ++i) result[first + i % each].push_back(values[i]);
   };
-  const std::vector<double> state = fem::FeProblem::values(u);
   for (const BodyBlock& body : bodies_) {
     const fem::Block& block = mesh_.blocks[&body - bodies_.data()];
-    const fem::PointValues observed = problem_->observe(body.term, u, lambda);
+    const fem::PointValues& observed = state.observed(body.term);
     const std::size_t elements = block.nodes.size() / fem::nodesPerElement(block.topology);
     if (body.shells >= 0) {
       add(0, meanSurfaceStress(observed, solid::midSurface), 6);
       add(6, meanSurfaceStress(observed, solid::topSurface), 6);
       add(12, meanSurfaceStress(observed, solid::bottomSurface), 6);
-      add(18, meanResultants(shells_.elements[body.shells], observed, state), 8);
+      add(18, meanResultants(shells_.elements[body.shells], observed, state.values()), 8);
       continue;
     }
     const auto means = meansOverPoints(observed.values, observed.values.size() / 6 / elements, 6);

@@ -105,10 +105,10 @@ std::vector<std::string> Scene::monitorNames() const {
   return names;
 }
 
-void Scene::forEachContactPoint(const ContactPoints& contact, const path::Vector& u, double lambda,
+void Scene::forEachContactPoint(const ContactPoints& contact, const SceneState& state,
                                 const std::function<void(std::size_t, int, const double*)>& f) const {
   for (std::size_t t = 0; t < contact.terms.size(); ++t) {
-    const fem::PointValues observed = problem_->observe(contact.terms[t], u, lambda);
+    const fem::PointValues& observed = state.observed(contact.terms[t]);
     const int M = static_cast<int>(observed.names.size());
     for (int p = 0; p < contact.points[t].numPoints(); ++p)
       f(t, p, &observed.values[static_cast<std::size_t>(p) * M]);
@@ -123,9 +123,9 @@ std::vector<path::Monitor> Scene::functionals() const {
   return list;
 }
 
-ContactState Scene::contactState(const ContactPoints& contact, const path::Vector& u, double lambda) const {
+ContactState Scene::contactState(const ContactPoints& contact, const SceneState& at) const {
   ContactState state;
-  forEachContactPoint(contact, u, lambda, [&](std::size_t t, int p, const double* gapAndPressure) {
+  forEachContactPoint(contact, at, [&](std::size_t t, int p, const double* gapAndPressure) {
     const double gap = gapAndPressure[0], pressure = gapAndPressure[1];
     // Around an active corner the mean gap vanishes, and the gaps of its points have both signs.
     state.active += contact.hardFaces ? pressure > 0 : gap <= contact.closedGaps[t][p];
@@ -135,45 +135,43 @@ ContactState Scene::contactState(const ContactPoints& contact, const path::Vecto
 }
 
 double Scene::contactForce(const ContactPoints& contact, const std::vector<std::vector<double>>& weights,
-                           const path::Vector& u, double lambda) const {
+                           const SceneState& state) const {
   double force = 0;
-  forEachContactPoint(contact, u, lambda, [&](std::size_t t, int p, const double* gapAndPressure) {
+  forEachContactPoint(contact, state, [&](std::size_t t, int p, const double* gapAndPressure) {
     if (weights[t][p] != 0) force += weights[t][p] * gapAndPressure[1];
   });
   return force;
 }
 
-std::array<double, 3> Scene::contactResultant(const ContactPoints& contact, const path::Vector& u,
-                                              double lambda) const {
+std::array<double, 3> Scene::contactResultant(const ContactPoints& contact, const SceneState& state) const {
   std::array<double, 3> resultant{0, 0, 0};
   for (int t : contact.terms) {
-    const auto force = problem_->forces(problem_->term(t), u, lambda);
+    const auto& force = state.forces(t);
     // Forces on the nodes of the mesh: those on directors are couples' arms.
     for (std::size_t d = 0; d < mesh_.coordinates.size(); ++d) resultant[d % 3] -= force[d];
   }
   return resultant;
 }
 
-std::vector<double> Scene::monitors(const path::Vector& u, double lambda) const {
+std::vector<double> Scene::monitors(const SceneState& state) const {
   std::vector<double> result;
   struct Evaluator {
     const Scene& scene;
-    const path::Vector& u;
-    double lambda;
+    const SceneState& state;
     const path::Vector* weights;
     const std::vector<std::vector<double>>& contactWeights;
-    double operator()(const deck::DisplacementMonitor&) const { return linear::dot(*weights, u); }
+    double operator()(const deck::DisplacementMonitor&) const { return linear::dot(*weights, state.u()); }
     double operator()(const deck::ContactForceMonitor& m) const {
       for (const ContactPoints& contact : scene.contacts_)
         if (contact.name == m.contact)
-          return m.near ? scene.contactForce(contact, contactWeights, u, lambda)
+          return m.near ? scene.contactForce(contact, contactWeights, state)
                  : m.component == deck::Component::Normal
-                     ? scene.contactState(contact, u, lambda).normalForce
-                     : scene.contactResultant(contact, u, lambda)[componentIndex(m.component)];
+                     ? scene.contactState(contact, state).normalForce
+                     : scene.contactResultant(contact, state)[componentIndex(m.component)];
       return 0;
     }
     double operator()(const deck::ReactionMonitor& m) const {
-      const auto reactions = scene.problem_->reactions(u, lambda);
+      const auto& reactions = state.reactions();
       const auto& support = *std::find_if(scene.deck_.supports.begin(), scene.deck_.supports.end(),
                                           [&](const deck::Support& s) { return s.name == m.support; });
       double sum = 0;
@@ -183,9 +181,8 @@ std::vector<double> Scene::monitors(const path::Vector& u, double lambda) const 
     }
   };
   for (std::size_t i = 0; i < deck_.output.monitors.size(); ++i)
-    result.push_back(
-        std::visit(Evaluator{*this, u, lambda, displacementWeights_[i].get(), contactWeights_[i]},
-                   deck_.output.monitors[i].quantity));
+    result.push_back(std::visit(Evaluator{*this, state, displacementWeights_[i].get(), contactWeights_[i]},
+                                deck_.output.monitors[i].quantity));
   return result;
 }
 

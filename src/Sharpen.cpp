@@ -71,7 +71,7 @@ class Writer final : public path::Observer {
   }
 
   void write(const path::State& state, double residual) {
-    monitors_ = scene_.monitors(*state.u, state.lambda);
+    monitors_ = scene_.monitors(scene_.at(*state.u, state.lambda));
     std::string row = fmt::format("{:.17g}", std::exp(-state.lambda));
     for (const double m : monitors_) row += fmt::format(",{:.17g}", m);
     table_.append(row + fmt::format(",{:.3e}", residual));

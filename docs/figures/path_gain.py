@@ -30,6 +30,7 @@ def run(command, deck, changes):
     path["restart"] = False
     data.get("path", {}).pop("sharpen", None)
     data["output"] = {k: v for k, v in data.get("output", {}).items() if k == "monitors"}
+    data["output"]["residuals"] = "points"
     if "mesh" in data:
         data["mesh"] = {"file": str((deck.parent / data["mesh"]["file"]).resolve())}
     with tempfile.TemporaryDirectory() as folder:

@@ -420,8 +420,12 @@ struct Monitor {
 struct Output {
   /// What the result file has of shells: their middle surfaces, or solids with their thickness.
   enum class Shells { Surface, Body };
-  int pointsPerStep = 5;            ///< states written per step, its end included
+  /// Where the residual of the path is evaluated: at the ends of steps, or at all points.
+  enum class Residuals { Steps, Points };
+  int pointsPerStep = 5;  ///< rows of path.csv per step, its end included
+  Residuals residuals = Residuals::Steps;
   std::vector<OutputField> fields;  ///< never empty after readDeck
+  int fieldsEvery = 1;              ///< steps from one state in the result file to the next
   Shells shells = Shells::Surface;
   bool parts = false;  ///< each of several ranks writes its part of the results
   std::vector<Monitor> monitors;

@@ -44,13 +44,27 @@ Field<Output> outputShells() {
 
 }  // namespace
 
+Table<Output> pathRowKeys() {
+  using Residuals = Output::Residuals;
+  static const Choices<Residuals> residuals{{"steps", Residuals::Steps}, {"points", Residuals::Points}};
+  return {integer("points_per_step", optional, &Output::pointsPerStep, check::count,
+                  "rows of path.csv per step, its end included"),
+          choice("residuals", optional, &Output::residuals, residuals,
+                 "rows of path.csv with the path's residual: at the ends of steps, or all")};
+}
+
 const Table<Output>& outputTable() {
-  static const Table<Output> table{integer("points_per_step", optional, &Output::pointsPerStep, check::count,
-                                           "states written per step, its end included"),
-                                   outputFieldList(), outputShells(),
-                                   flag("parts", &Output::parts, "on several ranks, a result file for each"),
-                                   entries("monitors", optional, &Output::monitors, monitorVariants(),
-                                           "each with type, ...", "numbers followed along the path")};
+  static const Table<Output> table = [] {
+    Table<Output> keys = pathRowKeys();
+    keys.insert(keys.end(),
+                {outputFieldList(),
+                 integer("fields_every", optional, &Output::fieldsEvery, check::count,
+                         "steps from one state in the result file to the next"),
+                 outputShells(), flag("parts", &Output::parts, "on several ranks, a result file for each"),
+                 entries("monitors", optional, &Output::monitors, monitorVariants(), "each with type, ...",
+                         "numbers followed along the path")});
+    return keys;
+  }();
   return table;
 }
 

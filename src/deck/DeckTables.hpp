@@ -30,6 +30,8 @@ const Table<Path>& modelPathTable();
 const Table<Solver>& solverTable();
 const Variants<Monitor, decltype(Monitor::quantity)>& monitorVariants();
 const Table<Output>& outputTable();
+/// Keys of output in both kinds of decks.
+Table<Output> pathRowKeys();
 const Table<MeshInput>& meshTable();
 const Table<Deck>& deckTable();
 const Table<ModelProblem>& modelTable();

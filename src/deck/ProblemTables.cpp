@@ -46,8 +46,7 @@ const Table<ModelProblem>& modelTable() {
 }
 
 const Table<Deck>& problemDeckTable() {
-  static const Table<Output> output{integer("points_per_step", optional, &Output::pointsPerStep, check::count,
-                                            "states written per step, its end included")};
+  static const Table<Output> output = pathRowKeys();
   static const Table<Deck> table = [] {
     Field<Deck> problem{
         "problem",

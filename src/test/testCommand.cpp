@@ -1,6 +1,7 @@
 // The command's manners: what it prints where, exit codes, and the files of good runs.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <csignal>
 #include <nlohmann/json.hpp>
 
@@ -133,6 +134,37 @@ TEST_F(CommandTest, QuietRunPrintsNothing) {
   EXPECT_EQ(r.out + r.err, "");
   for (const char* name : {"path.csv", "results.exo", "summary.json"})
     EXPECT_TRUE(std::filesystem::is_regular_file(folder_ / "there" / "below" / name)) << name;
+}
+
+/// The last column of path.csv.
+std::vector<double> residuals(const std::filesystem::path& folder) {
+  std::istringstream rows(readFile(folder / "path.csv"));
+  std::vector<double> all;
+  std::string row;
+  std::getline(rows, row);
+  while (std::getline(rows, row)) all.push_back(std::stod(row.substr(row.rfind(',') + 1)));
+  return all;
+}
+
+TEST_F(CommandTest, ResidualsAreThoseOfStepEndsOrOfAllPoints) {
+  const std::string all = edited(kSmallDeck, "points_per_step: 2", "points_per_step: 2\n  residuals: points");
+  writeFile(folder_ / "all.yaml", all);
+  for (const char* deck : {"deck.yaml", "all.yaml"})
+    ASSERT_EQ(runAtrapos({"run", "-q", deck}, folder_.path()).exitCode, 0);
+  const auto ends = residuals(folder_ / "deck_results"), points = residuals(folder_ / "all_results");
+  ASSERT_EQ(ends.size(), points.size());
+  ASSERT_GT(ends.size(), 3u);
+  double worst = 0;
+  for (std::size_t i = 0; i < ends.size(); ++i) {
+    EXPECT_EQ(std::isnan(ends[i]), i % 2 == 1) << i;  // the start, then two rows a step
+    if (i % 2 == 0) EXPECT_EQ(ends[i], points[i]) << i;
+    EXPECT_LE(points[i], 1e-8) << i;
+    if (i > 0) worst = std::max(worst, points[i]);
+  }
+  // Four digits are printed in the table.
+  EXPECT_NEAR(summary("all_results").at("worst_residual"), worst, 1e-3 * worst);
+  EXPECT_EQ(summary("deck_results").at("worst_residual"),
+            summary("deck_results").at("worst_residual_at_step_ends"));
 }
 
 TEST_F(CommandTest, TitlesAndFoldersAreNeverRun) {

@@ -155,6 +155,8 @@ TEST(Deck, goodDeckGivesItsValues) {
   EXPECT_EQ(deck.solver.spec(), "mumps");
 
   EXPECT_EQ(deck.output.pointsPerStep, 5);
+  EXPECT_EQ(deck.output.residuals, Output::Residuals::Steps);
+  EXPECT_EQ(deck.output.fieldsEvery, 1);
   EXPECT_EQ(deck.output.fields, (std::vector<OutputField>{OutputField::Displacement, OutputField::Stress,
                                                           OutputField::Reaction, OutputField::Contact}));
   ASSERT_EQ(deck.output.monitors.size(), 1u);
@@ -193,6 +195,8 @@ path: {direction: -1, accuracy: 1e-8, residual: 1.0e-7, order: 60,
 solver: {type: amesos2, name: klu2}
 output:
   points_per_step: 1
+  residuals: points
+  fields_every: 10
   parts: true
   fields: [contact, displacement]
   monitors:
@@ -250,6 +254,8 @@ output:
             (std::map<std::string, std::vector<double>>{{"u", {-50}}, {"v", {1.5}}}));
   EXPECT_EQ(deck.solver.spec(), "amesos2:klu2");
   EXPECT_EQ(deck.output.pointsPerStep, 1);
+  EXPECT_EQ(deck.output.residuals, Output::Residuals::Points);
+  EXPECT_EQ(deck.output.fieldsEvery, 10);
   EXPECT_EQ(deck.output.fields, (std::vector<OutputField>{OutputField::Contact, OutputField::Displacement}));
   ASSERT_EQ(deck.output.monitors.size(), 5u);
   EXPECT_EQ(std::get<DisplacementMonitor>(deck.output.monitors[0].quantity).reduce,
@@ -585,6 +591,9 @@ TEST(BadDeck, valuesOutOfRange) {
   expectError("regularisation: 0.1", "regularisation: 0.1, quadrature_degree: 0",
               "contact/lower/quadrature_degree: must be from 1", {});
   expectError("output:", "output:\n  parts: some", "output/parts: expected true or false", {"'some'"});
+  expectError("output:", "output:\n  fields_every: 0", "output/fields_every: must be at least 1, got 0", {});
+  expectError("output:", "output:\n  residuals: all", "output/residuals: 'all' is not a choice here",
+              {"steps", "points"});
   expectError("output:", "output:\n  points_per_step: 0", "output/points_per_step: must be at least 1, got 0",
               {});
   const std::string box = "shape: box, lengths: [10, 2.0, 1]";

@@ -292,6 +292,36 @@ TEST_F(Restart, FinishedRunGoesFurther) {
   EXPECT_EQ(summary("whole").at("restarted_behind_step"), steps_);
 }
 
+TEST_F(Restart, WithFieldsOfSomeStepsOnly) {
+  const auto states = [&](const std::string& results) {
+    return exodus::ResultReader((folder_ / results / "results.exo").string()).numSteps();
+  };
+  ASSERT_EQ(states("whole"), steps_ + 1);
+  for (const int every : {2, 3, 1000}) {
+    SCOPED_TRACE(every);
+    const std::string key = "points_per_step: 2\n  fields_every: " + std::to_string(every);
+    writeFile(folder_ / "deck.yaml", edited(kSmallDeck, "points_per_step: 2", key));
+    run({"-o", "some"});
+    EXPECT_EQ(readFile(folder_ / "some" / "path.csv"), whole_);
+    // The start, every so many steps, and the stop.
+    EXPECT_EQ(states("some"), 1 + steps_ / every + (steps_ % every != 0));
+    const exodus::ResultReader all((folder_ / "whole" / "results.exo").string()),
+        some((folder_ / "some" / "results.exo").string());
+    for (int s = 0; s < some.numSteps(); ++s) {
+      const int step = std::min(s * every, steps_);
+      EXPECT_EQ(some.globals(s), all.globals(step)) << s;
+      EXPECT_EQ(some.nodal(s, "displ_z"), all.nodal(step, "displ_z")) << s;
+    }
+    for (int from = 1; from <= steps_; ++from) {
+      run({"--restart", "some", "--from", std::to_string(from), "-o", "other"});
+      expectSameResults(folder_ / "some", folder_ / "other");
+    }
+  }
+  refuses({"--restart", "whole", "--from", "4"}, {"results.exo", "output/fields_every"});
+  writeFile(folder_ / "deck.yaml", kSmallDeck);
+  refuses({"--restart", "some"}, {"results.exo", "states"});
+}
+
 TEST_F(Restart, WhatCannotGoOnIsRefused) {
   refuses({"--restart", "nowhere"}, {"nowhere/restart.bin", "cannot be read"});
   refuses({"--restart", "whole", "--from", "1000"},

@@ -216,6 +216,7 @@ bool NewtonRun::step() {
       if (!stop || stop->a >= s || correctAtStop(*stop, series, trial, report.corrections)) {
         length_ = nextLength(trial, cosine);
         report.length = stop ? stop->a : s;
+        if (stop) report.next.stop = stop->text;
         const bool goOn = accept(trial, series, report);
         if (stop) return end(EndReason::stopReached, stop->text);
         if (!goOn) return end(EndReason::observerStopped, "ended by the observer");

@@ -9,12 +9,22 @@ void mustEndWell(const CommandResult& r) {
   if (r.exitCode != 0) throw std::runtime_error("exit code " + std::to_string(r.exitCode) + ": " + r.err);
 }
 
+/// The deck with output/residuals: points, so that the residual is judged inside steps too.
+std::string withAllResiduals(std::string text) {
+  if (text.find("residuals:") != std::string::npos) return text;
+  const std::size_t output = text.find("\noutput:");
+  if (output == std::string::npos) return text + "\noutput: {residuals: points}\n";
+  const std::size_t value = output + std::string("\noutput:").size();
+  return text[value] == '\n' ? text.insert(value, "\n  residuals: points")
+                             : text.insert(text.find('{', value) + 1, "residuals: points, ");
+}
+
 }  // namespace
 
 ExampleFolder::ExampleFolder(const std::string& name, const Edits& edits) {
   std::string text = readFile(std::filesystem::path(ATRAPOS_EXAMPLES) / name);
   for (const auto& [from, to] : edits) text = edited(text, from, to);
-  writeFile(deck(), text);
+  writeFile(deck(), withAllResiduals(text));
   // Model problems need no mesh.
   if (text.find("generate:") != std::string::npos)
     mustEndWell(runAtrapos({"mesh", "-q", "deck.yaml"}, path()));

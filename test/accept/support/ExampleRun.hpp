@@ -15,8 +15,9 @@ namespace atrapos::test {
 
 using Edits = std::vector<std::pair<std::string, std::string>>;
 
-/// A folder with the deck examples/<name>, some of its text edited, and its mesh.
-/// Throws std::runtime_error where the mesh cannot be made, std::logic_error where an edit does not fit.
+/// A folder with the deck examples/<name>, some of its text edited, and its mesh. Residuals are evaluated at
+/// all points (output/residuals), unless the text says something else. Throws std::runtime_error where the
+/// mesh cannot be made, std::logic_error where an edit does not fit.
 class ExampleFolder {
  public:
   explicit ExampleFolder(const std::string& name, const Edits& edits = {});
