@@ -63,7 +63,15 @@ void checkSections(const Value& root, const Deck& deck) {
   }
 }
 
+/// Columns of the tables that have the monitors beside them (PathTable).
+const std::vector<std::string> columns{
+    "step",    "branch",   "path_length",          "load_factor",     "kind",
+    "nullity", "residual", "negative_eigenvalues", "negative_change", "uncertainty"};
+
 void checkMonitor(const Value& v, const Monitor& monitor, const Deck& deck) {
+  if (std::find(columns.begin(), columns.end(), monitor.name) != columns.end()) {
+    v.fail("is the name of a column of path.csv or points.csv; expected none of " + joined(columns));
+  }
   if (const auto* force = std::get_if<ContactForceMonitor>(&monitor.quantity)) {
     find(v.at("contact"), force->contact, deck.contacts, "contact");
   } else if (const auto* reaction = std::get_if<ReactionMonitor>(&monitor.quantity)) {

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <functional>
 #include <random>
+#include <sstream>
 
 #include "support/Command.hpp"
 #include "support/Folder.hpp"
@@ -76,6 +77,26 @@ TEST_F(BadInput, DeckOfRandomBytes) {
   std::generate(bytes.begin(), bytes.end(), [&] { return static_cast<char>(random() & 0xff); });
   writeFile(folder_ / "deck.yaml", bytes);
   refuses({"run", "deck.yaml"}, {"deck.yaml"});
+}
+
+// Each would stand twice in the tables' headers.
+TEST_F(BadInput, MonitorsNamedAsColumns) {
+  writeFile(folder_ / "free.yaml", kSmallDeck);
+  ASSERT_EQ(runAtrapos({"run", "-q", "free.yaml", "-o", "free"}, folder_.path()).exitCode, 0);
+  int columns = 0;
+  for (const char* table : {"path.csv", "points.csv"}) {
+    std::istringstream header(readFile(folder_ / "free" / table));
+    std::string line;
+    std::getline(header, line);
+    std::istringstream words(line);
+    for (std::string name; std::getline(words, name, ',');) {
+      if (name == "tip_uz" || name == "force") continue;
+      ++columns;
+      refusesDeck("    force: {", "    " + name + ": {",
+                  {"output/monitors/" + name, "a column of path.csv or points.csv"});
+    }
+  }
+  EXPECT_EQ(columns, 6 + 8);
 }
 
 TEST_F(BadInput, UnknownKey) {
