@@ -6,6 +6,7 @@
 
 #include "atrapos/fem/StructuredMesh.hpp"
 #include "atrapos/fem/StructuredShell.hpp"
+#include "deck/DeckValue.hpp"
 
 namespace atrapos {
 namespace {
@@ -30,7 +31,7 @@ fem::Mesh generateMesh(const deck::Deck& deck) {
                                       deck.file, deck.mesh.file));
   try {
     fem::Mesh mesh = std::visit(Builder{}, *deck.mesh.generate);
-    mesh.title = deck.title.substr(0, 80);  // what Exodus holds
+    mesh.title = deck::beginOf(deck.title, 80);  // what Exodus holds
     return mesh;
   } catch (const std::invalid_argument& e) {
     throw deck::DeckError(fmt::format("{}: mesh/generate: {}", deck.file, e.what()));

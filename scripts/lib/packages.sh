@@ -15,7 +15,7 @@ buildPackages=(
   libmumps-dev libmetis-dev libexodusii-dev
   # The reference BLAS would make every factorization several times slower.
   liblapack-dev libopenblas0-pthread
-  libcli11-dev libfmt-dev nlohmann-json3-dev
+  libcli11-dev libfmt-dev nlohmann-json3-dev libyaml-cpp-dev
   libgtest-dev libbenchmark-dev libadolc-dev
   # STEP and IGES files of tools.
   libocct-data-exchange-dev

@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <Teuchos_Array.hpp>
-#include <Teuchos_TwoDArray.hpp>
 #include <algorithm>
+#include <cctype>
+#include <charconv>
 #include <climits>
 #include <cmath>
+#include <map>
+#include <optional>
 #include <set>
 
 #include "deck/Deck.hpp"
@@ -33,9 +35,75 @@ const Check exponent{[](double x) { return x >= 1 && x <= 16; }, "from 1 to 16"}
 
 namespace {
 
+using Kind = YamlNode::Kind;
+
+/// Decimal notation, the whole text.
 template <class T>
-const T* as(const Teuchos::ParameterEntry* entry) {
-  return entry != nullptr && entry->isType<T>() ? &Teuchos::getValue<T>(*entry) : nullptr;
+std::optional<T> parsed(const std::string& text, const char* characters) {
+  const bool plus = text.size() > 1 && text[0] == '+' && text[1] != '-';
+  if (text.find_first_not_of(characters) != std::string::npos) return {};
+  T value{};
+  const char* end = text.data() + text.size();
+  const auto [last, error] = std::from_chars(text.data() + (plus ? 1 : 0), end, value);
+  if (error != std::errc() || last != end) return {};
+  return value;
+}
+
+std::optional<long long> wholeNumber(const YamlNode& node) {
+  if (node.kind != Kind::Scalar || node.quoted) return {};
+  return parsed<long long>(node.text, "+-0123456789");
+}
+
+std::optional<int> smallNumber(const YamlNode& node) {
+  const auto i = wholeNumber(node);
+  if (!i || *i > INT_MAX || *i < INT_MIN) return {};
+  return static_cast<int>(*i);
+}
+
+std::optional<double> number(const YamlNode& node) {
+  if (node.kind != Kind::Scalar || node.quoted) return {};
+  return parsed<double>(node.text, "+-0123456789.eE");
+}
+
+std::optional<bool> truth(const YamlNode& node) {
+  if (node.kind != Kind::Scalar || node.quoted) return {};
+  std::string word = node.text;
+  std::transform(word.begin(), word.end(), word.begin(), [](unsigned char c) { return std::tolower(c); });
+  if (word == "true" || word == "yes") return true;
+  if (word == "false" || word == "no") return false;
+  return {};
+}
+
+bool isText(const YamlNode& node) { return node.kind == Kind::Scalar && !number(node) && !truth(node); }
+
+std::optional<std::string> textOf(const YamlNode& node) {
+  if (!isText(node)) return {};
+  return node.text;
+}
+
+std::optional<std::string> nameOf(const YamlNode& node) {
+  const auto id = wholeNumber(node);
+  return id ? std::to_string(*id) : textOf(node);
+}
+
+/// What `of` makes of every item; nothing where it makes nothing of one.
+template <class T>
+std::vector<T> all(const std::vector<YamlTree>& items, std::optional<T> (*of)(const YamlNode&)) {
+  std::vector<T> values;
+  for (const YamlTree& item : items) {
+    const auto value = of(*item);
+    if (!value) return {};
+    values.push_back(*value);
+  }
+  return values;
+}
+
+/// As it is written.
+std::string shownScalar(const YamlNode& node) { return node.kind == Kind::Nothing ? "null" : node.text; }
+
+bool holds(const YamlNode& list, Kind kind) {
+  return std::any_of(list.items.begin(), list.items.end(),
+                     [=](const auto& item) { return item->kind == kind; });
 }
 
 std::size_t editDistance(const std::string& a, const std::string& b) {
@@ -55,17 +123,28 @@ std::size_t editDistance(const std::string& a, const std::string& b) {
   return row[b.size()];
 }
 
-template <class T>
-std::string shownList(const Teuchos::Array<T>& list) {
-  return fmt::format("the list [{}]",
-                     shortened(fmt::format("{}", fmt::join(list.begin(), list.end(), ", "))));
+}  // namespace
+
+bool readsAsText(const std::string& word) {
+  YamlNode node;
+  node.kind = Kind::Scalar;
+  node.text = word;
+  const bool null = word.empty() || word == "null" || word == "Null" || word == "NULL";
+  return !null && isText(node);
 }
 
-}  // namespace
+std::string beginOf(const std::string& text, std::size_t bytes) {
+  std::size_t size = std::min(bytes, text.size());
+  while (size > 0 && size < text.size() && (static_cast<unsigned char>(text[size]) & 0xC0) == 0x80) --size;
+  return text.substr(0, size);
+}
 
 std::string shortened(const std::string& text) {
   constexpr std::size_t most = 60;
-  return text.size() <= most ? text : text.substr(0, most) + "...";
+  std::string line = beginOf(text, most) + (text.size() > most ? "..." : "");
+  std::replace_if(
+      line.begin(), line.end(), [](unsigned char c) { return c < 32; }, ' ');
+  return line;
 }
 
 std::string joined(const std::vector<std::string>& words) {
@@ -85,107 +164,129 @@ std::string suggestion(const std::string& word, const std::vector<std::string>& 
   return nearest == nullptr ? "" : fmt::format(" (did you mean '{}'?)", *nearest);
 }
 
-Value::Value(const Teuchos::ParameterList& root, const YamlText& text, const std::string& file)
-    : list_(&root), yaml_(&text), file_(&file) {}
+Value::Value(YamlTree root, const std::string& file) : node_(std::move(root)), file_(&file) {}
 
-Value::Value(const Value& parent, const std::string& key)
-    : entry_(&parent.list_->getEntry(key)),
-      yaml_(parent.yaml_),
+Value::Value(YamlTree node, const Value& parent, const YamlKey& key)
+    : node_(std::move(node)),
       file_(parent.file_),
-      key_(key),
-      path_(parent.path_.empty() ? key : parent.path_ + "/" + key) {
-  if (entry_->isList()) {
-    list_ = &parent.list_->sublist(key);
-  }
-}
+      key_(key.name),
+      path_(parent.path_.empty() ? key.name : parent.path_ + "/" + key.name),
+      line_(key.line) {}
+
+std::string Value::place() const { return line_ > 0 ? fmt::format(" (line {})", line_) : ""; }
 
 void Value::fail(const std::string& what) const {
-  const int line = yaml_->lineOf(path_);
-  throw DeckError(fmt::format("{}: {}{}{}{}", *file_, path_, path_.empty() ? "" : ": ", what,
-                              line > 0 ? fmt::format(" (line {})", line) : ""));
+  throw DeckError(fmt::format("{}: {}{}{}{}", *file_, path_, path_.empty() ? "" : ": ", what, place()));
 }
 
 void Value::failMissing(const std::string& key, const std::string& accepts) const {
-  const int line = yaml_->lineOf(path_);
   throw DeckError(fmt::format("{}: {}{}{}: is missing; expected {}{}", *file_, path_,
-                              path_.empty() ? "" : "/", key, accepts,
-                              line > 0 ? fmt::format(" (line {})", line) : ""));
+                              path_.empty() ? "" : "/", key, accepts, place()));
 }
 
-bool Value::isText() const { return as<std::string>(entry_) != nullptr; }
+bool Value::isMap() const { return node_->kind == Kind::Map || node_->kind == Kind::Nothing; }
 
-bool Value::isList() const { return entry_ != nullptr && entry_->isArray(); }
+bool Value::isText() const { return deck::isText(*node_); }
 
 std::vector<std::string> Value::keys() const {
   if (!isMap()) {
     fail(fmt::format("expected a map of keys, got {}", shown()));
   }
   std::vector<std::string> keys;
-  for (auto it = list_->begin(); it != list_->end(); ++it) {
-    keys.push_back(list_->name(it));
+  for (const YamlKey& key : node_->keys) {
+    keys.push_back(key.name);
   }
   return keys;
 }
 
-bool Value::has(const std::string& key) const { return list_ != nullptr && list_->isParameter(key); }
+bool Value::has(const std::string& key) const {
+  return std::any_of(node_->keys.begin(), node_->keys.end(), [&](const YamlKey& k) { return k.name == key; });
+}
 
-Value Value::at(const std::string& key) const { return Value(*this, key); }
+Value Value::at(const std::string& key) const {
+  if (isList()) {
+    return entries().at(key);
+  }
+  for (std::size_t i = 0; i < node_->keys.size(); ++i) {
+    if (node_->keys[i].name == key) {
+      return Value(node_->items[i], *this, node_->keys[i]);
+    }
+  }
+  throw std::logic_error("the deck has no " + path_ + "/" + key);
+}
+
+Value Value::entries() const {
+  if (!isList()) {
+    return *this;
+  }
+  auto map = std::make_shared<YamlNode>();
+  map->kind = Kind::Map;
+  std::map<std::string, int> lines;
+  for (const YamlTree& item : node_->items) {
+    const Value each(item, *this, {"item " + std::to_string(lines.size() + 1), item->line});
+    if (!each.has("name")) {
+      each.fail("has no name; expected a map with the key name, or one map with an entry for each name");
+    }
+    const Value name = each.at("name");
+    const auto [previous, isNew] = lines.emplace(name.name(), item->line);
+    if (!isNew) {
+      name.fail(fmt::format("'{}' is given twice, first on line {}", previous->first, previous->second));
+    }
+    auto entry = std::make_shared<YamlNode>(*item);
+    const auto at = std::find_if(entry->keys.begin(), entry->keys.end(),
+                                 [](const YamlKey& k) { return k.name == "name"; });
+    entry->items.erase(entry->items.begin() + (at - entry->keys.begin()));
+    entry->keys.erase(at);
+    map->keys.push_back({previous->first, item->line});
+    map->items.push_back(std::move(entry));
+  }
+  Value value = *this;
+  value.node_ = std::move(map);
+  return value;
+}
 
 std::string Value::shown() const {
   if (isMap()) {
     return isEmptyMap() ? "nothing" : "a map";
   }
-  if (const auto* v = as<bool>(entry_)) {
-    return *v ? "true" : "false";
+  if (!isList()) {
+    const auto flag = truth(*node_);
+    return flag       ? (*flag ? "true" : "false")
+           : isText() ? fmt::format("the text '{}'", shortened(node_->text))
+                      : node_->text;
   }
-  if (const auto* v = as<int>(entry_)) {
-    return fmt::format("{}", *v);
+  if (node_->items.empty()) {
+    return "an empty list";
   }
-  if (const auto* v = as<long long>(entry_)) {
-    return fmt::format("{}", *v);
+  if (holds(*node_, Kind::Map) || holds(*node_, Kind::List)) {
+    return holds(*node_, Kind::Map) ? "a list of maps" : "a list of lists";
   }
-  if (const auto* v = as<double>(entry_)) {
-    return fmt::format("{}", *v);
+  std::vector<std::string> words;
+  for (const YamlTree& item : node_->items) {
+    words.push_back(shownScalar(*item));
   }
-  if (const auto* v = as<std::string>(entry_)) {
-    return fmt::format("the text '{}'", shortened(*v));
-  }
-  if (const auto* v = as<Teuchos::Array<int>>(entry_)) {
-    return shownList(*v);
-  }
-  if (const auto* v = as<Teuchos::Array<long long>>(entry_)) {
-    return shownList(*v);
-  }
-  if (const auto* v = as<Teuchos::Array<double>>(entry_)) {
-    return shownList(*v);
-  }
-  if (const auto* v = as<Teuchos::Array<std::string>>(entry_)) {
-    return shownList(*v);
-  }
-  return "a list of lists";
+  return fmt::format("the list [{}]", shortened(joined(words)));
 }
 
 double Value::real(const Check& check) const {
-  double x = 0;
-  if (const auto* i = as<int>(entry_)) {
-    x = *i;
-  } else if (const auto* l = as<long long>(entry_)) {
-    x = static_cast<double>(*l);
-  } else if (const auto* d = as<double>(entry_)) {
-    x = *d;
-  } else {
-    fail(fmt::format("expected a finite number, got {}", shown()));
+  const auto x = number(*node_);
+  if (!x) {
+    const bool comma = isText() && node_->text.find(',') != std::string::npos;
+    fail(fmt::format("expected a finite number, got {}{}", shown(),
+                     comma ? " (decimals are written with a point: 0.3)" : ""));
   }
-  if (!std::isfinite(x) || !check.holds(x)) {
+  if (!check.holds(*x)) {
     fail(fmt::format("must be {}, got {}", check.words, shown()));
   }
-  return x;
+  return *x;
 }
 
 int Value::integer(const Check& check) const {
-  const auto* i = as<int>(entry_);
-  if (i == nullptr) {
-    fail(fmt::format("expected a whole number of at most {}, got {}", INT_MAX, shown()));
+  const auto i = smallNumber(*node_);
+  if (!i) {
+    const bool notation = number(*node_) && !wholeNumber(*node_);
+    const auto kind = notation ? "without point and exponent" : fmt::format("of at most {}", INT_MAX);
+    fail(fmt::format("expected a whole number {}, got {}", kind, shown()));
   }
   if (!check.holds(*i)) {
     fail(fmt::format("must be {}, got {}", check.words, *i));
@@ -194,55 +295,54 @@ int Value::integer(const Check& check) const {
 }
 
 bool Value::boolean() const {
-  const auto* v = as<bool>(entry_);
-  if (v == nullptr) {
+  const auto flag = truth(*node_);
+  if (!flag) {
     fail(fmt::format("expected true or false, got {}", shown()));
   }
-  return *v;
+  return *flag;
+}
+
+std::string Value::oneLine(std::string text) const {
+  text.erase(text.find_last_not_of('\n') + 1);  // of a block of lines
+  if (text.empty()) {
+    fail("must not be empty");
+  }
+  if (std::any_of(text.begin(), text.end(), [](unsigned char c) { return c < 32 || c == 127; })) {
+    fail("must be one line, without control characters (a block of lines that begins with '>' is joined)");
+  }
+  return text;
+}
+
+std::vector<std::string> Value::oneLine(std::vector<std::string> texts) const {
+  for (auto& text : texts) {
+    text = oneLine(std::move(text));
+  }
+  return texts;
 }
 
 std::string Value::text() const {
-  const auto* v = as<std::string>(entry_);
-  if (v == nullptr) {
+  if (!isText()) {
     fail(fmt::format("expected a text, got {}{}", shown(),
-                     isMap() ? "" : " (put it in quotes to make it a text)"));
+                     node_->kind == Kind::Scalar ? " (put it in quotes to make it a text)" : ""));
   }
-  if (v->empty()) {
-    fail("must not be empty");
-  }
-  return *v;
+  return oneLine(node_->text);
 }
 
 std::string Value::name() const {
-  if (const auto* i = as<int>(entry_)) {
-    return std::to_string(*i);
-  }
-  if (const auto* l = as<long long>(entry_)) {
-    return std::to_string(*l);
-  }
-  if (!isText()) {
+  const auto name = nameOf(*node_);
+  if (!name) {
     fail(fmt::format("expected a name or id, got {}", shown()));
   }
-  return text();
+  return oneLine(*name);
 }
 
-std::vector<double> Value::realList() const {
-  std::vector<double> x;
-  if (const auto* i = as<Teuchos::Array<int>>(entry_)) {
-    x.assign(i->begin(), i->end());
-  } else if (const auto* l = as<Teuchos::Array<long long>>(entry_)) {
-    x.assign(l->begin(), l->end());
-  } else if (const auto* d = as<Teuchos::Array<double>>(entry_)) {
-    x.assign(d->begin(), d->end());
-  }
-  if (!std::all_of(x.begin(), x.end(), [](double v) { return std::isfinite(v); })) {
-    x.clear();
-  }
-  return x;
+const std::vector<YamlTree>& Value::items() const {
+  static const std::vector<YamlTree> none;
+  return isList() ? node_->items : none;
 }
 
 std::vector<double> Value::reals(std::size_t size) const {
-  const std::vector<double> x = realList();
+  const auto x = all(items(), number);
   if (x.size() != size) {
     fail(fmt::format("expected a list of {} finite numbers, got {}", size, shown()));
   }
@@ -250,7 +350,7 @@ std::vector<double> Value::reals(std::size_t size) const {
 }
 
 std::vector<double> Value::reals() const {
-  const std::vector<double> x = realList();
+  const auto x = all(items(), number);
   if (x.empty()) {
     fail(fmt::format("expected a list of finite numbers, got {}", shown()));
   }
@@ -258,29 +358,18 @@ std::vector<double> Value::reals() const {
 }
 
 std::vector<std::array<double, 3>> Value::rowsOf3() const {
-  std::vector<std::array<double, 3>> rows;
-  const auto take = [&](const auto* table) {
-    if (table == nullptr || table->getNumCols() != 3) {
-      return;
-    }
-    for (Teuchos::Ordinal i = 0; i < table->getNumRows(); ++i) {
-      rows.push_back({static_cast<double>((*table)(i, 0)), static_cast<double>((*table)(i, 1)),
-                      static_cast<double>((*table)(i, 2))});
-    }
-  };
-  take(as<Teuchos::TwoDArray<int>>(entry_));
-  take(as<Teuchos::TwoDArray<long long>>(entry_));
-  take(as<Teuchos::TwoDArray<double>>(entry_));
-  const auto single = realList();
+  const auto single = all(items(), number);
   if (single.size() == 3) {
-    rows.push_back({single[0], single[1], single[2]});
+    return {{single[0], single[1], single[2]}};
   }
-  for (const auto& row : rows) {
-    for (const double x : row) {
-      if (!std::isfinite(x)) {
-        fail(fmt::format("must be finite numbers, got {}", x));
-      }
+  std::vector<std::array<double, 3>> rows;
+  for (const YamlTree& item : items()) {
+    const auto row = item->kind == Kind::List ? all(item->items, number) : std::vector<double>{};
+    if (row.size() != 3) {
+      rows.clear();
+      break;
     }
+    rows.push_back({row[0], row[1], row[2]});
   }
   if (rows.empty()) {
     fail(fmt::format("expected a list of lists of 3 finite numbers, got {}", shown()));
@@ -289,51 +378,32 @@ std::vector<std::array<double, 3>> Value::rowsOf3() const {
 }
 
 std::vector<int> Value::integers(std::size_t size, const Check& check) const {
-  const auto* list = as<Teuchos::Array<int>>(entry_);
-  if (list == nullptr || static_cast<std::size_t>(list->size()) != size) {
+  const auto list = all(items(), smallNumber);
+  if (list.size() != size) {
     fail(fmt::format("expected a list of {} whole numbers, got {}", size, shown()));
   }
-  for (const int i : *list) {
-    if (!check.holds(i)) {
-      fail(fmt::format("each number must be {}, got {}", check.words, shown()));
-    }
+  if (!std::all_of(list.begin(), list.end(), [&](int i) { return check.holds(i); })) {
+    fail(fmt::format("each number must be {}, got {}", check.words, shown()));
   }
-  return {list->begin(), list->end()};
+  return list;
 }
 
 std::vector<std::string> Value::texts() const {
-  if (isText()) {
-    return {text()};
-  }
-  const auto* list = as<Teuchos::Array<std::string>>(entry_);
-  if (list == nullptr) {
+  const auto texts = isText() ? std::vector<std::string>{node_->text} : all(items(), textOf);
+  if (texts.empty()) {
     fail(fmt::format("expected a text or a list of texts, got {}", shown()));
   }
-  return {list->begin(), list->end()};
+  return oneLine(texts);
 }
 
 std::vector<std::string> Value::names() const {
-  std::vector<std::string> names;
-  if (const auto* s = as<Teuchos::Array<std::string>>(entry_)) {
-    names.assign(s->begin(), s->end());
-  } else if (const auto* i = as<Teuchos::Array<int>>(entry_)) {
-    for (const int id : *i) {
-      names.push_back(std::to_string(id));
-    }
-  } else if (const auto* l = as<Teuchos::Array<long long>>(entry_)) {
-    for (const long long id : *l) {
-      names.push_back(std::to_string(id));
-    }
-  } else if (isText() || as<int>(entry_) != nullptr || as<long long>(entry_) != nullptr) {
-    names.push_back(name());
-  } else {
+  const auto single = nameOf(*node_);
+  const auto names = oneLine(single ? std::vector<std::string>{*single} : all(items(), nameOf));
+  if (names.empty()) {
     fail(fmt::format("expected a list of names or ids, got {}", shown()));
   }
   std::set<std::string> seen;
   for (const auto& name : names) {
-    if (name.empty()) {
-      fail("a name must not be empty");
-    }
     if (!seen.insert(name).second) {
       fail(fmt::format("'{}' is given twice", name));
     }

@@ -1,11 +1,10 @@
 #pragma once
 
-#include <Teuchos_ParameterList.hpp>
 #include <array>
 #include <string>
 #include <vector>
 
-#include "deck/YamlText.hpp"
+#include "deck/YamlTree.hpp"
 
 namespace atrapos::deck {
 
@@ -20,21 +19,25 @@ extern const Check any, positive, nonzero, fraction, fractionOrZero, count, natu
     poissonsRatio, acuteAngle, slopeAngle, exponent;
 }
 
-/// A value of the deck with its key path. Every accessor throws DeckError where the value is not of its kind.
+/// A value of the deck with its key path; `file` must outlive it. Every accessor throws DeckError where the
+/// value is not of its kind.
 class Value {
  public:
-  Value(const Teuchos::ParameterList& root, const YamlText& text, const std::string& file);
+  Value(YamlTree root, const std::string& file);
 
-  bool isMap() const { return list_ != nullptr; }
-  bool isEmptyMap() const { return list_ != nullptr && list_->numParams() == 0; }
+  /// Nothing counts as an empty map.
+  bool isMap() const;
+  bool isEmptyMap() const { return isMap() && node_->items.empty(); }
   bool isText() const;
-  /// A list of numbers or texts.
-  bool isList() const;
+  bool isList() const { return node_->kind == YamlNode::Kind::List; }
 
   /// Keys of a map, in the deck's order.
   std::vector<std::string> keys() const;
   bool has(const std::string& key) const;
+  /// The value of a key, which is there.
   Value at(const std::string& key) const;
+  /// Named entries: a map, or a list of maps each with the key `name`, as a map.
+  Value entries() const;
   /// The key under which the value stands.
   const std::string& key() const { return key_; }
 
@@ -64,19 +67,30 @@ class Value {
   [[noreturn]] void failMissing(const std::string& key, const std::string& accepts) const;
 
  private:
-  std::vector<double> realList() const;
-  Value(const Value& parent, const std::string& key);
+  Value(YamlTree node, const Value& parent, const YamlKey& key);
+  std::string place() const;
+  /// Of a list; none of anything else.
+  const std::vector<YamlTree>& items() const;
+  /// The text, or each, without line ends after it; throws where it is empty or has control characters.
+  std::string oneLine(std::string text) const;
+  std::vector<std::string> oneLine(std::vector<std::string> texts) const;
 
-  const Teuchos::ParameterEntry* entry_ = nullptr;
-  const Teuchos::ParameterList* list_ = nullptr;
-  const YamlText* yaml_;
+  YamlTree node_;
   const std::string* file_;
   std::string key_, path_;
+  int line_ = 0;  // of the key
 };
 
 /// " (did you mean 'x'?)" for the candidate nearest to a word in edit distance, or nothing where none is
 /// near.
 std::string suggestion(const std::string& word, const std::vector<std::string>& candidates);
+
+/// Whether these characters without quotes are a text: neither a number, nor true, false, yes or no, nor
+/// null.
+bool readsAsText(const std::string& word);
+
+/// The first bytes of a text, so many at most, without a part of a character.
+std::string beginOf(const std::string& text, std::size_t bytes);
 
 /// A text cut to a length that suits a message.
 std::string shortened(const std::string& text);

@@ -12,8 +12,7 @@ std::string yaml(const std::string& text) {
   const bool word = !text.empty() && std::all_of(text.begin(), text.end(), [](unsigned char c) {
     return std::isalnum(c) != 0 || c == '_';
   });
-  const bool truth = text == "true" || text == "false" || text == "yes" || text == "no";
-  if (word && !truth && (number || std::isdigit(static_cast<unsigned char>(text[0])) == 0)) {
+  if (word && (number || readsAsText(text))) {
     return text;
   }
   std::string quoted = "'";

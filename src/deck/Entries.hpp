@@ -27,11 +27,12 @@ Field<S> entries(std::string key, Need need, std::vector<Entry> S::*member, cons
           expected,
           std::move(meaning),
           [=, &kind](const Value& v, S& s) {
-            if (v.keys().empty()) {
+            const Value all = v.entries();
+            if (all.keys().empty()) {
               v.fail("is empty; expected " + expected);
             }
-            for (const auto& name : v.keys()) {
-              const Value value = v.at(name);
+            for (const auto& name : all.keys()) {
+              const Value value = all.at(name);
               checkEntryName(value);
               Entry entry{};
               entry.name = name;

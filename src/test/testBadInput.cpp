@@ -79,6 +79,17 @@ TEST_F(BadInput, DeckOfRandomBytes) {
   refuses({"run", "deck.yaml"}, {"deck.yaml"});
 }
 
+TEST_F(BadInput, DeckThatIsNoYaml) {
+  refusesDeck("[0, 0, -10]}", "[0, 0, -10]",
+              {"deck.yaml: line 11, column 1: unexpected 't'; expected ',' or '}' for the '{' on line 10"});
+  refusesDeck("stiffness: 1000", "stiffness: 1000, tool: roll",
+              {"deck.yaml: line 14, column ", "'contact/lower/tool' is given twice, first on line 14"});
+  refusesDeck("roll: {", "roll: &roll {<<: *roll, ", {"deck.yaml: line 12, column ", "within what it names"});
+  refusesDeck("order: 15", "order: " + std::string(100000, '['), {"deck.yaml: line 16, column ", "64 deep"});
+  writeFile(folder_ / "deck.yaml", std::string("\xEF\xBB\xBF\r\n"));
+  refuses({"check", "deck.yaml"}, {"deck.yaml: the deck is empty"});
+}
+
 // Each would stand twice in the tables' headers.
 TEST_F(BadInput, MonitorsNamedAsColumns) {
   writeFile(folder_ / "free.yaml", kSmallDeck);

@@ -1,6 +1,7 @@
 // The command's manners: what it prints where, exit codes, and the files of good runs.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <csignal>
 #include <nlohmann/json.hpp>
@@ -80,6 +81,21 @@ TEST_F(CommandTest, MeshWritesTheFile) {
   EXPECT_EQ(r.err, "");
   EXPECT_EQ(r.out, "other.exo: 20 nodes, 4 HEX8 in block 'body'\n");
   EXPECT_EQ(exodus::readMesh((folder_ / "other.exo").string()).coordinates, mesh.coordinates);
+}
+
+TEST_F(CommandTest, TitleInUtf8) {
+  std::string umlauts;
+  for (int i = 0; i < 60; ++i) umlauts += "\u00e4";
+  writeFile(folder_ / "deck.yaml", edited(kSmallDeck, "title: Small box", "title: a" + umlauts));
+  const CommandResult made = runAtrapos({"mesh", "-q", "deck.yaml"}, folder_.path());
+  EXPECT_EQ(made.exitCode, 0) << made.err;
+  // Of the 80 bytes that Exodus holds, 79 are whole characters.
+  EXPECT_EQ(exodus::readMesh((folder_ / "box.exo").string()).title, "a" + umlauts.substr(0, 78));
+  const CommandResult r = runAtrapos({"run", "-q", "deck.yaml"}, folder_.path());
+  EXPECT_EQ(r.exitCode, 0) << r.err;
+  EXPECT_EQ(summary("deck_results").at("title"), "a" + umlauts);
+  const auto info = exodus::ResultReader((folder_ / "deck_results" / "results.exo").string()).info();
+  EXPECT_NE(std::find(info.begin(), info.end(), "title: a" + umlauts), info.end());
 }
 
 TEST_F(CommandTest, QuietMeshPrintsNothing) {

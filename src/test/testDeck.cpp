@@ -349,6 +349,82 @@ TEST(Deck, shapesToGenerate) {
   EXPECT_EQ(dome.blockName, "dome");
 }
 
+TEST(Deck, allOfYaml) {
+  const std::string plain = described(readDeckText(goodDeck, "solid.yaml"));
+  const auto same = [&](const std::string& text) {
+    EXPECT_EQ(described(readDeckText(text, "solid.yaml")), plain) << text;
+  };
+  const auto titled = [](const std::string& title) {
+    return readDeckText(changed("title: Strip on a roll", "title: " + title), "d.yaml").title;
+  };
+  EXPECT_EQ(titled("Träger auf Walze, µ = 0 °C"), "Träger auf Walze, µ = 0 °C");
+  EXPECT_EQ(titled("\"\\u00e9 \\\"a\\\" \\\\ \\x41 \\U0001F600\""), "é \"a\" \\ A 😀");
+  EXPECT_EQ(titled("strip [1], {x} # <a>"), "strip [1], {x}");
+  EXPECT_EQ(titled("'it''s: [yes]'"), "it's: [yes]");
+  EXPECT_EQ(titled("a\n  title of\n  lines"), "a title of lines");
+  EXPECT_EQ(titled("\"a\n  title\""), "a title");
+  EXPECT_EQ(titled("|\n  Strip\n"), "Strip");
+  EXPECT_EQ(titled(">-\n  Strip on\n  a roll\n"), "Strip on a roll");
+  EXPECT_EQ(titled("! 3"), "3");  // a text, as quotes would make it
+
+  std::string crlf = goodDeck;
+  for (std::size_t i = 0; (i = crlf.find('\n', i)) != std::string::npos; i += 2) crlf.replace(i, 1, "\r\n");
+  same(crlf);
+  same(std::string("\xEF\xBB\xBF") + goodDeck);
+  same(std::string("%YAML 1.2\n---\n") + goodDeck);
+  same(std::string("---\n") + goodDeck + "...\n");
+  same(std::string("# first\n--- # a deck\n") + goodDeck + "# last\n\n  \n");
+  same(changed("mesh:\n", "'mesh':\n"));
+  same(changed("blocks: [strip]", "\"blocks\" : [ strip, ]"));
+  same(changed("total: [0, 0, -100]", "total: [0,\n\t0, # in between\n -100]"));
+  same(changed("{load_factor: 0.25}", "\n    ? load_factor\n    : 0.25"));
+  same(changed("tip: {type: surface, set: x_max, total: [0, 0, -100]}",
+               "tip:\n    type: surface\n    set: x_max\n    total:\n    - 0\n    - 0\n    - -100"));
+  // The same value again, and keys of another map.
+  std::string anchored = changed("set: x_max\n", "set: &end x_max\n");
+  anchored.replace(anchored.find("surface, set: x_max"), 19, "surface, set: *end");
+  same(anchored);
+  anchored = changed("clamp: {set: x_min, x: 0, y: 0, z: 0}",
+                     "clamp: {set: x_min, <<: [{x: &zero 0, y: *zero}, {z: 0, y: 7}]}");
+  same(anchored);
+  const Deck merged =
+      readDeckText(changed("clamp: {set: x_min, x: 0, y: 0, z: 0}",
+                           "clamp: &clamp {set: x_min, x: 0, y: 0, z: 0}\n  other: {y: 2, <<: *clamp}"),
+                   "d.yaml");
+  EXPECT_EQ(merged.supports[1].set, "x_min");
+  EXPECT_EQ(merged.supports[1].components[0]->value, 0.0);
+  EXPECT_EQ(merged.supports[1].components[1]->value, 2.0);
+}
+
+TEST(Deck, entriesAsLists) {
+  std::string text = changed("  roll: {type: cylinder", "- {name: roll, type: cylinder");
+  text.replace(text.find("  lower: {"), 10, "  - name: lower\n    <<: {");
+  text.replace(text.find("    tip_uz: {"), 13, "    - {name: tip_uz, ");
+  EXPECT_EQ(described(readDeckText(text, "solid.yaml")), described(readDeckText(goodDeck, "solid.yaml")));
+  text.replace(text.find("name: roll"), 10, "name: disc");
+  expectError(text, "contact/lower/tool: no entry 'roll' in tools", {"there are disc"});
+}
+
+TEST(Deck, numbers) {
+  const auto radius = [](const std::string& number) {
+    return std::get<CylinderTool>(
+               readDeckText(changed("radius: 50", "radius: " + number), "d.yaml").tools[0].surface)
+        .radius;
+  };
+  for (const std::string number :
+       {"0.001", "1e-3", "1E-3", "1.0e-03", ".001", "+0.001", "+.1e-2", "00.001"}) {
+    EXPECT_EQ(radius(number), 0.001) << number;
+  }
+  for (const std::string number : {"8", "+8", "8.", "08", "8e0", "8.E+0"})
+    EXPECT_EQ(radius(number), 8.0) << number;
+  EXPECT_EQ(radius("5e-324"), 5e-324);
+  EXPECT_EQ(radius("1.7976931348623157e308"), 1.7976931348623157e308);
+  EXPECT_EQ(radius("0.1000000000000000055511151231257827021181583404541015625"), 0.1);
+  EXPECT_EQ(readDeckText(changed("order: 15", "order: +15"), "d.yaml").path.order, 15);
+  EXPECT_EQ(readDeckText(changed("set: x_min", "set: 007"), "d.yaml").supports[0].set, "7");
+  EXPECT_EQ(readDeckText(changed("set: x_min", "set: '007'"), "d.yaml").supports[0].set, "007");
+}
+
 TEST(Deck, describedDeckReadsBackToTheSame) {
   for (const std::string file : {"solid", "solid_fine", "solid_nu03"}) {
     const Deck deck = readDeck(fmt::format("{}/strip_roll/{}.yaml", ATRAPOS_EXAMPLES, file));
@@ -359,7 +435,7 @@ TEST(Deck, describedDeckReadsBackToTheSame) {
   std::string text = changed("title: Strip on a roll", "title: it's 100 % [odd]: 'yes'");
   text = changed("title: Strip on a roll", "title: \"it's odd: [yes]\"");
   text.replace(text.find("220000"), 6, "2.2e-300");
-  text.replace(text.find("blocks: [strip]"), 15, "blocks: [12, 'yes', \"a b\"]");
+  text.replace(text.find("blocks: [strip]"), 15, "blocks: [12, 'yes', \"a b\", 'null', 'True', 'ä']");
   text.replace(text.find("radius: 50"), 10, "radius: 1e+21");
   const Deck deck = readDeckText(text, "odd");
   EXPECT_EQ(deck.title, "it's odd: [yes]");
@@ -367,7 +443,7 @@ TEST(Deck, describedDeckReadsBackToTheSame) {
   const Deck again = readDeckText(once, "odd");
   EXPECT_EQ(described(again), once);
   EXPECT_EQ(again.title, deck.title);
-  EXPECT_EQ(again.materials[0].blocks, (std::vector<std::string>{"12", "yes", "a b"}));
+  EXPECT_EQ(again.materials[0].blocks, (std::vector<std::string>{"12", "yes", "a b", "null", "True", "ä"}));
   EXPECT_EQ(std::get<SaintVenantKirchhoff>(again.materials[0].law).youngsModulus, 2.2e-300);
   EXPECT_EQ(std::get<CylinderTool>(again.tools[0].surface).radius, 1e21);
   // Defaults are shown.
@@ -428,18 +504,18 @@ TEST(BadDeck, textThatIsNoMap) {
   expectError("[1, 2]\n", "line 1, column 1: ", {"not a list"});
   expectError("- a\n- b\n", "line 1, column 1: ", {"not a list"});
   expectError(std::string(1000000, 'x'), "line 1, column 1: ", {"got 'xxx", "xxx...'"});
-  expectError("mesh:\n  hello\n", "line 2, column 3: ", {"got 'hello'"});
+  expectError("mesh:\n  hello\n", "mesh: expected a map of keys, got the text 'hello'", {"(line 1)"});
   expectError("a: 1\n---\nb: 2\n", "line 2, column 1: ", {"one YAML document"});
-  expectError("%YAML 1.1\n---\na: 1\n", "line 1, column 1: ", {"one YAML document"});
+  expectError("%YAML 2.0\n---\na: 1\n", "line 1, column 1: ", {"version"});
+  expectError("a: 1\n...\nb: 2\n", "line 3, column 1: ", {"one YAML document"});
   expectError("mesh: 3\n", "mesh: ", {"expected a map of keys, got 3", "(line 1)"});
   expectError(std::string("CDF\x01\0\0\0\0", 8), "line 1, column 4: ", {"ASCII"});
 }
 
 TEST(BadDeck, indentation) {
   expectError("mesh:\n\tfile: a\n", "line 2, column 1: ", {"spaces, not tabs"});
-  // Teuchos' reader drops such a line without a word.
   expectError("mesh:\n    file: a\n  generate: b\n", "line 3, column 3: ", {"matches no enclosing block"});
-  expectError("a:\n- 1\n- 2\n", "line 2, column 1: ", {"must be indented below its key"});
+  expectError(" a: 1\nb: 2\n", "line 2, column 1: ", {"matches no enclosing block"});
   expectError("a:\n  b: 1\n  - 2\n", "line 3, column 3: ", {"must be indented below its key"});
   expectError("a:\n  - 2\n  b: 1\n", "line 3, column 3: ", {"expected a list item"});
   expectError("title: a\n   mesh: b\n", "line 2, column ", {"indented more"});
@@ -450,27 +526,119 @@ TEST(BadDeck, keysGivenTwice) {
               "line 3, column 1: ", {"'title' is given twice, first on line 1"});
   expectError("tools:\n  roll: {}\n  # once more\n  roll: {}\n",
               "line 4, column 3: ", {"'tools/roll' is given twice, first on line 2"});
-  expectError("title: a\nmesh: {file: b, file: c}\n", "line 2, column ", {"'file' is given twice"});
+  expectError("title: a\nmesh: {file: b, file: c}\n",
+              "line 2, column 17: ", {"'mesh/file' is given twice, first on line 2"});
+  expectError("tools: {roll: &r {}, flat: *r, roll: *r}\n",
+              "line 1, column 32: ", {"'tools/roll' is given twice"});
 }
 
-TEST(BadDeck, yamlThatTheReaderRefuses) {
+TEST(BadDeck, whatIsNoYaml) {
   expectError("title: Strip: on a roll\n", "line 1, column 13: ", {"unexpected ':'", "quotes"});
-  expectError("title: strip [1]\n", "line 1, column 14: ", {"unexpected '['", "quotes"});
-  expectError("title: \"strip\n", "line 1, column 8: ", {"must end on its own line"});
-  expectError("title: \"a\\n\"\n", "line 1, column 10: ", {"backslashes"});
+  expectError("path: {order: 15\n  stop: 3}\n", "line 2, column 7: ", {"unexpected ':'", "','"});
+  expectError("title: \"strip\n", "line 1, column 8: ", {"never closed"});
+  expectError("mesh: {file: 'it''s', block: \"a\\\" # b\n} # 'c'\n", "line 1, column 30: ", {"never closed"});
+  expectError("title: \"a\\q\"\n", "line 1, column 10: ", {"unknown escape '\\q'"});
   expectError("mesh: {file: a\n", "line 1, column 7: ", {"'{' is never closed"});
   expectError("mesh: {file: [a}\n", "line 1, column 16: ", {"'}' closes nothing"});
-  expectError("mesh: a]\n", "line 1, column 8: ", {"']' closes nothing"});
-  expectError("a: [1, 2,]\n", "line 1, column 10: ", {"unexpected ']'"});
-  expectError("a: {x: 1,\n    y: }\n", "line 2, column 8: ", {"unexpected '}'"});
-  expectError("a: []\n", "line 1, column ", {"a list must not be empty"});
-  expectError("a: [[1, 2], [3]]\n", "line 1, column ", {"must have the same length"});
-  expectError("a: [true, 1]\n", "line 1, column 9: ", {"not true"});
-  expectError("a:\n  - No\n  - 1\n", "line 2, column 3: ", {"not No"});
-  expectError("a: |\n  text\n", "line 1, column 1: ", {"over several lines"});
-  expectError("a: é\n", "line 1, column 4: ", {"plain ASCII"});
-  expectError("a:\n  - b: 1\n", "line 2, column ", {"a list of maps is not accepted"});
-  expectError("a: [1, {b: 2}]\n", "a list of maps is not accepted", {});
+  expectError("mesh: [a, b\n", "line 1, column 7: ", {"'[' is never closed"});
+  expectError("mesh: [[1, 2], [3, 4\n", "line 1, column 16: ", {"'[' is never closed"});
+  expectError("mesh: [[1, 2],\n [3, 4]\n", "line 1, column 7: ", {"'[' is never closed"});
+  expectError(", a\n", "line 1, column 1: ", {"unexpected ','"});
+  expectError("mesh: {a: [1]]\n", "line 1, column 14: ", {"']' closes nothing"});
+  expectError("mesh: [\"a\" \"b\"]\n", "line 1, column 12: ", {"expected ',' or ']' for the '[' on line 1"});
+  expectError("mesh: {file: \"a\"}, b\n", "line 1, column 18: ", {"unexpected ', b'", "line of its own"});
+  expectError("mesh: - a\n", "line 1, column 7: ", {"a list item", "a line of its own"});
+  expectError("title: @home\n", "line 1, column 8: ", {"unexpected '@'", "quotes"});
+  expectError("title: ä@\nmesh: {ö: [ü}\n",
+              "line 2, column 13: ", {"closes nothing"});  // characters, not bytes
+  expectError("title: !!str 3\n", "line 1, column 8: ", {"tags"});
+  expectError("[a, b]: 3\n", "line 1, column 1: ", {"a key must be a text"});
+  expectError("mesh: {[a, b]: 3}\n", "line 1, column 8: ", {"a key must be a text"});
+  expectError("mesh: {~: 3}\n", "line 1, column 8: ", {"a key must be a text"});
+}
+
+TEST(BadDeck, entriesWithoutColonOrBlank) {
+  expectError("mesh: {file: a}\nsolver\n", "line 2, column 1: ", {"expected 'key: value', got 'solver'"});
+  expectError("path:\n  order:15\n  stop: {steps: 3}\n",
+              "line 3, column 7: ", {"line 2", "got 'order:15'", "blank"});
+  expectError("mesh: {file:a}\n", "line 1, column 8: ", {"got 'file:a'", "a blank follows the colon"});
+  expectError("poissons_ratio: 0,", "poissons_ratio: 0,3,",
+              "line 7, column 82: ", {"'3'", "with a point: 0.3"});
+  expectError("radius: 50", "\n    radius: 0,5 }\n  other: {radius: 1,",
+              "line 17, column 15: ", {"'5'", "0.3"});
+}
+
+TEST(BadDeck, textThatIsNoUtf8) {
+  expectError("title: Tr\xE4ger\n", "line 1, column 10: ", {"0xe4", "UTF-8"});  // Latin-1
+  expectError("a: 1\ntitle: \xC3", "line 2, column 8: ", {"0xc3", "UTF-8"});    // cut short
+  expectError("title: \xC0\xAF\n", "line 1, column 8: ", {"0xc0"});             // overlong
+  expectError("title: \xED\xA0\x80\n", "line 1, column 8: ", {"0xed"});         // half of a pair
+  expectError("\xFF\xFEt\0i\0", "line 1, column 1: ", {"0xff"});                // UTF-16
+  expectError("a: 1\rtitle: b\n", "line 1, column 5: ", {"control character 0x0d"});
+  expectError("title: a\x04\n", "line 1, column 9: ", {"control character 0x04"});
+}
+
+TEST(BadDeck, aliases) {
+  expectError("tools: {roll: *r}\n", "line 1, column 15: ", {"no anchor '&r' stands before"});
+  expectError("tools: &t {roll: *t}\n", "line 1, column 18: ", {"stands within what it names"});
+  expectError("tools: &t {roll: {<<: *t}}\n", "line 1, column 23: ", {"stands within what it names"});
+  expectError("a: &x b\ntools: {*x}\n", "line 2, column 9: ", {"'key: *alias'"});
+  expectError("a: &x b\ntools: {<<: *x}\n", "line 2, column 9: ", {"'<<' takes a map"});
+  expectError("tools: {<<: {a: 1}, <<: {b: 1}}\n", "line 1, column 21: ", {"'tools/<<' is given twice"});
+  // Ten times ten times ...: 10^9 values in 9 lines.
+  std::string laughs = "a0: &a0 [x, x, x, x, x, x, x, x, x, x]\n";
+  for (int i = 1; i < 9; ++i) {
+    laughs += fmt::format(
+        "a{0}: &a{0} [*a{1}, *a{1}, *a{1}, *a{1}, *a{1}, *a{1}, *a{1}, *a{1}, *a{1}, *a{1}]\n", i, i - 1);
+  }
+  expectError(laughs, "line ", {"the aliases stand for more than 1000000 values"});
+}
+
+TEST(BadDeck, nestedDeeply) {
+  const std::string brackets(100000, '[');
+  expectError("a: " + brackets, "line 1, column ", {"more than 64 deep"});
+  expectError("a: " + brackets + std::string(100000, ']'), "line 1, column 67: ", {"more than 64 deep"});
+  std::string text = "a:\n  ";
+  for (int i = 0; i < 100000; ++i) text += "- ";
+  expectError(text + "b\n", "line 2, column 129: ", {"more than 64 deep"});
+  text = "a: ";
+  for (int i = 0; i < 100000; ++i) text += "{a: ";
+  expectError(text, "line 1, column ", {"more than 64 deep"});
+  text.clear();
+  for (int i = 0; i < 100; ++i) text += std::string(static_cast<std::size_t>(i), ' ') + "a:\n";
+  expectError(text, "line 65, column 65: ", {"more than 64 deep"});
+}
+
+TEST(BadDeck, listsThatDoNotFit) {
+  expectError("blocks: [strip]", "blocks: []", "materials/steel/blocks: expected a list of names",
+              {"an empty list"});
+  expectError("blocks: [strip]", "blocks: [true, 1]", "materials/steel/blocks: expected a list of names",
+              {"the list [true, 1]"});
+  expectError("blocks: [strip]", "blocks: [{a: b}]", "materials/steel/blocks: expected a list of names",
+              {"a list of maps"});
+  expectError("blocks: [strip]", "blocks: [strip, ~]", "materials/steel/blocks: expected a list of names",
+              {"[strip, null]"});
+  expectError("axis: [0, 1, 0]", "axis: []", "tools/roll/axis: expected a list of 3 finite numbers",
+              {"an empty list"});
+  const std::string points = "{type: patches, surfaces: {s: {degree: [1, 1], points: ";
+  const std::string cylinder = "{type: cylinder, center: [200, 0, -54.4], axis: [0, 1, 0], radius: 50}";
+  for (const std::string rows :
+       {"[[1, 2, 3], [4]]", "[[1, 2, 3], 4]", "[[1, 2, a]]", "[]", "[[]]", "{a: [1, 2, 3]}"}) {
+    expectError(cylinder, points + rows + "}}}",
+                "tools/roll/surfaces/s/points: expected a list of lists of 3 finite numbers", {});
+  }
+  expectError("loads:\n  tip: ", "loads:\n  - ",
+              "loads/item 1: has no name; expected a map with the key name", {"(line 14)"});
+  expectError("loads:\n  tip: ", "loads:\n  - 3\n  - ", "loads/item 1: has no name", {});
+  expectError("tip: {", "- {name: tip, type: volume, blocks: strip, force: [0, 0, 1]}\n  - {name: tip, ",
+              "loads/item 2/name: 'tip' is given twice, first on line 14", {"(line 15)"});
+}
+
+TEST(BadDeck, textsThatAreNoLine) {
+  expectError("title: Strip on a roll", "title: \"a\\tb\"",
+              "title: must be one line, without control characters", {});
+  expectError("title: Strip on a roll", "title: |\n  a\n  b", "title: must be one line", {"'>'", "(line 2)"});
+  expectError("set: z_min", "set: \"z\\0\"", "contact/lower/set: must be one line", {});
 }
 
 TEST(BadDeck, unknownKeys) {
@@ -522,7 +690,8 @@ TEST(BadDeck, wrongTypes) {
               {});
   expectError("radius: 50", "radius: {}", "tools/roll/radius: expected a finite number, got nothing", {});
   expectError("radius: 50", "radius: true", "tools/roll/radius: expected a finite number, got true", {});
-  expectError("order: 15", "order: 15.0", "path/order: expected a whole number", {"got 15"});
+  expectError("order: 15", "order: 15.0", "path/order: expected a whole number without point and exponent",
+              {"got 15.0"});
   expectError("order: 15", "order: 3000000000", "path/order: expected a whole number", {"got 3000000000"});
   expectError("title: Strip on a roll", "title: no", "title: expected a text, got false",
               {"quotes", "(line 2)"});
@@ -552,7 +721,9 @@ TEST(BadDeck, wrongTypes) {
 }
 
 TEST(BadDeck, numbersThatAreNone) {
-  for (const std::string word : {"nan", ".nan", "inf", "-inf", ".inf", "1e400", "0x10", "1d3", "~"}) {
+  for (const std::string word :
+       {"nan",  ".nan", "inf", "-inf", ".inf", "1e400", "1e-400", "0x10", "1d3",   "1_000",
+        "1:30", "0o7",  "1e",  "e1",   ".",    "+",     "+-1",    "1-2",  "0x1p3", "1 000"}) {
     SCOPED_TRACE(word);
     expectError("radius: 50", "radius: " + word,
                 "tools/roll/radius: expected a finite number, got the text '" + word + "'", {"(line 16)"});
@@ -562,6 +733,20 @@ TEST(BadDeck, numbersThatAreNone) {
   }
 }
 
+TEST(BadDeck, nothingWhereANumberIsWanted) {
+  for (const std::string word : {"", "~", "null", "Null", "NULL"}) {
+    SCOPED_TRACE(word);
+    expectError("radius: 50", "radius: " + word, "tools/roll/radius: expected a finite number, got nothing",
+                {"(line 16)"});
+  }
+  expectError("axis: [0, 1, 0]", "axis: [0, ~, 0]", "tools/roll/axis: expected a list of 3 finite numbers",
+              {"got the list [0, null, 0]"});
+  expectError("radius: 50", "radius:", "tools/roll/radius: expected a finite number, got nothing", {});
+  expectError("order: 15", "order: 1,5", "path/order: expected a whole number", {"the text '1,5'"});
+  expectError("order: 15", "weight: 1,5", "path/weight: expected a finite number, got the text '1,5'",
+              {"0.3"});
+}
+
 TEST(BadDeck, valuesOutOfRange) {
   expectError("radius: 50", "radius: -50", "tools/roll/radius: must be positive, got -50", {"(line 16)"});
   expectError("radius: 50", "radius: 0.0", "tools/roll/radius: must be positive, got 0", {});
@@ -569,7 +754,7 @@ TEST(BadDeck, valuesOutOfRange) {
   expectError("order: 15", "order: 0", "path/order: must be from 1 to 60, got 0", {});
   expectError("order: 15", "order: 61", "path/order: must be from 1 to 60, got 61", {});
   expectError("order: 15", "accuracy: 1", "path/accuracy: must be above 0 and below 1, got 1", {});
-  expectError("order: 15", "residual: -1e-6", "path/residual: must be above 0 and below 1, got -1e-06", {});
+  expectError("order: 15", "residual: -1e-6", "path/residual: must be above 0 and below 1, got -1e-6", {});
   expectError("order: 15", "direction: 0", "path/direction: must be 1 or -1, got 0", {});
   expectError("load_factor: 0.25", "load_factor: 0", "path/stop/load_factor: must be different from zero",
               {});
@@ -580,14 +765,14 @@ TEST(BadDeck, valuesOutOfRange) {
   expectError("youngs_modulus: 220000", "youngs_modulus: 0",
               "materials/steel/youngs_modulus: must be positive", {});
   expectError("lengths: [10, 2.0, 1]", "lengths: [10, 2.0, -1]",
-              "mesh/generate/lengths: each length must be positive", {"[10, 2, -1]"});
+              "mesh/generate/lengths: each length must be positive", {"[10, 2.0, -1]"});
   expectError("divisions: [10, 2, 1]", "divisions: [10, 0, 1]",
               "mesh/generate/divisions: each number must be at least 1", {});
   expectError("stiffness: 1.0e3", "stiffness: 0", "contact/lower/stiffness: must be positive, got 0", {});
   expectError("stiffness: 1.0e3", "stiffness: stiff",
               "contact/lower/stiffness: expected a positive number, rigid or auto", {"'stiff'"});
   expectError("regularisation: 0.1", "regularisation: 0.1, reference_gap: 1.0e-4",
-              "contact/lower/reference_gap: must be above regularisation/stiffness = 0.0001, got 0.0001", {});
+              "contact/lower/reference_gap: must be above regularisation/stiffness = 0.0001, got 1.0e-4", {});
   expectError("regularisation: 0.1", "regularisation: 0.1, quadrature_degree: 0",
               "contact/lower/quadrature_degree: must be from 1", {});
   expectError("output:", "output:\n  parts: some", "output/parts: expected true or false", {"'some'"});

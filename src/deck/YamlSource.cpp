@@ -1,0 +1,90 @@
+#include "deck/YamlSource.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "deck/Deck.hpp"
+
+namespace atrapos::deck {
+namespace {
+
+/// Bytes of the UTF-8 character that begins at i, 0 where none does: bytes of the wrong kind, overlong forms,
+/// surrogates, beyond U+10FFFF.
+std::size_t characterSize(const std::string& s, std::size_t i) {
+  const auto byte = [&](std::size_t k) {
+    return i + k < s.size() ? static_cast<unsigned char>(s[i + k]) : 0u;
+  };
+  const unsigned first = byte(0);
+  const std::size_t size = first < 0x80                     ? 1
+                           : first >= 0xC2 && first <= 0xDF ? 2
+                           : first >= 0xE0 && first <= 0xEF ? 3
+                           : first >= 0xF0 && first <= 0xF4 ? 4
+                                                            : 0;
+  for (std::size_t k = 1; k < size; ++k) {
+    if ((byte(k) & 0xC0) != 0x80) return 0;
+  }
+  const unsigned second = byte(1);
+  const bool outside = (first == 0xE0 && second < 0xA0) || (first == 0xED && second > 0x9F) ||
+                       (first == 0xF0 && second < 0x90) || (first == 0xF4 && second > 0x8F);
+  return outside ? 0 : size;
+}
+
+}  // namespace
+
+YamlSource::YamlSource(const std::string& text, const std::string& file) : file_(file) {
+  for (std::size_t i = text.compare(0, 3, "\xEF\xBB\xBF") == 0 ? 3 : 0; i < text.size(); ++i) {
+    if (text.compare(i, 2, "\r\n") != 0) text_ += text[i];
+  }
+  text_.erase(text_.find_last_not_of(" \t\n") + 1);
+  starts_.push_back(0);
+  for (auto end = text_.find('\n'); end != std::string::npos; end = text_.find('\n', end + 1)) {
+    starts_.push_back(end + 1);
+  }
+  checkCharacters();
+}
+
+void YamlSource::checkCharacters() const {
+  std::size_t size = 1;
+  for (std::size_t i = 0; i < text_.size(); i += size) {
+    const unsigned byte = static_cast<unsigned char>(text_[i]);
+    size = characterSize(text_, i);
+    if (size == 0) {
+      fail(i, fmt::format("the byte 0x{:02x} is no UTF-8 here; a deck is text in UTF-8 or ASCII", byte));
+    }
+    if ((byte < 32 && byte != '\t' && byte != '\n') || byte == 127) {
+      fail(i, fmt::format("control character 0x{:02x}; a deck is text in UTF-8 or ASCII", byte));
+    }
+  }
+}
+
+std::string YamlSource::line(int number) const {
+  const auto index = static_cast<std::size_t>(number);
+  if (number < 0 || index >= starts_.size()) return "";
+  return text_.substr(starts_[index], text_.find('\n', starts_[index]) - starts_[index]);
+}
+
+std::size_t YamlSource::offset(int line, int column) const {
+  const auto index = static_cast<std::size_t>(std::max(line, 0));
+  if (index >= starts_.size()) return text_.size();
+  return std::min(starts_[index] + static_cast<std::size_t>(std::max(column, 0)), text_.size());
+}
+
+std::size_t YamlSource::lineOf(std::size_t offset) const {
+  return static_cast<std::size_t>(std::upper_bound(starts_.begin(), starts_.end(), offset) - starts_.begin());
+}
+
+void YamlSource::fail(std::size_t offset, const std::string& what) const {
+  const auto line = lineOf(offset);
+  const auto before = text_.substr(starts_[line - 1], offset - starts_[line - 1]);
+  const auto column = 1 + std::count_if(before.begin(), before.end(), [](char c) {
+                        return (static_cast<unsigned char>(c) & 0xC0) != 0x80;  // begins a character
+                      });
+  throw DeckError(fmt::format("{}: line {}, column {}: {}", file_, line, column, what));
+}
+
+void YamlSource::fail(int line, int column, const std::string& what) const {
+  fail(offset(line, column), what);
+}
+
+}  // namespace atrapos::deck

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace atrapos::deck {
+
+/// The text of a YAML file, for a parser that counts bytes from 0.
+class YamlSource {
+ public:
+  /// Throws DeckError where the text is not UTF-8. A byte-order mark, carriage returns before line feeds and
+  /// blanks at the end go.
+  YamlSource(const std::string& text, const std::string& file);
+
+  const std::string& text() const { return text_; }
+  /// Line by its number from 0, empty beyond the last.
+  std::string line(int number) const;
+
+  /// Offset of a line's byte in the text, that of the text's end beyond the last line.
+  std::size_t offset(int line, int column) const;
+  /// Number from 1 of the line in which a byte stands.
+  std::size_t lineOf(std::size_t offset) const;
+
+  /// Throws DeckError: file, line and column from 1, columns in characters, what is wrong.
+  [[noreturn]] void fail(int line, int column, const std::string& what) const;
+  [[noreturn]] void fail(std::size_t offset, const std::string& what) const;
+
+ private:
+  void checkCharacters() const;
+
+  std::string file_, text_;
+  std::vector<std::size_t> starts_;  // of the lines
+};
+
+}  // namespace atrapos::deck
