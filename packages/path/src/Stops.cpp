@@ -34,10 +34,10 @@ constexpr const char* kPathLength = "path length";
 /// First root of p - value in (0, end].
 std::optional<double> firstRoot(const Rational& p, double value, double end, bool atStart) {
   auto q = p.minus(value);
-  // Relative to what p is made of: a start that came from an earlier stop satisfies it to rounding only.
-  constexpr double satisfied = 1e-12;
-  const double scale = std::abs(value) + p.magnitude(end);
-  if (atStart && std::abs(q(0)) <= satisfied * scale) q = q.withoutRootAtZero();
+  // Relative to what p is made of: a start that came from an earlier stop satisfies it to rounding only. Zero
+  // is not rounded: there a tiny value still lies ahead.
+  const double rounding = p(0) == 0 ? 0 : 1e-12 * (std::abs(value) + p.magnitude(end));
+  if (atStart && std::abs(q(0)) <= rounding) q = q.withoutRootAtZero();
   const auto roots = q.roots(end);
   if (roots.empty()) return std::nullopt;
   return roots.front();

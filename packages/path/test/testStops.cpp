@@ -80,6 +80,25 @@ TEST(Stops, StartOnTheStopMovesOn) {
   EXPECT_GT(third.final(0), 1 - 1 / std::sqrt(3.0));
 }
 
+TEST(Stops, TinyValuesAreNoStartOnTheStop) {
+  JetProblem<Truss> p(Truss{});
+  // The path leaves the undeformed state through both, with 1e-300 an eps of the first step ahead.
+  for (const double value : {1e-13, 1e-300}) {
+    SCOPED_TRACE(value);
+    Followed<Truss> f(Truss{}, {0}, 0, Options{}, load({value}));
+    EXPECT_EQ(f.outcome.reason, EndReason::stopReached);
+    EXPECT_EQ(f.outcome.steps, 1);
+    EXPECT_EQ(f.outcome.final.lambda, value);
+    EXPECT_LT(std::abs(f.final(0)), 1e-12);
+    Stops stops;
+    stops.functionals.push_back({"x", p.vector({1}), value});
+    Followed<Truss> g(Truss{}, {0}, 0, Options{}, stops);
+    EXPECT_EQ(g.outcome.reason, EndReason::stopReached);
+    EXPECT_EQ(g.outcome.steps, 1);
+    EXPECT_NEAR(g.final(0), value, 1e-15);
+  }
+}
+
 TEST(Stops, StepLimitAndObserver) {
   Options options;
   options.maxSteps = 3;
