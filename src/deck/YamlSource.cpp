@@ -70,6 +70,10 @@ std::size_t YamlSource::offset(int line, int column) const {
   return std::min(starts_[index] + static_cast<std::size_t>(std::max(column, 0)), text_.size());
 }
 
+std::string YamlSource::character(std::size_t offset) const {
+  return text_.substr(offset, characterSize(text_, offset));
+}
+
 std::size_t YamlSource::lineOf(std::size_t offset) const {
   return static_cast<std::size_t>(std::upper_bound(starts_.begin(), starts_.end(), offset) - starts_.begin());
 }

@@ -18,6 +18,8 @@ class YamlSource {
 
   /// Offset of a line's byte in the text, that of the text's end beyond the last line.
   std::size_t offset(int line, int column) const;
+  /// The character that begins at an offset, none at the text's end.
+  std::string character(std::size_t offset) const;
   /// Number from 1 of the line in which a byte stands.
   std::size_t lineOf(std::size_t offset) const;
 

@@ -51,17 +51,17 @@ class TreeBuilder : public YAML::EventHandler {
     }
     return begins;
   }
-  /// Begin of the last list, or of its first item, that has ended.
-  std::size_t lastList() const { return lastList_; }
+  /// Column of the items of the list in a block that has just ended; -1: something else has.
+  int endedList() const { return endedList_; }
 
   void OnDocumentStart(const YAML::Mark& mark) override {
     if (!documentEnded_) return;
     const auto at = begin(mark);
-    const char found = source_.text()[at];
     if (source_.text().compare(at, 3, "---") == 0 || source_.line(mark.line - 1).compare(0, 3, "...") == 0) {
       source_.fail(at, "a deck is one YAML document");
     }
-    source_.fail(at, std::ispunct(static_cast<unsigned char>(found)) != 0
+    const std::string found = source_.character(at);
+    source_.fail(at, std::ispunct(static_cast<unsigned char>(found[0])) != 0
                          ? fmt::format("unexpected '{}'", found)
                          : "the indentation matches no enclosing block");
   }
@@ -98,7 +98,7 @@ class TreeBuilder : public YAML::EventHandler {
     start(Kind::List, mark, tag, anchor, style);
   }
   void OnSequenceEnd() override {
-    lastList_ = open_.back().begin;
+    endedList_ = open_.back().flow ? -1 : open_.back().column;
     finish();
   }
 
@@ -107,6 +107,7 @@ class TreeBuilder : public YAML::EventHandler {
     start(Kind::Map, mark, tag, anchor, style);
   }
   void OnMapEnd() override {
+    endedList_ = -1;
     merge();
     finish();
   }
@@ -115,6 +116,7 @@ class TreeBuilder : public YAML::EventHandler {
   struct Open {
     std::shared_ptr<YamlNode> node;
     std::size_t begin = 0;  // in the text
+    int column = 0;
     bool flow = false;
     YAML::anchor_t anchor = 0;
     std::size_t countBefore = 0;
@@ -153,7 +155,8 @@ class TreeBuilder : public YAML::EventHandler {
       fail(mark, fmt::format("lists and maps stand within each other more than {} deep", deepest));
     }
     lastBegin_ = begin(mark);
-    open_.push_back({node(kind, mark, tag), lastBegin_, style == YAML::EmitterStyle::Flow, anchor, count_++});
+    open_.push_back({node(kind, mark, tag), lastBegin_, mark.column, style == YAML::EmitterStyle::Flow,
+                     anchor, count_++});
   }
 
   void finish() {
@@ -261,7 +264,8 @@ class TreeBuilder : public YAML::EventHandler {
   YamlTree root_;
   bool documentEnded_ = false;
   std::size_t count_ = 0, byAliases_ = 0;
-  std::size_t lastBegin_ = 0, lastList_ = std::string::npos;
+  std::size_t lastBegin_ = 0;
+  int endedList_ = -1;
 };
 
 // ------------------------------------------------------------------------------- what went wrong, in words
@@ -276,8 +280,9 @@ std::size_t openQuote(const std::string& text, std::size_t from) {
       i = std::min(text.find('\n', i), text.size());
     } else if ((text[i] == '"' || text[i] == '\'') && mayBegin(i)) {
       auto end = i + 1;
-      while (end < text.size() && text[end] != text[i]) {
-        end += text[i] == '"' && text[end] == '\\' ? 2 : 1;
+      const char escape = text[i] == '"' ? '\\' : '\'';
+      while (end < text.size() && (text[end] != text[i] || text.compare(end, 2, "''") == 0)) {
+        end += text[end] == escape ? 2 : 1;
       }
       if (end >= text.size()) return i;
       i = end;
@@ -321,11 +326,8 @@ std::string endOfBlock(const YamlSource& source, const TreeBuilder& builder, int
   if (rest == "-" || rest.compare(0, 2, "- ") == 0) {
     return "a list item must be indented below its key, as the items before it";
   }
-  const auto list = builder.lastList();
-  const bool endsList =
-      list != std::string::npos && source.text()[list] == '-' &&
-      list - std::min(source.text().rfind('\n', list) + 1, list) == static_cast<std::size_t>(column);
-  return endsList ? "expected a list item, '- ...'" : "the indentation matches no enclosing block";
+  return builder.endedList() == column ? "expected a list item, '- ...'"
+                                       : "the indentation matches no enclosing block";
 }
 
 [[noreturn]] void explain(const YAML::Exception& error, const YamlSource& source,
@@ -334,7 +336,7 @@ std::string endOfBlock(const YamlSource& source, const TreeBuilder& builder, int
   const int line = error.mark.line, column = error.mark.column;
   const auto at = source.offset(line, column);
   const std::string own = source.line(line);
-  const std::string found = at < source.text().size() ? std::string(1, source.text()[at]) : "";
+  const std::string found = source.character(at);
   const auto fail = [&](const std::string& what) { source.fail(at, what); };
   const auto is = [&](const char* message) { return error.msg == message; };
 
@@ -364,7 +366,7 @@ std::string endOfBlock(const YamlSource& source, const TreeBuilder& builder, int
     fail(fmt::format("unexpected '{}'; a text that begins with it needs quotes", found));
   if (error.msg.rfind(msg::INVALID_ESCAPE, 0) == 0) {
     source.fail(at - 2, fmt::format("unknown escape '\\{}'; in single quotes a backslash is itself",
-                                    error.msg.back()));
+                                    source.character(at - 1)));
   }
   if (is(msg::UNKNOWN_ANCHOR)) {
     const auto end = source.text().find_first_of(" \t\n,]}", at);

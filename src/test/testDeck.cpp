@@ -518,6 +518,8 @@ TEST(BadDeck, indentation) {
   expectError(" a: 1\nb: 2\n", "line 2, column 1: ", {"matches no enclosing block"});
   expectError("a:\n  b: 1\n  - 2\n", "line 3, column 3: ", {"must be indented below its key"});
   expectError("a:\n  - 2\n  b: 1\n", "line 3, column 3: ", {"expected a list item"});
+  expectError("a:\n  - 2\nmesh:\n    file: a\n  block: b\n",
+              "line 5, column 3: ", {"matches no enclosing block"});
   expectError("title: a\n   mesh: b\n", "line 2, column ", {"indented more"});
 }
 
@@ -536,8 +538,12 @@ TEST(BadDeck, whatIsNoYaml) {
   expectError("title: Strip: on a roll\n", "line 1, column 13: ", {"unexpected ':'", "quotes"});
   expectError("path: {order: 15\n  stop: 3}\n", "line 2, column 7: ", {"unexpected ':'", "','"});
   expectError("title: \"strip\n", "line 1, column 8: ", {"never closed"});
+  expectError("title: 'it''s\n\nmesh: {file: 'a'}\n", "line 3, column 15: ", {"unexpected 'a'}'"});
+  expectError("title: 'it''s\nmesh: \"a\"\n", "line 1, column 8: ", {"never closed"});
   expectError("mesh: {file: 'it''s', block: \"a\\\" # b\n} # 'c'\n", "line 1, column 30: ", {"never closed"});
   expectError("title: \"a\\q\"\n", "line 1, column 10: ", {"unknown escape '\\q'"});
+  expectError("title: \"\\ä\"\n", "line 1, column 9: ", {"unknown escape '\\ä'"});
+  expectError("mesh: {file: \"a\" ä}\n", "line 1, column 18: ", {"unexpected 'ä'"});
   expectError("mesh: {file: a\n", "line 1, column 7: ", {"'{' is never closed"});
   expectError("mesh: {file: [a}\n", "line 1, column 16: ", {"'}' closes nothing"});
   expectError("mesh: [a, b\n", "line 1, column 7: ", {"'[' is never closed"});
