@@ -13,7 +13,7 @@ namespace detail {
 template <int NX, int NY, int ND, class G>
 KOKKOS_INLINE_FUNCTION bool solveImplicit(const G& g, const double* x, const double* data, double* y) {
   LocalNewton<NX, NY, ND> newton;
-  if (newton.solve(g, x, data, y)) return true;
+  if (newton.template solve<true>(g, x, data, y)) return true;
   for (int j = 0; j < NY; ++j) y[j] = std::numeric_limits<double>::quiet_NaN();
   return false;
 }
