@@ -77,14 +77,7 @@ Field<S> attributeThickness() {
 /// Whether a closed direction stays open.
 template <class S>
 Field<S> slit() {
-  return {"slit",
-          false,
-          "true or false",
-          "true: 360 degrees stay open, with two edges at the same place",
-          [](const Value& v, S& s) { s.slit = v.boolean(); },
-          [](const S& s) {
-            return Node{s.slit ? "true" : "false", {}};
-          }};
+  return flag("slit", &S::slit, "true: 360 degrees stay open, with two edges at the same place");
 }
 
 template <class S>

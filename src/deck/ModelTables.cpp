@@ -219,11 +219,7 @@ const Variants<Load, decltype(Load::load)>& loadVariants() {
            [](const Value& map, const EdgeLoad&) {
              requireExactlyOne(map, {"total", "force", "moment", "follower_force", "follower_moment"});
            })},
-      {{"constant", false, "true or false", "true: not multiplied by the load factor",
-        [](const Value& v, Load& s) { s.constant = v.boolean(); },
-        [](const Load& s) {
-          return Node{s.constant ? "true" : "false", {}};
-        }}}};
+      {flag("constant", &Load::constant, "true: not multiplied by the load factor")}};
   return variants;
 }
 

@@ -162,17 +162,6 @@ Field<Path> imperfectionsAs(bool ofModel) {
   return field;
 }
 
-Field<Path> keepsRestart() {
-  return {"restart",
-          false,
-          "true or false",
-          "keeps what `atrapos run --restart` needs, at every step",
-          [](const Value& v, Path& s) { s.restart = v.boolean(); },
-          [](const Path& s) {
-            return Node{s.restart ? "true" : "false", {}};
-          }};
-}
-
 Field<Path> accuracyOfMethod() {
   return {"accuracy",
           false,
@@ -253,7 +242,7 @@ Table<Path> pathKeys(const Table<Stop>& stops, Need needStop, bool ofModel) {
                        "most branches followed besides the first path")),
       ofSeries(imperfections()),
       ofSeries(imperfectionsAs(ofModel)),
-      keepsRestart(),
+      flag("restart", &Path::restart, "keeps what `atrapos run --restart` needs, at every step"),
       ofSeries(real("sharpen", &Path::sharpen, check::fraction,
                     "at the path's end eta of all contacts falls by this factor, towards hard contact")),
       stop};

@@ -185,11 +185,7 @@ const Variants<Tool, decltype(Tool::surface)>& toolVariants() {
            {surfaces,
             text("file", optional, &PatchesTool::file, "a text",
                  "YAML file with such a map under the key surfaces"),
-            {"reversed", false, "true or false", "the free side is against S_1 x S_2",
-             [](const Value& v, PatchesTool& s) { s.reversed = v.boolean(); },
-             [](const PatchesTool& s) {
-               return Node{s.reversed ? "true" : "false", {}};
-             }},
+            flag("reversed", &PatchesTool::reversed, "the free side is against S_1 x S_2"),
             real("thickness", &PatchesTool::thickness, check::positive,
                  "how deep the tool is behind its surface; deeper points are behind it and free")},
            requireSurfaces)},
