@@ -33,6 +33,7 @@ class Forward final : public path::Observer {
     recorder_.onProgress(progress_);
     return more;
   }
+  void onSearch(int found, int wanted) override { recorder_.onSearch(progress_.current, found, wanted); }
 
  private:
   Recorder& recorder_;

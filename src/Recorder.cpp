@@ -166,6 +166,15 @@ bool Recorder::onStep(int branch, const path::StepReport& report, const path::Se
   return !Interrupt::agree();
 }
 
+void Recorder::onSearch(int /*branch*/, int found, int wanted) {
+  constexpr double patience = 5;  // s
+  if (!progress_ || seconds() - printed_ < patience) return;
+  printed_ = seconds();
+  *progress_ << fmt::format("      {} eigenvalue(s) changed sign, the places of {} are found, {:.2f} s", wanted,
+                            found, printed_)
+             << std::endl;
+}
+
 void Recorder::onProgress(const path::BranchProgress& progress) {
   if (restart_) restart_->append(progress);
 }
@@ -237,7 +246,7 @@ void Recorder::printHead() const {
                               "residual", "cut", "corr", "contacts", "time s", "events");
 }
 
-void Recorder::printStep(const path::StepReport& r, const CaseState& end) const {
+void Recorder::printStep(const path::StepReport& r, const CaseState& end) {
   const int active = progress_ || ranks::count() > 1 ? end.activeContacts() : 0;  // collective
   if (!progress_) return;
   std::string events;
@@ -262,6 +271,7 @@ void Recorder::printStep(const path::StepReport& r, const CaseState& end) const 
                     r.step, case_->deck().path.series() ? fmt::format("{}", r.order) : "", r.radius,
                     r.lambdaEnd, r.length, r.residual, r.cutBacks, r.corrections, active, seconds(), events)
              << std::endl;
+  printed_ = seconds();
 }
 
 }  // namespace atrapos

@@ -31,6 +31,8 @@ class Recorder final : public path::BranchObserver {
   void beginImperfect(PathCase& pathCase, path::Problem& problem, int branch, double size);
   /// False after SIGINT or SIGTERM.
   bool onStep(int branch, const path::StepReport& report, const path::Series& series) override;
+  /// A line for the user where the last one is long ago.
+  void onSearch(int branch, int found, int wanted) override;
   void onProgress(const path::BranchProgress& progress) override;
 
   /// The start of the path under way where no step was made.
@@ -57,7 +59,7 @@ class Recorder final : public path::BranchObserver {
   double residualAt(const path::Vector& u, double lambda);
   void writePoints(const path::StepReport& report, const path::Series& series);
   void printHead() const;
-  void printStep(const path::StepReport& report, const CaseState& end) const;
+  void printStep(const path::StepReport& report, const CaseState& end);
 
   PathCase* case_;          ///< under way
   path::Problem* problem_;  ///< its own, or an imperfect one
@@ -75,6 +77,7 @@ class Recorder final : public path::BranchObserver {
   int limitPoints_ = 0, unexplained_ = 0;
   int watched_ = 0;  ///< by watches of other cases
   double worstResidual_ = 0, outputSeconds_ = 0;
+  double printed_ = 0;  ///< seconds() at the last line for the user
 };
 
 }  // namespace atrapos

@@ -42,6 +42,8 @@ class Single final : public path::Observer {
     progress_.diagram.branches[0].outcome = total;
   }
 
+  void onSearch(int found, int wanted) override { recorder_.onSearch(0, found, wanted); }
+
   bool onStep(const path::StepReport& report, const path::Series& series) override {
     changed_ = case_.changedOn(report.length, series);
     if (changed_) return false;

@@ -56,6 +56,8 @@ class BranchFollower::Tracer final : public Observer {
     return !stopped && branch().end == BranchEnd::path;
   }
 
+  void onSearch(int found, int wanted) override { observer_.onSearch(progress.current, found, wanted); }
+
   /// The branch under way is over.
   void finish(Outcome outcome) {
     // The outcome's text in the diagram's terms.
@@ -87,9 +89,12 @@ class BranchFollower::Tracer final : public Observer {
       Augmented gap{Teuchos::rcp(new Vector(*point.state.u, Teuchos::Copy)),
                     point.state.lambda - known.state.lambda};
       gap.u->update(-1, *known.state.u, 1);
-      // Both are exact to far better than this part of a step; different points are further apart.
-      constexpr double same = 1e-6;
-      if (std::sqrt(dot(gap, gap, w)) > same * std::min(point.stepLength, known.stepLength)) continue;
+      // Both are exact to better than this part of a step, or to what rounding has left of them; different
+      // points are further apart.
+      constexpr double same = 1e-6, roundings = 10;
+      const double rounding = point.uncertainty * point.stepLength + known.uncertainty * known.stepLength;
+      const double reach = same * std::min(point.stepLength, known.stepLength) + roundings * rounding;
+      if (std::sqrt(dot(gap, gap, w)) > reach) continue;
       if (point.tangents.empty()) return true;
       // Crosses off where it came from; goes on where that is new.
       take(static_cast<int>(i), augmented(point.tangents[0], -1), w);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <Tpetra_Vector.hpp>
 
@@ -65,44 +64,52 @@ CriticalFound Search::run() {
 }
 
 void Search::search() {
-  // A few per cent beyond the step: its ends are where eigenvalues were counted.
-  const double L = search_.length, beyond = 0.03 * L;
-  lookAtLimitPoints();
-  const bool counted = calls_.problem().symmetric() && !places_.empty();
+  const bool counted = calls_.problem().symmetric() && !places_.empty() && search_.certain > 0;
   // More than are followed are not told apart by those.
   const bool many = counted && search_.certain > std::max(search_.watchedModes, 3);
-  if (left_ > 0 && !many) {
-    try {
-      followZeros();
-    } catch (const PathError& error) {
-      // A tangent that is singular where it is to be factored ends this way of looking, not the search.
-      if (error.reason() != EndReason::singularTangent || !counted) throw;
-      factoredAt_ = std::numeric_limits<double>::infinity();
-    }
+  try {
+    guess(many);
+  } catch (const PathError& error) {
+    // A tangent that is singular where it is to be factored ends the guesses, not the search.
+    if (error.reason() != EndReason::singularTangent || !counted) throw;
   }
-  // Beyond what they show the count of negative eigenvalues decides.
-  int found = 0;
-  for (const auto& p : found_.points) found += p.nullity;
-  if (search_.certain > 0 || found > 0) left_ = search_.certain - found;
-  if (left_ > 0 && !many && found_.factorizations == 0)  // the tangent at the end is still the solver's
-    look(guessesOf(responsePoles(calls_, search_, search_.end, search_.along, L + beyond, beyond), L));
-  if (counted && search_.certain > 0) {
+  countLeft();
+  if (counted) {
     if (left_ > 0) followCounts();
     return;
   }
   if (left_ > 0 && search_.signChanges > 0 && budget() > 0) {
     // The series at the step's end does not see the whole step; that in its middle reaches both ends.
+    const double L = search_.length;
     State middle{calls_.newVector(), 0};
     middle.lambda = search_.series.evaluate(0.5 * L, *middle.u);
     auto F = calls_.newVector();
     ++found_.factorizations;
     calls_.factor(middle, *F);
     factoredAt_ = 0.5 * L;
-    const double reach = 0.5 * L + beyond;
+    const double reach = 0.5 * L + beyond() * L;
     look(guessesOf(responsePoles(calls_, search_, middle, search_.series.tangent(0.5 * L), reach, reach),
                    0.5 * L));
   }
   if (left_ > 0 && search_.signChanges > 0) lookAgain();
+}
+
+/// What limit points, the eigenvalues followed and the response at the step's end show.
+void Search::guess(bool many) {
+  lookAtLimitPoints();
+  if (many) return;
+  if (left_ > 0) followZeros();
+  countLeft();
+  const double L = search_.length;
+  if (left_ > 0 && found_.factorizations == 0)  // the tangent at the end is still the solver's
+    look(guessesOf(
+        responsePoles(calls_, search_, search_.end, search_.along, (1 + beyond()) * L, beyond() * L), L));
+}
+
+/// Beyond what has been found the count of negative eigenvalues decides what is left.
+void Search::countLeft() {
+  const int found = numberFound();
+  if (search_.certain > 0 || found > 0) left_ = search_.certain - found;
 }
 
 /// A branch comes to the pitchfork that it left, or to another one, at a limit point of lambda, where its
@@ -159,6 +166,13 @@ void Search::lookAgain() {
   }
 }
 
+/// Eigenvalues that vanish at the points found.
+int Search::numberFound() const {
+  int found = 0;
+  for (const auto& p : found_.points) found += p.nullity;
+  return found;
+}
+
 /// Factorizations left: two for every eigenvalue that changed sign for certain, or for every point found
 /// and the next.
 int Search::budget() const {
@@ -170,7 +184,9 @@ int Search::budget() const {
 bool Search::known(const CriticalPoint& point) const {
   constexpr double identical = 1e-8;
   return std::any_of(found_.points.begin(), found_.points.end(), [&](const CriticalPoint& p) {
-    const double rounding = 10 * (p.uncertainty + point.uncertainty);
+    // That of a multiple point may be the width of a slice, in which others lie.
+    const bool simple = p.kind != CriticalKind::multiple && point.kind != CriticalKind::multiple;
+    const double rounding = simple ? 10 * (p.uncertainty + point.uncertainty) : 0;
     return std::abs(p.a - point.a) < std::max(identical, rounding) * search_.length;
   });
 }
@@ -178,9 +194,11 @@ bool Search::known(const CriticalPoint& point) const {
 void Search::keep(CriticalPoint point) {
   if (point.kind == CriticalKind::multiple) {
     // Stands in for the simple point that its place was taken for.
-    constexpr double same = 1e-5;
+    constexpr double same = 1e-5, within = 0.5;
     const auto close = [&](const CriticalPoint& p) {
-      return std::abs(p.a - point.a) < same * search_.length;
+      double part = 0;  // of its null vector that is in the span of the multiple point's
+      for (const auto& x : point.nullVectors) part += std::pow(linear::dot(*x, *p.nullVectors.front()), 2);
+      return std::abs(p.a - point.a) < same * search_.length && part > within;
     };
     for (const auto& p : found_.points) left_ += close(p) ? p.nullity : 0;
     found_.points.erase(std::remove_if(found_.points.begin(), found_.points.end(), close),

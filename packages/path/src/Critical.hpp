@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "Augmented.hpp"
@@ -40,6 +41,7 @@ struct CriticalSearch {
   std::vector<LimitPoint> limits;   ///< of the load, in the step: an eigenvalue vanishes there too
   int watchedModes = 0;
   std::vector<CountedPlace> counts;  ///< at both ends of the step; empty where inertia does not tell
+  std::function<void(int found, int wanted)> tell;  ///< Observer::onSearch; may be empty
 };
 
 /// Where the eigenvalues followed vanish other than at limit points of lambda.
@@ -99,7 +101,12 @@ NearNull nearNull(Calls& calls, const CriticalSearch& search, double guess, cons
 bool confirmMultiple(Calls& calls, const CriticalSearch& search, const NearNull& near, double at,
                      CriticalPoint& point);
 
-/// The same after a factorization nearer to them.
+/// The point at a whose null vectors are given, known to `uncertainty`. False where the series is no solution
+/// there.
+bool multipleAt(Calls& calls, const CriticalSearch& search, double a, const std::vector<RCP<Vector>>& vectors,
+                double uncertainty, CriticalPoint& point);
+
+/// The same as confirmMultiple after a factorization nearer to them.
 bool refineMultiple(Calls& calls, const CriticalSearch& search, const NearNull& zeros, CriticalPoint& point,
                     int& factorizations);
 

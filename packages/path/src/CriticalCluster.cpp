@@ -104,13 +104,17 @@ bool confirmMultiple(Calls& calls, const CriticalSearch& search, const NearNull&
   if (!(a >= 0 && a <= search.length)) return false;
   // Zeros of straight lines of length |a - at| are this far from those of the eigenvalues.
   const double together = 1e-9 * search.length + 10 * (a - at) * (a - at) / search.length;
-  point.nullity = 0;
+  std::vector<RCP<Vector>> vectors;
   for (std::size_t i = 0; i < near.a.size(); ++i)
-    if (std::abs(near.a[i] - a) <= together) {
-      ++point.nullity;
-      point.nullVectors.push_back(near.vectors[i]);
-    }
-  if (point.nullity < 2) return false;
+    if (std::abs(near.a[i] - a) <= together) vectors.push_back(near.vectors[i]);
+  if (vectors.size() < 2) return false;
+  return multipleAt(calls, search, a, vectors, (a - at) * (a - at) / search.length, point);
+}
+
+bool multipleAt(Calls& calls, const CriticalSearch& search, double a, const std::vector<RCP<Vector>>& vectors,
+                double uncertainty, CriticalPoint& point) {
+  point.nullity = static_cast<int>(vectors.size());
+  point.nullVectors = vectors;
   State state{calls.newVector(), 0};
   state.lambda = search.series.evaluate(a, *state.u);
   auto r = calls.newVector();
@@ -119,7 +123,7 @@ bool confirmMultiple(Calls& calls, const CriticalSearch& search, const NearNull&
   point.a = a;
   point.kind = CriticalKind::multiple;
   point.state = state;
-  point.uncertainty = (a - at) * (a - at) / (search.length * search.length);
+  point.uncertainty = uncertainty / search.length;
   if (point.nullity != 2) return true;
   const auto along = search.series.tangent(a);
   const double w = search.series.weight();

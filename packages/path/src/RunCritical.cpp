@@ -181,10 +181,16 @@ void Run::explainStability(StepReport& report, const EndTangent& end) {
       std::max<long long>(static_cast<long long>(evidence.zeros.size()), realChange - limits));
   const int signChanges = std::max(needed, suspected);
   if (signChanges == 0 && !evidence.suspect && !options_.searchEveryStep) return;
-  CriticalFound found =
-      findCriticalPoints(calls_, {*last_, report.length, outcome_.final, *tangent_, order_, signChanges,
-                                  needed, options_.residualBound, samples, report.limitPoints,
-                                  options_.watchedModes, symmetric ? counts : std::vector<CountedPlace>{}});
+  CriticalSearch search{*last_, report.length, outcome_.final, *tangent_, order_};
+  search.signChanges = signChanges;
+  search.certain = needed;
+  search.residualBound = options_.residualBound;
+  search.samples = samples;
+  search.limits = report.limitPoints;
+  search.watchedModes = options_.watchedModes;
+  if (symmetric) search.counts = counts;
+  search.tell = [&](int located, int wanted) { observer_.onSearch(located, wanted); };
+  CriticalFound found = findCriticalPoints(calls_, search);
   outcome_.criticalFactorizations += found.factorizations;
   report.unexplained = needed;
   for (const auto& point : found.points) report.unexplained -= point.nullity;

@@ -36,10 +36,13 @@ class Search {
 
   // Critical.cpp: one thing after the other.
   void search();
+  void guess(bool many);
+  void countLeft();
   void lookAtLimitPoints();
   void look(const std::vector<Guess>& guesses);
   void lookAgain();
   std::vector<Guess> guessesOf(const ResponsePoles& poles, double origin) const;
+  int numberFound() const;
   int budget() const;
   bool known(const CriticalPoint& point) const;
   void keep(CriticalPoint point);
@@ -56,12 +59,15 @@ class Search {
   int owed(std::size_t i) const;
   double placeBetween(const Place& p, const Place& q, bool halve) const;
   std::vector<Zero> zerosSeenFrom(const Place& place, double from, double to) const;
+  bool isFound(double a, const Mode& mode, double accuracy) const;
   bool count(double a, int modes, Place& place);
   void refineFrom(const Place& place, double from, double to);
   void closeIn(std::size_t i);
 
   /// At the very point a tangent cannot be factored: this part of the step before it.
   static constexpr double aside() { return 5e-5; }
+  /// Poles are looked for so far beyond the step: its ends are where eigenvalues were counted.
+  static constexpr double beyond() { return 0.03; }
 
   Calls& calls_;
   const CriticalSearch& search_;

@@ -63,6 +63,7 @@ void Search::followCounts() {
     }
     places_.insert(places_.begin() + static_cast<long>(i) + 1, place);
     refineFrom(place, from, to);
+    if (search_.tell) search_.tell(numberFound(), search_.certain);
   }
 }
 
@@ -94,15 +95,27 @@ double Search::placeBetween(const Place& p, const Place& q, bool halve) const {
   return best;
 }
 
-/// Nearest first.
+/// Whether a point found near a is that of this eigenvalue.
+bool Search::isFound(double a, const Mode& mode, double accuracy) const {
+  constexpr double within = 0.5;
+  return std::any_of(found_.points.begin(), found_.points.end(), [&](const CriticalPoint& p) {
+    double part = 0;
+    for (const auto& x : p.nullVectors) part += std::pow(linear::dot(*x, *mode.x), 2);
+    return std::abs(p.a - a) < accuracy && part > within;
+  });
+}
+
+/// Of eigenvalues whose points are not found; nearest first.
 std::vector<Search::Zero> Search::zerosSeenFrom(const Place& place, double from, double to) const {
   std::vector<Zero> zeros;
   const auto t = search_.series.tangent(place.count.a);
+  const double L = search_.length;
   constexpr double alongPath = 0.7;
   for (const Mode& mode : place.modes) {
     const double z =
         place.count.a - mode.mu / (mode.rate * place.speed);  // nowhere where the rate is not known
-    if (!(z > from && z < to)) continue;
+    const double e = z - place.count.a;
+    if (!(z > from && z < to) || isFound(z, mode, 1e-5 * L + 10 * e * e / L)) continue;
     zeros.push_back({z, &mode, std::abs(linear::dot(*mode.x, *t.x.u)) > alongPath * t.x.u->norm2()});
   }
   std::sort(zeros.begin(), zeros.end(), [&](const Zero& x, const Zero& y) {
@@ -157,7 +170,7 @@ void Search::refineFrom(const Place& place, double from, double to) {
       done[j] = !zeros[j].alongPath;
     }
     if (group.a.size() > 1) {
-      constexpr double exact = 2e-4;  // straight lines as short as that are exact enough
+      constexpr double exact = 1e-4;  // straight lines as short as that are exact enough
       if (std::abs(e) > exact * L) continue;
       // A limit point at the very place adds its null vector.
       NearNull together = group;
@@ -176,14 +189,38 @@ void Search::refineFrom(const Place& place, double from, double to) {
 }
 
 /// A slice so narrow that what is left in it is one place: a point whose refinement wants a factorization of
-/// its own, or several so near to each other that they cannot be told apart.
+/// its own, or several so near to each other that none can be refined alone. These are one point of so many
+/// null vectors, known to the slice's width.
 void Search::closeIn(std::size_t i) {
-  const Place p = places_[i], q = places_[i + 1];
-  const double from = p.count.a, to = q.count.a;
-  std::vector<Zero> zeros = zerosSeenFrom(p, from, to);
-  for (const Zero& z : zeros) {
+  const double from = places_[i].count.a, to = places_[i + 1].count.a;
+  const Place ends[] = {places_[i], places_[i + 1]};
+  // Next to the nearest zero several that vanish together show as such.
+  for (const Place& place : ends) {
+    const auto zeros = zerosSeenFrom(place, from, to);
+    Place near;
     if (owed(i) <= 0 || left_ <= 0) return;
-    simple(z.a, z.mode->x, Held::nothing, 1);
+    if (!zeros.empty() && count(zeros.front().a - aside() * search_.length, owed(i) + 1, near))
+      refineFrom(near, from, to);
+  }
+  for (const Place& place : ends)
+    for (const Zero& zero : zerosSeenFrom(place, from, to)) {
+      if (owed(i) <= 0 || left_ <= 0) return;
+      if (!zero.alongPath) simple(zero.a, zero.mode->x, Held::nothing, 1);
+    }
+  for (const Place& place : ends) {
+    const int number = owed(i);
+    if (number < 2 || left_ <= 0) return;
+    std::vector<RCP<Vector>> vectors;
+    double sum = 0;
+    for (const Zero& zero : zerosSeenFrom(place, from, to)) {
+      if (zero.alongPath || static_cast<int>(vectors.size()) == number) continue;
+      vectors.push_back(zero.mode->x);
+      sum += zero.a;
+    }
+    Place near;
+    if (static_cast<int>(vectors.size()) < number || !count(0.5 * (from + to), 0, near)) continue;
+    CriticalPoint point;
+    if (multipleAt(calls_, search_, sum / number, vectors, 0.5 * (to - from), point)) keep(std::move(point));
   }
 }
 

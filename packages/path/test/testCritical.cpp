@@ -210,4 +210,48 @@ TEST(Stability, CountsInsideStepsAreThoseOfTheTangent) {
   }
 }
 
+/// Buckling loads as those of a square box, in every cluster a double one and two single ones so near that
+/// the sides hardly know of each other: 32 eigenvalues in one step, of which three are followed.
+TEST(Critical, ClustersOfManyInOneStep) {
+  Modes law;
+  law.crossing.clear();
+  std::vector<double> known;
+  for (int wave = 1; wave <= 8; ++wave) {
+    const double load = 0.1 + 0.01 * wave * wave, apart = wave % 2 == 0 ? 2e-5 : 2e-4;
+    law.crossing.insert(law.crossing.end(), {load, load, load * (1 + apart), load * (1 + 1.3 * apart)});
+    known.insert(known.end(), {load, load * (1 + apart), load * (1 + 1.3 * apart)});
+  }
+  std::vector<double> start(law.size(), 0.0);
+  Watched<Modes> f(law, start, 0, Options{}, load(0.8));
+  expectSound(f);
+  ASSERT_EQ(f.outcome.steps, 1);
+  const auto points = criticalPoints(f.record);
+  ASSERT_EQ(points.size(), known.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    EXPECT_NEAR(points[i].state.lambda, known[i], 1e-10);
+    EXPECT_EQ(points[i].nullity, i % 3 == 0 ? 2 : 1);
+  }
+  EXPECT_LE(f.outcome.criticalFactorizations, 2 * 32);
+}
+
+/// The search tells how far it is.
+TEST(Critical, ALongSearchTellsItsProgress) {
+  struct Listening : Observer {
+    std::vector<std::pair<int, int>> told;
+    bool onStep(const StepReport&, const Series&) override { return true; }
+    void onSearch(int found, int wanted) override { told.emplace_back(found, wanted); }
+  } observer;
+  Modes law;
+  law.crossing = {0.3, 0.4, 0.4, 0.5, 0.5001, 0.6};
+  JetProblem<Modes> problem(law);
+  SymmetricDenseSolver solver;
+  PathFollower(problem, solver, Options{}, load(0.8)).run({problem.vector({}), 0}, observer);
+  ASSERT_FALSE(observer.told.empty());
+  for (std::size_t i = 0; i < observer.told.size(); ++i) {
+    EXPECT_EQ(observer.told[i].second, 6);
+    if (i > 0) EXPECT_GE(observer.told[i].first, observer.told[i - 1].first);
+  }
+  EXPECT_EQ(observer.told.back().first, 6);
+}
+
 }  // namespace

@@ -96,6 +96,8 @@ class BranchObserver {
   virtual void onBranch(const BranchDiagram& /*diagram*/, int /*branch*/) {}
   /// Every step of every branch. Return false to end everything.
   virtual bool onStep(int branch, const StepReport& report, const Series& series) = 0;
+  /// As Observer::onSearch.
+  virtual void onSearch(int /*branch*/, int /*found*/, int /*wanted*/) {}
   /// After onStep, and once more where a branch is over, unless onStep has ended everything. A diagram that
   /// is interrupted later can go on from here.
   virtual void onProgress(const BranchProgress& /*progress*/) {}

@@ -133,6 +133,10 @@ class Observer {
   /// After every accepted step, as soon as the tangent at its end is known; the series is valid for a in
   /// [0, report.length]. Return false to end the path.
   virtual bool onStep(const StepReport& report, const Series& series) = 0;
+
+  /// While bifurcation points are looked for inside a step, after each of the search's factorizations:
+  /// `wanted` eigenvalues have changed sign in it, those of the points found so far are `found`.
+  virtual void onSearch(int /*found*/, int /*wanted*/) {}
 };
 
 enum class EndReason {
