@@ -73,8 +73,8 @@ void Search::search() {
     // A tangent that is singular where it is to be factored ends the guesses, not the search.
     if (error.reason() != EndReason::singularTangent || !counted) throw;
   }
-  countLeft();
   if (counted) {
+    countLeft();
     if (left_ > 0) followCounts();
     return;
   }

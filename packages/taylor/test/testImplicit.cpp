@@ -57,8 +57,9 @@ TEST(Implicit, failureIsReportedAndIsNaN) {
   expectOnlyLaneIsBad(circle, 5, in);
 }
 
-// What needs no derivatives is found with less work, and is the same.
-TEST(Implicit, theValueAloneIsTheSameToTheLastBit) {
+// What needs no derivatives is found with less work, and is the same: to what the residual's rounding, 2 eps,
+// leaves of y, as each compilation of the law fuses its multiply-adds in its own way.
+TEST(Implicit, theValueAloneIsTheSame) {
   for (int i = -999; i < 1000; ++i) {
     const double x = i / 1000.0;
     for (const double guess : {1.0, 0.1, 7.0, std::sqrt(1 - x * x)}) {
@@ -66,7 +67,7 @@ TEST(Implicit, theValueAloneIsTheSameToTheLastBit) {
       Sacado::Fad::SFad<double, 1> xf(1, 0, x), yf = guess;
       ASSERT_TRUE((solveImplicit<1, 1>(UnitCircle{}, &x, &y)));
       ASSERT_TRUE((solveImplicit<1, 1>(UnitCircle{}, &xf, &yf)));
-      ASSERT_EQ(y, yf.val()) << x << " from " << guess;
+      ASSERT_NEAR(y, yf.val(), 2 * 2.2e-16 / y) << x << " from " << guess;
     }
   }
 }
