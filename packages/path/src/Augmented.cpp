@@ -78,8 +78,12 @@ Bordered::Solution Bordered::solve(Calls& calls, const RCP<const Vector>& b,
   const double Knorm =
       std::max(stiffness, K->getFrobeniusNorm() / std::sqrt(static_cast<double>(K->getGlobalNumRows())));
   double before = std::numeric_limits<double>::infinity();
-  constexpr int maxRefinements = 12;
-  constexpr double rounding = 1e-15, accurate = 1e-9;
+  // A solve is a hundredth of a factorization, and a point whose equations were solved half-way is a wrong
+  // one to which Newton's method converges all the same: refined as long as each takes a tenth off. Rounding
+  // leaves 1e-14 to 1e-13 next to a singular K; where refinement ends well above that the factors do not
+  // serve.
+  constexpr int maxRefinements = 60;
+  constexpr double falls = 0.9, rounding = 1e-15, accurate = 1e-11;
   for (int i = 0; i <= maxRefinements; ++i) {
     K->apply(*s.x, *r, transposed ? Teuchos::TRANS : Teuchos::NO_TRANS, -1, 0);
     double forces = Knorm * s.x->norm2() + b->norm2();
@@ -96,8 +100,7 @@ Bordered::Solution Bordered::solve(Calls& calls, const RCP<const Vector>& b,
     }
     if (forces > 0) now += r->norm2() / forces;
     if (!std::isfinite(now)) return s;
-    // Refined until it no longer helps: what is left then is rounding.
-    if (now <= rounding || now > 0.5 * before) {
+    if (now <= rounding || now > falls * before) {
       s.good = std::min(now, before) <= accurate;
       return s;
     }
