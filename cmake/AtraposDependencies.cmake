@@ -49,8 +49,9 @@ function(atrapos_find_trilinos name)
   target_link_libraries(Trilinos::${name} INTERFACE ${libraries})
   if(TARGET MPI::MPI_CXX)
     target_link_libraries(Trilinos::${name} INTERFACE MPI::MPI_CXX)
-  elseif(name STREQUAL "Sacado")
-    # Sacado's views of Fad scalars include mpi.h; the scalars themselves do not.
+  endif()
+  if(name STREQUAL "Sacado")
+    # Views of Fad scalars, which nothing here uses, bring Kokkos, Teuchos and MPI into every source with a law.
     target_compile_definitions(Trilinos::Sacado INTERFACE SACADO_DISABLE_FAD_VIEW_SPEC)
   endif()
   if(Kokkos_DEVICES MATCHES "OPENMP")

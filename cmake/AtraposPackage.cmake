@@ -6,10 +6,11 @@ target_compile_options(atrapos_compile_options INTERFACE
   $<BUILD_INTERFACE:-Wall -Wextra -Wno-unknown-pragmas>
   $<$<AND:$<BOOL:${ATRAPOS_NATIVE}>,$<CONFIG:Release>>:-march=native>)
 
-# atrapos_package(<name> [SOURCES ...] [DEPENDS ...] [PRIVATE_DEPENDS ...])
-# One library target atrapos_<name>, alias Atrapos::<name>; header-only where SOURCES is empty.
+# atrapos_package(<name> [SOURCES ...] [KERNELS ...] [DEPENDS ...] [PRIVATE_DEPENDS ...])
+# One library target atrapos_<name>, alias Atrapos::<name>; header-only where SOURCES is empty. KERNELS: sources for
+# atrapos_kernels.
 function(atrapos_package name)
-  cmake_parse_arguments(arg "" "" "SOURCES;DEPENDS;PRIVATE_DEPENDS" ${ARGN})
+  cmake_parse_arguments(arg "" "" "SOURCES;KERNELS;DEPENDS;PRIVATE_DEPENDS" ${ARGN})
   set(target atrapos_${name})
   if(arg_SOURCES)
     add_library(${target} ${arg_SOURCES})
@@ -28,6 +29,9 @@ function(atrapos_package name)
     $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include>
     $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   target_link_libraries(${target} ${scope} ${arg_DEPENDS})
+  if(arg_KERNELS)
+    atrapos_kernels(${target} ${arg_KERNELS})
+  endif()
   set_property(GLOBAL APPEND PROPERTY ATRAPOS_INSTALLED_PACKAGES ${name})
   set_property(GLOBAL PROPERTY ATRAPOS_DEPENDS_${name} ${arg_DEPENDS} ${arg_PRIVATE_DEPENDS})
   set_property(GLOBAL APPEND PROPERTY ATRAPOS_INSTALLED_HEADERS ${CMAKE_CURRENT_SOURCE_DIR}/include/)

@@ -2,6 +2,7 @@
 
 #include <variant>
 
+#include "atrapos/fem/EnhancedTerm.hpp"
 #include "atrapos/fem/LawTerm.hpp"
 #include "atrapos/solid/SaintVenantKirchhoff.hpp"
 
@@ -18,8 +19,7 @@ solid::SaintVenantKirchhoff law(const deck::SaintVenantKirchhoff& m) {
 std::unique_ptr<fem::Term> materialTerm(const deck::Material& material, const fem::PointSet& points) {
   return std::visit(
       [&](const auto& entry) -> std::unique_ptr<fem::Term> {
-        using Law = decltype(law(entry));
-        return std::make_unique<fem::LawTerm<Law, fem::DisplacementGradient>>(law(entry), points);
+        return fem::lawTerm(fem::pointLaw(law(entry)), points);
       },
       material.law);
 }
@@ -30,10 +30,10 @@ std::unique_ptr<fem::Term> shellTerm(const deck::Material& material, const solid
       [&](const auto& entry) -> std::unique_ptr<fem::Term> {
         using Law = decltype(law(entry));
         if (shear == deck::Shear::Assumed)
-          return std::make_unique<solid::AssumedShearTerm<Law>>(solid::AssumedShearLaw<Law>{law(entry)},
-                                                                solid::assumedShearPoints(elements));
-        return std::make_unique<solid::ShellTerm<Law>>(solid::ShellLaw<Law>{law(entry)},
-                                                       solid::shellPoints(elements));
+          return fem::enhancedTerm(fem::pointLaw(solid::AssumedShearLaw<Law>{law(entry)}),
+                                   solid::assumedShearPoints(elements));
+        return fem::enhancedTerm(fem::pointLaw(solid::ShellLaw<Law>{law(entry)}),
+                                 solid::shellPoints(elements));
       },
       material.law);
 }

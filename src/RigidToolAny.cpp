@@ -1,3 +1,8 @@
+#include "RigidToolLaws.hpp"
+
+ATRAPOS_TOOL_LAWS(atrapos::contact::AnyTool)
+
+#ifndef ATRAPOS_KERNEL_LEVEL
 #include "RigidToolOf.hpp"
 
 namespace atrapos {
@@ -7,3 +12,4 @@ std::unique_ptr<RigidTool> rigidTool(const contact::AnyTool& tool) {
 }
 
 }  // namespace atrapos
+#endif

@@ -1,3 +1,8 @@
+#include "RigidToolLaws.hpp"
+
+ATRAPOS_TOOL_LAWS(atrapos::contact::MovingTool<atrapos::contact::PatchTool>)
+
+#ifndef ATRAPOS_KERNEL_LEVEL
 #include "RigidToolOf.hpp"
 
 namespace atrapos {
@@ -9,3 +14,4 @@ std::unique_ptr<RigidTool> patchTool(std::shared_ptr<const contact::PatchSet> se
 }
 
 }  // namespace atrapos
+#endif

@@ -11,6 +11,7 @@
 #include "atrapos/contact/PatchSearch.hpp"
 #include "atrapos/contact/SharpenedContact.hpp"
 #include "atrapos/fem/LawTerm.hpp"
+#include "atrapos/fem/PointLawOf.hpp"
 
 namespace atrapos {
 
@@ -70,14 +71,13 @@ class RigidToolOf final : public RigidTool {
   std::unique_ptr<fem::Term> term(const contact::AnyPressure& pressure, const fem::PointSet& points,
                                   const std::vector<double>& referenceGaps) const override {
     using Law = contact::ContactLaw<Tool, contact::AnyPressure>;
-    using Term = fem::LawTerm<Law, fem::CurrentPosition>;
     if constexpr (patches) {
       std::vector<double> data;
       for (const double Delta : referenceGaps) data.insert(data.end(), {Delta, -1, 0, 0});
-      return std::make_unique<Term>(Law{tool_, pressure}, points, data,
-                                    contact::PatchSearch<Tool>{set_, tool_}.pieces(1));
+      return fem::lawTerm(fem::pointLaw(Law{tool_, pressure}), points, data,
+                          contact::PatchSearch<Tool>{set_, tool_}.pieces(1));
     } else {
-      return std::make_unique<Term>(Law{tool_, pressure}, points, referenceGaps);
+      return fem::lawTerm(fem::pointLaw(Law{tool_, pressure}), points, referenceGaps);
     }
   }
 
@@ -108,7 +108,6 @@ class RigidToolOf final : public RigidTool {
                                        const fem::PointSet& points, const std::vector<double>& referenceGaps,
                                        double loadFactor) const override {
     using Law = contact::SharpenedContact<Tool>;
-    using Term = fem::LawTerm<Law, fem::CurrentPosition>;
     const Law law{tool_, {pressure.compliance, pressure.eta}, loadFactor};
     if constexpr (patches) {
       std::vector<double> data;
@@ -122,9 +121,9 @@ class RigidToolOf final : public RigidTool {
         }
         search(numPoints, places.data(), data);
       };
-      return std::make_unique<Term>(law, points, data, update);
+      return fem::lawTerm(fem::pointLaw(law), points, data, update);
     } else {
-      return std::make_unique<Term>(law, points, referenceGaps);
+      return fem::lawTerm(fem::pointLaw(law), points, referenceGaps);
     }
   }
 

@@ -9,6 +9,7 @@
 #include "Memory.hpp"
 #include "Ranks.hpp"
 #include "Version.hpp"
+#include "atrapos/fem/Processor.hpp"
 #include "atrapos/linear/Choice.hpp"
 #include "atrapos/linear/Iterations.hpp"
 #include "deck/DeckTables.hpp"
@@ -137,6 +138,7 @@ nlohmann::ordered_json runSummary(const PathCase& pathCase, const path::BranchDi
   memory["peak"] = residentOfAll().peak;  // collective
   json["memory_bytes"] = memory;
   json["ranks"] = ranks::count();
+  json["kernels"] = fem::describeKernels();
   json["execution_space"] = Kokkos::DefaultExecutionSpace::name();
   json["threads"] = Kokkos::DefaultExecutionSpace::concurrency();
   json["seconds"] = {{"tangent", seconds(diagram, &path::Timings::tangent)},

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "Version.hpp"
+#include "atrapos/fem/Processor.hpp"
 #include "atrapos/linear/BlasThreads.hpp"
-#include "atrapos/taylor/Lanes.hpp"
 
 namespace atrapos::threads {
 namespace {
@@ -96,13 +96,13 @@ std::string describeAll(MPI_Comm comm) {
       "MPI         {}\n"
       "Kokkos      {}.{}.{}, {}\n"
       "BLAS        {}\n"
-      "SIMD        {} doubles at a time in element loops\n"
+      "kernels     {}\n"
       "processors  {}; this rank may run on {}\n"
       "ranks       {}, {} on this machine\n"
       "threads     element loops {}, BLAS and MUMPS {} (a rank)\n",
       kVersion, mpiLibrary(), KOKKOS_VERSION / 10000, KOKKOS_VERSION / 100 % 100, KOKKOS_VERSION % 100,
       Kokkos::DefaultExecutionSpace::name(), blas.empty() ? "without control of its threads" : blas,
-      taylor::nativeLanes, m.processors, m.own, ranksOf(comm), m.ranks,
+      fem::describeKernels(), m.processors, m.own, ranksOf(comm), m.ranks,
       Kokkos::DefaultExecutionSpace::concurrency(),
       blasThreads > 0 ? std::to_string(blasThreads) : "their own");
 }

@@ -26,6 +26,7 @@
 #include "Threads.hpp"
 #include "Version.hpp"
 #include "atrapos/exodus/MeshFile.hpp"
+#include "atrapos/fem/Processor.hpp"
 
 namespace {
 
@@ -282,6 +283,10 @@ int main(int argc, char** argv) {
               << " (see atrapos --help)\n";
     return kBadInput;
   }
+  // Before anything is read: a level that is not there is no deck's fault.
+  if (const int code =
+          reported("atrapos: ", [] { return atrapos::fem::processorLanes() > 0 ? 0 : kInternalError; }))
+    return code;
   const std::string named = deck.empty() ? "atrapos: " : deck + ": ";
   return reported(named, [&] {
     if (*runCommand) {

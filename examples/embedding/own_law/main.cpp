@@ -8,6 +8,7 @@
 #include "atrapos/contact/ContactLaw.hpp"
 #include "atrapos/fem/FeProblem.hpp"
 #include "atrapos/fem/LawTerm.hpp"
+#include "atrapos/fem/PointLawOf.hpp"
 #include "atrapos/fem/StructuredMesh.hpp"
 #include "atrapos/linear/MakeTangentSolver.hpp"
 #include "atrapos/path/PathFollower.hpp"
@@ -120,8 +121,9 @@ static int press() {
   const fem::Mesh mesh = fem::boxMesh(box);
   fem::FeModel model;
   model.numNodes = mesh.numNodes();
-  model.terms.push_back(std::make_unique<fem::LawTerm<NeoHooke, fem::DisplacementGradient>>(
-      NeoHooke{}, fem::volumePoints(mesh, mesh.blocks[0], fem::tabulate(mesh.blocks[0].topology))));
+  model.terms.push_back(
+      fem::lawTerm(fem::pointLaw(NeoHooke{}),
+                   fem::volumePoints(mesh, mesh.blocks[0], fem::tabulate(mesh.blocks[0].topology))));
   Ellipsoid tool;
   tool.center[2] = -0.6;
   tool.half[0] = 2;
@@ -135,8 +137,8 @@ static int press() {
     if (!taylor::solveImplicit<3, 4>(tool, &points.positions[3 * p], y)) return 2;
     gaps.push_back(y[0]);
   }
-  model.terms.push_back(std::make_unique<fem::LawTerm<Contact, fem::CurrentPosition>>(
-      Contact{tool, contact::RegularisedPressure{1e-2, 1e-3}}, points, gaps));
+  model.terms.push_back(
+      fem::lawTerm(fem::pointLaw(Contact{tool, contact::RegularisedPressure{1e-2, 1e-3}}), points, gaps));
   model.supports = fem::Supports(mesh.numNodes());
   for (const int node : mesh.nodeSets[fem::findNodeSet(mesh, "z_max")].nodes) {
     model.supports.prescribe(node, 0, 0, 0);

@@ -107,8 +107,7 @@ static double deflection(const fem::Mesh& mesh, const std::vector<int>& held, co
   model.numNodes = mesh.numNodes();
   for (const auto& block : mesh.blocks)
     model.terms.push_back(
-        std::make_unique<fem::LawTerm<solid::SaintVenantKirchhoff, fem::DisplacementGradient>>(
-            law, fem::volumePoints(mesh, block, fem::tabulate(block.topology))));
+        fem::lawTerm(fem::pointLaw(law), fem::volumePoints(mesh, block, fem::tabulate(block.topology))));
   model.supports = fem::Supports(mesh.numNodes());
   for (const int n : held)
     for (int i = 0; i < 3; ++i) model.supports.prescribe(n, i, 0, 0);

@@ -21,8 +21,8 @@ std::unique_ptr<fem::FeProblem> risingPlane(const Column& column) {
   tool.motion.shift[1][2] = 1;
   using Law = ContactLaw<MovingTool<Plane>>;
   const fem::PointSet points = contactPoints(mesh, "z_min", Where::Quadrature);
-  model.terms.push_back(std::make_unique<fem::LawTerm<Law, fem::CurrentPosition>>(
-      Law{tool, column.pressure}, points, Numbers(points.numPoints(), column.gap)));
+  model.terms.push_back(fem::lawTerm(fem::pointLaw(Law{tool, column.pressure}), points,
+                                     Numbers(points.numPoints(), column.gap)));
   return std::make_unique<fem::FeProblem>(std::move(model));
 }
 

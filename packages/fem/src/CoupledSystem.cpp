@@ -2,7 +2,7 @@
 
 #include <stdexcept>
 
-#include "atrapos/fem/LawArrays.hpp"
+#include "Upload.hpp"
 
 namespace atrapos::fem::detail {
 

@@ -15,7 +15,7 @@
 #include "Distribution.hpp"
 #include "EventTerms.hpp"
 #include "PieceTerms.hpp"
-#include "atrapos/fem/LawArrays.hpp"
+#include "Upload.hpp"
 #include "atrapos/linear/OnAllRanks.hpp"
 
 namespace atrapos::fem {

@@ -87,8 +87,8 @@ TEST(Couplings, EqualNodesAreOneNode) {
     for (const Block& block : mesh.blocks) {
       PointSet p = volumePoints(mesh, block, tabulate(block.topology));
       for (int& n : p.nodes) n += offset;
-      model.terms.push_back(std::make_unique<LawTerm<ExponentialSolid, DisplacementGradient>>(
-          ExponentialSolid{}, p, std::vector<double>(p.numPoints(), 1.0)));
+      model.terms.push_back(
+          lawTerm(pointLaw(ExponentialSolid{}), p, std::vector<double>(p.numPoints(), 1.0)));
     }
   };
   const auto conditions = [](const Mesh& mesh, int offset, FeModel& model) {
@@ -141,8 +141,7 @@ TEST(Couplings, PlaneEnd) {
   model.numNodes = mesh.numNodes();
   for (const Block& block : mesh.blocks) {
     const PointSet p = volumePoints(mesh, block, tabulate(block.topology));
-    model.terms.push_back(std::make_unique<LawTerm<ExponentialSolid, DisplacementGradient>>(
-        ExponentialSolid{}, p, std::vector<double>(p.numPoints(), 1.0)));
+    model.terms.push_back(lawTerm(pointLaw(ExponentialSolid{}), p, std::vector<double>(p.numPoints(), 1.0)));
   }
   model.supports = Supports(model.numNodes);
   model.load.assign(3 * model.numNodes, 0.0);

@@ -43,12 +43,11 @@ constexpr double initial = 0.25;
 /// A solid with the force at the points of a face; `data` fixed ones, or none for those that follow.
 FeProblem problemWith(const Mesh& mesh, const PointSet& points, const std::vector<double>& data) {
   FeModel model = busyModel(mesh);
-  using Force = LawTerm<CellForce, CurrentPosition>;
   if (data.empty())
-    model.terms.push_back(std::make_unique<Force>(CellForce{}, points,
-                                                  std::vector<double>(points.numPoints(), initial), byCell));
+    model.terms.push_back(
+        lawTerm(pointLaw(CellForce{}), points, std::vector<double>(points.numPoints(), initial), byCell));
   else
-    model.terms.push_back(std::make_unique<Force>(CellForce{}, points, data));
+    model.terms.push_back(lawTerm(pointLaw(CellForce{}), points, data));
   return FeProblem(std::move(model));
 }
 

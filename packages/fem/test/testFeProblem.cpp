@@ -122,8 +122,7 @@ TEST_P(Cells, OwnGradientsDoAsThoseThatEntitiesShare) {
   const auto along = [&](const PointSet& p) {
     FeModel model;
     model.numNodes = mesh.numNodes();
-    model.terms.push_back(std::make_unique<LawTerm<ExponentialSolid, DisplacementGradient>>(
-        ExponentialSolid{}, p, unevenScale(p, 11)));
+    model.terms.push_back(lawTerm(pointLaw(ExponentialSolid{}), p, unevenScale(p, 11)));
     model.supports = Supports(mesh.numNodes());
     FeProblem problem(std::move(model));
     return std::pair(residual(problem, u, 0).r, tangent(problem, u, 0).times(x));
@@ -145,7 +144,7 @@ TEST(FeProblem, TermsSeeTheLoadFactor) {
   const auto pulled = [&] {
     FeModel model = busyModel(mesh);
     for (const PointSet& p : facePoints(mesh, sideSet(mesh, "x_max"), 3))
-      model.terms.push_back(std::make_unique<LawTerm<MovingPull, CurrentPosition>>(MovingPull{0.2}, p));
+      model.terms.push_back(lawTerm(pointLaw(MovingPull{0.2}), p));
     return model;
   };
   checkTangent(pulled());
@@ -168,9 +167,8 @@ TEST(FeProblem, TangentOfSeveralBlocksWithContactLikeTerms) {
   FeModel model = busyModel(mesh);
   for (const char* set : {"x_max", "y_min"})
     for (const PointSet& p : facePoints(mesh, sideSet(mesh, set), 3))
-      model.terms.push_back(std::make_unique<LawTerm<CentralForce, CurrentPosition>>(CentralForce{}, p));
-  model.terms.push_back(std::make_unique<LawTerm<CentralForce, CurrentPosition>>(
-      CentralForce{0.7}, nodePoints(mesh, {3, 8, 50})));
+      model.terms.push_back(lawTerm(pointLaw(CentralForce{}), p));
+  model.terms.push_back(lawTerm(pointLaw(CentralForce{0.7}), nodePoints(mesh, {3, 8, 50})));
   checkTangent(std::move(model));
 }
 
@@ -180,7 +178,7 @@ TEST(FeProblem, TermsAddUpAndLoadsAreSubtracted) {
   const Supports supports = model.supports;
   const Numbers constant = model.constantLoad, load = model.load;
   const PointSet faces = facePoints(mesh, sideSet(mesh, "x_max"), 3).at(0);
-  model.terms.push_back(std::make_unique<LawTerm<CentralForce, CurrentPosition>>(CentralForce{}, faces));
+  model.terms.push_back(lawTerm(pointLaw(CentralForce{}), faces));
   const Numbers u = randomNumbers(3 * mesh.numNodes(), 0.02, 12);
   Numbers expected(u.size(), 0.0);
   for (std::size_t b = 0; b < mesh.blocks.size(); ++b) {
@@ -225,8 +223,7 @@ TEST(FeProblem, TangentIsSymmetricWhereAllLawsAre) {
   EXPECT_LT(asymmetry(tangent(symmetric, u, 0.4), x, y), 1e-14);  // rounding of sums of like signs
 
   FeModel model = busyModel(mesh);
-  model.terms.push_back(std::make_unique<LawTerm<Swirl, CurrentPosition>>(
-      Swirl{}, facePoints(mesh, sideSet(mesh, "x_max"), 3).at(0)));
+  model.terms.push_back(lawTerm(pointLaw(Swirl{}), facePoints(mesh, sideSet(mesh, "x_max"), 3).at(0)));
   FeProblem unsymmetric(std::move(model));
   EXPECT_FALSE(unsymmetric.symmetric());
   EXPECT_GT(asymmetry(tangent(unsymmetric, u, 0.4), x, y), 1e-6);
@@ -236,8 +233,7 @@ TEST(FeProblem, TangentOfAnUnsymmetricLaw) {
   const Mesh mesh = box(Topology::Hex8);
   FeModel model = busyModel(mesh);
   for (const char* set : {"z_max", "y_max"})
-    model.terms.push_back(std::make_unique<LawTerm<Swirl, CurrentPosition>>(
-        Swirl{2.0}, facePoints(mesh, sideSet(mesh, set), 3).at(0)));
+    model.terms.push_back(lawTerm(pointLaw(Swirl{2.0}), facePoints(mesh, sideSet(mesh, set), 3).at(0)));
   checkTangent(std::move(model));
 }
 
@@ -370,8 +366,7 @@ TEST(FeProblem, ScaleCountsWhatCancelsAtTheNodes) {
   }
   FeModel model;
   model.numNodes = mesh.numNodes();
-  model.terms.push_back(
-      std::make_unique<LawTerm<ExponentialSolid, DisplacementGradient>>(ExponentialSolid{}, points, ones));
+  model.terms.push_back(lawTerm(pointLaw(ExponentialSolid{}), points, ones));
   model.supports = Supports(mesh.numNodes());
   FeProblem problem(std::move(model));
   const double scale = residual(problem, u, 0.0).norm.scale;
@@ -418,7 +413,7 @@ TEST(FeProblem, ObserveShowsEveryPointInItsPlace) {
   model.numNodes = mesh.numNodes();
   model.terms = solidTerms(mesh);
   const PointSet faces = facePoints(mesh, sideSet(mesh, "y_max"), 2).at(0);
-  model.terms.push_back(std::make_unique<LawTerm<CentralForce, CurrentPosition>>(CentralForce{}, faces));
+  model.terms.push_back(lawTerm(pointLaw(CentralForce{}), faces));
   model.supports = Supports(mesh.numNodes());
   const PointSet points = volumePoints(mesh, mesh.blocks[0], tabulate(Topology::Tet10));
   FeProblem problem(std::move(model));
@@ -453,8 +448,8 @@ TEST(FeProblem, TermsMayHaveNoEntities) {
   const auto along = [&](bool withEmptyTerm) {
     FeModel model = busyModel(mesh);
     if (withEmptyTerm)
-      model.terms.push_back(std::make_unique<LawTerm<ExponentialSolid, DisplacementGradient>>(
-          ExponentialSolid{}, volumePoints(mesh, none, tabulate(Topology::Hex8)), Numbers{}));
+      model.terms.push_back(lawTerm(pointLaw(ExponentialSolid{}),
+                                    volumePoints(mesh, none, tabulate(Topology::Hex8)), Numbers{}));
     FeProblem problem(std::move(model));
     return std::pair(residual(problem, u, 0.4).r, tangent(problem, u, 0.4).value);
   };
@@ -465,11 +460,11 @@ TEST(FeProblem, MistakesAreNamed) {
   const Mesh mesh = box(Topology::Hex8, {1, 1, 1});
   const PointSet gradients = volumePoints(mesh, mesh.blocks[0], tabulate(Topology::Hex8));
   const PointSet values = volumeValuePoints(mesh, mesh.blocks[0], tabulate(Topology::Hex8));
-  using Solid = LawTerm<ExponentialSolid, DisplacementGradient>;
-  EXPECT_THROW(Solid(ExponentialSolid{}, values, unevenScale(values, 1)), std::logic_error);
-  EXPECT_THROW(Solid(ExponentialSolid{}, gradients), std::logic_error);
+  const auto solid = [] { return pointLaw(ExponentialSolid{}); };
+  EXPECT_THROW(lawTerm(solid(), values, unevenScale(values, 1)), std::logic_error);
+  EXPECT_THROW(lawTerm(solid(), gradients), std::logic_error);
   const PointSet many = volumePoints(mesh, mesh.blocks[0], tabulate(Topology::Hex8, 9));  // 125 points
-  EXPECT_THROW(Solid(ExponentialSolid{}, many, unevenScale(many, 1)), std::invalid_argument);
+  EXPECT_THROW(lawTerm(solid(), many, unevenScale(many, 1)), std::invalid_argument);
 
   FeModel model = busyModel(mesh);
   model.supports = Supports(mesh.numNodes() + 1);

@@ -83,8 +83,7 @@ TEST(Partition, FacesGoWithTheirElementsAndCount) {
     some.weights.resize(4 * Q);
     some.positions.resize(4 * Q * 3);
     some.normals.resize(4 * Q * 3);
-    for (int i = 0; i < 40; ++i)
-      model.terms.push_back(std::make_unique<LawTerm<CentralForce, CurrentPosition>>(CentralForce{}, some));
+    for (int i = 0; i < 40; ++i) model.terms.push_back(lawTerm(pointLaw(CentralForce{}), some));
   }
   const Partition p = partition(model, {}, 2);
   for (std::size_t t = 1; t < model.terms.size(); ++t)
@@ -124,7 +123,7 @@ TEST(Partition, KeepsTheRanksThatTheModelGives) {
   const Mesh mesh = box(Topology::Hex8, {6, 1, 1});
   FeModel model = boxModel(mesh);
   for (const PointSet& points : facePoints(mesh, sideSet(mesh, "z_min"), 2))
-    model.terms.push_back(std::make_unique<LawTerm<CentralForce, CurrentPosition>>(CentralForce{}, points));
+    model.terms.push_back(lawTerm(pointLaw(CentralForce{}), points));
   model.ranks = {{2, 0, 1, 1, 0, 2}};  // faces follow their elements
   const Partition p = partition(model, {}, 3);
   EXPECT_EQ(p.entities[0], model.ranks[0]);

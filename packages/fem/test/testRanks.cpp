@@ -91,14 +91,11 @@ void compareEverything(const std::function<FeModel()>& make) {
 FeModel manyTerms(const Mesh& mesh, double strength = 1) {
   FeModel model = busyModel(mesh);
   for (const PointSet& p : facePoints(mesh, sideSet(mesh, "x_max"), 3)) {
-    model.terms.push_back(
-        std::make_unique<LawTerm<CentralForce, CurrentPosition>>(CentralForce{0.5 * strength}, p));
-    model.terms.push_back(std::make_unique<LawTerm<Swirl, CurrentPosition>>(Swirl{0.2 * strength}, p));
-    model.terms.push_back(
-        std::make_unique<LawTerm<MovingPull, CurrentPosition>>(MovingPull{0.2 * strength}, p));
+    model.terms.push_back(lawTerm(pointLaw(CentralForce{0.5 * strength}), p));
+    model.terms.push_back(lawTerm(pointLaw(Swirl{0.2 * strength}), p));
+    model.terms.push_back(lawTerm(pointLaw(MovingPull{0.2 * strength}), p));
   }
-  model.terms.push_back(std::make_unique<LawTerm<CentralForce, CurrentPosition>>(
-      CentralForce{0.7 * strength}, nodePoints(mesh, {3, 8, 50})));
+  model.terms.push_back(lawTerm(pointLaw(CentralForce{0.7 * strength}), nodePoints(mesh, {3, 8, 50})));
   return model;
 }
 
@@ -166,8 +163,7 @@ TEST(Ranks, DataThatFollowTheState) {
     const auto update = [](int numPoints, const double* in, double* data) {
       for (int p = 0; p < numPoints; ++p) data[p] += in[9 * p] * in[9 * p];
     };
-    model.terms[0] = std::make_unique<LawTerm<ExponentialSolid, DisplacementGradient>>(
-        ExponentialSolid{}, points, unevenScale(points, 3), update);
+    model.terms[0] = lawTerm(pointLaw(ExponentialSolid{}), points, unevenScale(points, 3), update);
     return model;
   });
 }
@@ -291,8 +287,7 @@ TEST(Ranks, ErrorOfOneIsThrownOnAll) {
     FeModel model = busyModel(mesh);
     std::vector<int> nodes;
     for (int n = 0; n < mesh.numNodes(); ++n) nodes.push_back(n);
-    model.terms.push_back(
-        std::make_unique<LawTerm<Fence, CurrentPosition>>(Fence{}, nodePoints(mesh, nodes)));
+    model.terms.push_back(lawTerm(pointLaw(Fence{}), nodePoints(mesh, nodes)));
     return model;
   });
   const auto message = [](FeProblem& problem) {

@@ -82,12 +82,11 @@ TEST(Series, SeveralBlocksAndTerms) {
   const Mesh mesh = mixedMesh();
   FeModel model = busyModel(mesh);
   for (const PointSet& p : facePoints(mesh, sideSet(mesh, "x_max"), 3)) {
-    model.terms.push_back(std::make_unique<LawTerm<CentralForce, CurrentPosition>>(CentralForce{0.5}, p));
-    model.terms.push_back(std::make_unique<LawTerm<Swirl, CurrentPosition>>(Swirl{0.2}, p));
-    model.terms.push_back(std::make_unique<LawTerm<MovingPull, CurrentPosition>>(MovingPull{0.2}, p));
+    model.terms.push_back(lawTerm(pointLaw(CentralForce{0.5}), p));
+    model.terms.push_back(lawTerm(pointLaw(Swirl{0.2}), p));
+    model.terms.push_back(lawTerm(pointLaw(MovingPull{0.2}), p));
   }
-  model.terms.push_back(std::make_unique<LawTerm<CentralForce, CurrentPosition>>(
-      CentralForce{0.7}, nodePoints(mesh, {3, 8, 50})));
+  model.terms.push_back(lawTerm(pointLaw(CentralForce{0.7}), nodePoints(mesh, {3, 8, 50})));
   checkOrders(std::move(model));
 }
 

@@ -26,7 +26,7 @@ void append(const fem::Mesh& mesh, const fem::Tabulation& t, const std::vector<i
   ++p.numEntities;
   p.nodesPerEntity = t.numNodes;
   p.pointsPerEntity = t.numPoints;
-  p.shapeComponents = SurfaceFrame::components;
+  p.shapeComponents = 3;
   p.nodes.insert(p.nodes.end(), nodes.begin(), nodes.end());
   for (int q = 0; q < t.numPoints; ++q) {
     p.weights.push_back(t.weights[q]);
@@ -64,8 +64,7 @@ std::vector<std::unique_ptr<fem::Term>> followerPressure(const fem::Mesh& mesh, 
   }
   std::vector<std::unique_ptr<fem::Term>> terms;
   for (const auto& [face, faces] : byShape)
-    terms.push_back(std::make_unique<fem::LawTerm<FollowerPressure, SurfaceFrame>>(FollowerPressure{pressure},
-                                                                                   faces.points, faces.data));
+    terms.push_back(fem::lawTerm(fem::pointLaw(FollowerPressure{pressure}), faces.points, faces.data));
   return terms;
 }
 

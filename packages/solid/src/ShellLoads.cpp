@@ -85,7 +85,7 @@ Vec3 edgeTangent(const ShellElements& elements, const ShellEdge& edge, const Edg
   return T;
 }
 
-/// Points of edges for EdgeFrame: three nodes of v, three of w; and the laws' data.
+/// Points of edges, law inputs (v, v_s, w): three nodes of v, three of w; and the laws' data.
 fem::PointSet edgePoints(const ShellElements& elements, const std::vector<ShellEdge>& edges,
                          std::vector<double>& data) {
   checkEdges(elements, edges);
@@ -93,7 +93,7 @@ fem::PointSet edgePoints(const ShellElements& elements, const std::vector<ShellE
   p.numEntities = static_cast<int>(edges.size());
   p.nodesPerEntity = 6;
   p.pointsPerEntity = 3;
-  p.shapeComponents = EdgeFrame::components;
+  p.shapeComponents = 3;
   for (const ShellEdge& edge : edges) {
     const std::size_t e = edge.element;
     const auto local = nodesOf(edge);
@@ -184,7 +184,7 @@ std::unique_ptr<fem::Term> followerPressure(const ShellElements& elements, const
   p.numEntities = static_cast<int>(loaded.size());
   p.nodesPerEntity = 16;
   p.pointsPerEntity = t.numPoints;
-  p.shapeComponents = SurfaceFrame::components;
+  p.shapeComponents = 3;
   std::vector<double> data;
   for (int e : loaded) {
     if (e < 0 || e >= elements.count())
@@ -206,7 +206,7 @@ std::unique_ptr<fem::Term> followerPressure(const ShellElements& elements, const
       data.insert(data.end(), g2.begin(), g2.end());
     }
   }
-  return std::make_unique<fem::LawTerm<FollowerPressure, SurfaceFrame>>(FollowerPressure{pressure}, p, data);
+  return fem::lawTerm(fem::pointLaw(FollowerPressure{pressure}), p, data);
 }
 
 std::unique_ptr<fem::Term> followerEdgeLoad(const ShellElements& elements,
@@ -214,7 +214,7 @@ std::unique_ptr<fem::Term> followerEdgeLoad(const ShellElements& elements,
                                             const FollowerEdgeLoad& load) {
   std::vector<double> data;
   const fem::PointSet p = edgePoints(elements, edges, data);
-  return std::make_unique<fem::LawTerm<FollowerEdgeLoad, EdgeFrame>>(load, p, data);
+  return fem::lawTerm(fem::pointLaw(load), p, data);
 }
 
 std::unique_ptr<fem::Term> deadEdgeMoment(const ShellElements& elements, const std::vector<ShellEdge>& edges,
@@ -233,7 +233,7 @@ std::unique_ptr<fem::Term> deadEdgeMoment(const ShellElements& elements, const s
             "no drilling moments",
             edges[i / 3].edge + 1, edges[i / 3].element + 1));
     }
-  return std::make_unique<fem::LawTerm<DeadEdgeMoment, EdgeFrame>>(load, p, data);
+  return fem::lawTerm(fem::pointLaw(load), p, data);
 }
 
 }  // namespace atrapos::solid

@@ -49,11 +49,17 @@ struct Contravariant {
       : c1(cross(g.g2, g.g3)), c2(cross(g.g3, g.g1)), c3(cross(g.g1, g.g2)), j(g.jacobian()) {}
 };
 
-/// g of the enhanced strain.
-void addEnhancedVector(const Place& at, std::vector<double>& data) {
+/// g of the enhanced strain, whose square is the strain per unit of e.
+void addEnhancedVector(const Place& at, fem::EnhancedPoints& result) {
   const double j = at.base.jacobian(), jMiddle = at.middle.jacobian();
   const Vec3 dual = cross(at.middle.g1, at.middle.g2);
-  for (int i = 0; i < 3; ++i) data.push_back(std::sqrt(jMiddle / j) * dual[i] / jMiddle);
+  double strain = 0;
+  for (int i = 0; i < 3; ++i) {
+    const double g = std::sqrt(jMiddle / j) * dual[i] / jMiddle;
+    result.data.push_back(g);
+    strain += g * g;
+  }
+  result.strain.push_back(strain);
 }
 
 /// Gradients of N_a, then of zeta N_a (times the director's scale): with respect to X where directors are
@@ -74,7 +80,7 @@ void addGradients(const Place& at, fem::EnhancedPoints& result) {
   if (!at.scaled)
     for (const Vec3& row : {c.c1, c.c2, c.c3})
       for (int i = 0; i < 3; ++i) p.maps.push_back(row[i] / c.j);
-  addEnhancedVector(at, result.data);
+  addEnhancedVector(at, result);
 }
 
 /// The shape functions of x_,xi, x_,eta and of the two directors of the assumed shear; the law's vectors at
@@ -101,7 +107,7 @@ void addAssumedShear(const Place& at, fem::EnhancedPoints& result) {
   result.data.insert(result.data.end(), G, G + 12);
   for (int i = 0; i < 3; ++i)
     result.data.insert(result.data.end(), {c.c1[i] / c.j, c.c2[i] / c.j, c.c3[i] / c.j});
-  addEnhancedVector(at, result.data);
+  addEnhancedVector(at, result);
 }
 
 template <class Add>

@@ -3,6 +3,7 @@
 #include <Tpetra_CrsMatrix.hpp>
 #include <Tpetra_Vector.hpp>
 
+#include "atrapos/fem/EnhancedTerm.hpp"
 #include "atrapos/linear/MakeTangentSolver.hpp"
 
 namespace atrapos::solid::test {
@@ -10,10 +11,10 @@ namespace atrapos::solid::test {
 std::unique_ptr<fem::Term> shellTerm(const ShellGrid& grid, const SaintVenantKirchhoff& material,
                                      const ShellCubature& cubature, Shear shear) {
   if (shear == Shear::assumed)
-    return std::make_unique<AssumedShearTerm<SaintVenantKirchhoff>>(
-        AssumedShearLaw<SaintVenantKirchhoff>{material}, assumedShearPoints(grid.elements(), cubature));
-  return std::make_unique<Shell>(ShellLaw<SaintVenantKirchhoff>{material},
-                                 shellPoints(grid.elements(), cubature));
+    return fem::enhancedTerm(fem::pointLaw(AssumedShearLaw<SaintVenantKirchhoff>{material}),
+                             assumedShearPoints(grid.elements(), cubature));
+  return fem::enhancedTerm(fem::pointLaw(ShellLaw<SaintVenantKirchhoff>{material}),
+                           shellPoints(grid.elements(), cubature));
 }
 
 Numbers linearSolution(fem::FeProblem& problem) {

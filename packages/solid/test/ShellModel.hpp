@@ -11,7 +11,6 @@
 namespace atrapos::solid::test {
 
 using fem::test::Numbers;
-using Shell = ShellTerm<SaintVenantKirchhoff>;
 
 /// The paper's element, or the one with assumed transverse shear strains.
 enum class Shear { compatible, assumed };

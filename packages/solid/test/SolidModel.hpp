@@ -17,8 +17,8 @@ inline fem::FeModel solidModel(const fem::Mesh& mesh, const SaintVenantKirchhoff
   fem::FeModel model;
   model.numNodes = mesh.numNodes();
   for (const fem::Block& block : mesh.blocks)
-    model.terms.push_back(std::make_unique<fem::LawTerm<SaintVenantKirchhoff, fem::DisplacementGradient>>(
-        law, fem::volumePoints(mesh, block, cell ? *cell : fem::tabulate(block.topology))));
+    model.terms.push_back(fem::lawTerm(
+        fem::pointLaw(law), fem::volumePoints(mesh, block, cell ? *cell : fem::tabulate(block.topology))));
   model.supports = fem::Supports(mesh.numNodes());
   model.constantLoad.assign(3 * mesh.numNodes(), 0.0);
   model.load.assign(3 * mesh.numNodes(), 0.0);

@@ -207,8 +207,7 @@ struct HalfAndHalf {
     // Full cubature: a row one cell wide and thick has hourglass modes with less.
     fem::PointSet points = fem::volumePoints(solid, solid.blocks[0], fem::tabulate(fem::Topology::Hex20, 5));
     for (int& n : points.nodes) n += shift;
-    model.terms.push_back(
-        std::make_unique<fem::LawTerm<SaintVenantKirchhoff, fem::DisplacementGradient>>(material, points));
+    model.terms.push_back(fem::lawTerm(fem::pointLaw(material), points));
     model.supports = fem::Supports(model.numNodes);
     model.load.assign(3 * model.numNodes, 0.0);
     for (int n : grid.lineI(0)) {

@@ -220,7 +220,7 @@ TEST(ShellPatch, ScaledDirectors) {
     fem::FeModel model;
     model.numNodes = nodes;
     model.terms.push_back(
-        std::make_unique<Shell>(ShellLaw<SaintVenantKirchhoff>{material}, shellPoints(elements)));
+        fem::enhancedTerm(fem::pointLaw(ShellLaw<SaintVenantKirchhoff>{material}), shellPoints(elements)));
     model.terms.push_back(followerPressure(elements, {0, 2, 5}, topSurface, {0.01, 0}));
     FollowerEdgeLoad load;
     load.moment.constant = 0.01;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <Sacado.hpp>
+
 #include "SeriesRun.hpp"
 
 using atrapos::taylor::Passive;
@@ -52,7 +54,10 @@ void checkAgainstLongSeries(F f, const char* name, Range range = {}, double tole
     const auto at = [&](const SeriesResult& r) {
       std::vector<Values> c(maxOrder + 1);
       for (int k = 0; k <= maxOrder; ++k)
-        c[k] = Values::load(&r.memory[(r.shape.constants + r.shape.sums * atrapos::taylor::HistoryShape::waiting(maxOrder) + k * r.shape.slots + s) * L]);
+        c[k] = Values::load(
+            &r.memory[(r.shape.constants + r.shape.sums * atrapos::taylor::HistoryShape::waiting(maxOrder) +
+                       k * r.shape.slots + s) *
+                      L]);
       return c;
     };
     const auto slot = at(direct);

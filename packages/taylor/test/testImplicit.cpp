@@ -53,8 +53,8 @@ TEST(Implicit, failureIsReportedAndIsNaN) {
     return b;
   };
   Coefficients in = {testSeries(6, 0.2, 0.7, 1), testSeries(6, 1, 2, 2)};
-  in[0][0][5] = 2.0;
-  expectOnlyLaneIsBad(circle, 5, in);
+  in[0][0][L - 1] = 2.0;
+  expectOnlyLaneIsBad(circle, L - 1, in);
 }
 
 // What needs no derivatives is found with less work, and is the same: to what the residual's rounding, 2 eps,

@@ -55,16 +55,16 @@ void checkTensor(F f, const Loops& loops, const std::string& what) {
   }
   // The value and the derivative along the series' direction, from the same source.
   double x[25], values[N], fad[N], jacobian[25 * N];
-  for (int j = 0; j < 25; ++j) x[j] = in[j][0][2];
+  for (int j = 0; j < 25; ++j) x[j] = in[j][0][L - 1];
   const auto r = runSeries(law, in, Mode::Direct);
   value(law, x, nullptr, values);
   tangent(law, x, nullptr, fad, jacobian);
   for (int m = 0; m < N; ++m) {
     double derivative = 0;
-    for (int j = 0; j < 25; ++j) derivative += jacobian[25 * m + j] * in[j][1][2];
-    EXPECT_NEAR(values[m], r.out[m][0][2], 1e-14) << what;  // some ten terms of size 1
-    EXPECT_NEAR(fad[m], r.out[m][0][2], 1e-14) << what;
-    EXPECT_NEAR(derivative, r.out[m][1][2], 1e-14) << what;
+    for (int j = 0; j < 25; ++j) derivative += jacobian[25 * m + j] * in[j][1][L - 1];
+    EXPECT_NEAR(values[m], r.out[m][0][L - 1], 1e-14) << what;  // some ten terms of size 1
+    EXPECT_NEAR(fad[m], r.out[m][0][L - 1], 1e-14) << what;
+    EXPECT_NEAR(derivative, r.out[m][1][L - 1], 1e-14) << what;
   }
 }
 
@@ -161,16 +161,17 @@ TEST(Tensor, linearOperations) {
                    fill9(out, [&](int i, int j) { return A[i][j] + 2.0 * B[i][j] - 0.5 * A[i][j]; });
                  },
                  "sums");
-  checkTensor<9>([](auto A, auto B, auto, auto, auto* out) {
-                   const decltype(A(0, 0)) t = trace(B);
-                   plusIdentity(transpose(A), t).store(out);
-                 },
-                 [](auto& A, auto& B, auto&, auto, auto* out) {
-                   fill9(out, [&](int i, int j) {
-                     return A[j][i] + (i == j ? B[0][0] + B[1][1] + B[2][2] : LongSeries(0.0));
-                   });
-                 },
-                 "transpose, trace and identity of a matrix");
+  checkTensor<9>(
+      [](auto A, auto B, auto, auto, auto* out) {
+        const decltype(A(0, 0)) t = trace(B);
+        plusIdentity(transpose(A), t).store(out);
+      },
+      [](auto& A, auto& B, auto&, auto, auto* out) {
+        fill9(out, [&](int i, int j) {
+          return A[j][i] + (i == j ? B[0][0] + B[1][1] + B[2][2] : LongSeries(0.0));
+        });
+      },
+      "transpose, trace and identity of a matrix");
   checkTensor<6>(
       [](auto A, auto, auto S, auto s, auto* out) { plusIdentity(S + symmetricPart(A), s).store(out); },
       [](auto& A, auto&, auto& S, auto s, auto* out) {

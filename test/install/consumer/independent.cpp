@@ -47,9 +47,8 @@ struct Cantilever {
     model.comm = comm;
     model.numNodes = mesh.numNodes();
     const auto law = solid::SaintVenantKirchhoff::fromYoung(1000.0 + cells, 0.2);
-    model.terms.push_back(
-        std::make_unique<fem::LawTerm<solid::SaintVenantKirchhoff, fem::DisplacementGradient>>(
-            law, fem::volumePoints(mesh, mesh.blocks[0], fem::tabulate(fem::Topology::Hex8))));
+    model.terms.push_back(fem::lawTerm(
+        fem::pointLaw(law), fem::volumePoints(mesh, mesh.blocks[0], fem::tabulate(fem::Topology::Hex8))));
     model.supports = fem::Supports(mesh.numNodes());
     for (const int node : mesh.nodeSets[fem::findNodeSet(mesh, "x_min")].nodes)
       for (int i = 0; i < 3; ++i) model.supports.prescribe(node, i, 0, 0);

@@ -1,5 +1,5 @@
-// A bar of one cell pulled to load factor 1 with the installed library, from mesh to path: P/(EA) = s (s^2 - 1)/2 for the
-// stretch s of a Saint Venant-Kirchhoff bar with nu = 0.
+// A bar of one cell pulled to load factor 1 with the installed library, from mesh to path: P/(EA) = s (s^2 -
+// 1)/2 for the stretch s of a Saint Venant-Kirchhoff bar with nu = 0.
 #include <Kokkos_Core.hpp>
 #include <Tpetra_Core.hpp>
 #include <Tpetra_Vector.hpp>
@@ -26,12 +26,12 @@ static int follow() {
   model.numNodes = mesh.numNodes();
   const auto law = solid::SaintVenantKirchhoff::fromYoung(1.0, 0.0);
   const auto points = fem::volumePoints(mesh, mesh.blocks[0], fem::tabulate(fem::Topology::Hex8));
-  model.terms.push_back(
-      std::make_unique<fem::LawTerm<solid::SaintVenantKirchhoff, fem::DisplacementGradient>>(law, points));
+  model.terms.push_back(fem::lawTerm(fem::pointLaw(law), points));
   model.supports = fem::Supports(mesh.numNodes());
   const char* faces[] = {"x_min", "y_min", "z_min"};
   for (int i = 0; i < 3; ++i)
-    for (int node : mesh.nodeSets[fem::findNodeSet(mesh, faces[i])].nodes) model.supports.prescribe(node, i, 0, 0);
+    for (int node : mesh.nodeSets[fem::findNodeSet(mesh, faces[i])].nodes)
+      model.supports.prescribe(node, i, 0, 0);
   model.load.assign(3 * mesh.numNodes(), 0.0);
   const double s = 1.25, force = s * (s * s - 1) / 2;
   fem::addSurfaceForce(mesh, mesh.sideSets[fem::findSideSet(mesh, "x_max")], {force, 0, 0}, model.load);

@@ -9,6 +9,7 @@
 #include "atrapos/contact/ContactLaw.hpp"
 #include "atrapos/fem/FeProblem.hpp"
 #include "atrapos/fem/LawTerm.hpp"
+#include "atrapos/fem/PointLawOf.hpp"
 #include "atrapos/linear/MakeTangentSolver.hpp"
 #include "atrapos/path/PathFollower.hpp"
 #include "atrapos/solid/SaintVenantKirchhoff.hpp"
@@ -28,9 +29,8 @@ inline fem::FeModel solidModel(const fem::Mesh& mesh, double E, double nu,
   fem::FeModel model;
   model.numNodes = mesh.numNodes();
   for (const fem::Block& block : mesh.blocks)
-    model.terms.push_back(
-        std::make_unique<fem::LawTerm<solid::SaintVenantKirchhoff, fem::DisplacementGradient>>(
-            law, fem::volumePoints(mesh, block, cell ? *cell : fem::tabulate(block.topology))));
+    model.terms.push_back(fem::lawTerm(
+        fem::pointLaw(law), fem::volumePoints(mesh, block, cell ? *cell : fem::tabulate(block.topology))));
   model.supports = fem::Supports(mesh.numNodes());
   model.constantLoad.assign(3 * mesh.numNodes(), 0.0);
   model.load.assign(3 * mesh.numNodes(), 0.0);
@@ -59,8 +59,7 @@ void addContact(fem::FeModel& model, const fem::PointSet& points, const Tool& to
     gaps.push_back(std::max(y[0], least));
   }
   using Law = ContactLaw<Tool, Pressure>;
-  model.terms.push_back(
-      std::make_unique<fem::LawTerm<Law, fem::CurrentPosition>>(Law{tool, pressure}, points, gaps));
+  model.terms.push_back(fem::lawTerm(fem::pointLaw(Law{tool, pressure}), points, gaps));
 }
 
 /// Bounds so tight that the equilibrium errors of tests stay near rounding.

@@ -11,6 +11,7 @@
 #include "atrapos/contact/PatchSet.hpp"
 #include "atrapos/fem/FeProblem.hpp"
 #include "atrapos/fem/LawTerm.hpp"
+#include "atrapos/fem/PointLawOf.hpp"
 
 /// Surfaces of patches for tests.
 namespace atrapos::contact::test {
@@ -143,8 +144,8 @@ inline void addPatchContact(fem::FeModel& model, const fem::PointSet& points,
     data.insert(data.end(), {std::max(y[0], least), -1, 0, 0});
   }
   using Law = ContactLaw<PatchTool>;
-  model.terms.push_back(std::make_unique<fem::LawTerm<Law, fem::CurrentPosition>>(
-      Law{search.tool, pressure}, points, data, search.pieces(1)));
+  model.terms.push_back(
+      fem::lawTerm(fem::pointLaw(Law{search.tool, pressure}), points, data, search.pieces(1)));
 }
 
 }  // namespace atrapos::contact::test

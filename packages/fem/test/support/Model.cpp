@@ -12,8 +12,8 @@ std::vector<std::unique_ptr<Term>> solidTerms(const Mesh& mesh) {
   std::vector<std::unique_ptr<Term>> terms;
   for (const Block& block : mesh.blocks) {
     const PointSet points = volumePoints(mesh, block, tabulate(block.topology));
-    terms.push_back(std::make_unique<LawTerm<ExponentialSolid, DisplacementGradient>>(
-        ExponentialSolid{}, points, unevenScale(points, 11 + static_cast<unsigned>(terms.size()))));
+    terms.push_back(lawTerm(pointLaw(ExponentialSolid{}), points,
+                            unevenScale(points, 11 + static_cast<unsigned>(terms.size()))));
   }
   return terms;
 }

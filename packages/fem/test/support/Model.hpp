@@ -2,6 +2,7 @@
 
 #include "atrapos/fem/FeProblem.hpp"
 #include "atrapos/fem/LawTerm.hpp"
+#include "atrapos/fem/PointLawOf.hpp"
 #include "support/Laws.hpp"
 #include "support/Meshes.hpp"
 

@@ -5,96 +5,13 @@
 #include <string>
 #include <vector>
 
-#include "atrapos/contact/ContactLaw.hpp"
+#include "atrapos/contact/CurveContactLaw.hpp"
 #include "atrapos/contact/PatchSearch.hpp"
 #include "atrapos/fem/LawTerm.hpp"
 #include "atrapos/fem/Multipliers.hpp"
+#include "atrapos/fem/PointLawOf.hpp"
 
 namespace atrapos::contact {
-
-/// Law (15) with the place t on its curve as an unknown of the problem (docs/theory/contact.md, The contact
-/// curve as unknown):
-///
-///     h = Delta e^-t - c eta (e^t + e^-t - 2),   R = eta (e^t - 1),   c = 1/alpha
-///
-/// Both are entire in t, t = 0 is h = Delta, and dh/dt < 0 everywhere; c = 0 is the barrier form. Needs Delta
-/// > c eta.
-///
-/// in:   (u_x, t, u_y, -, u_z, -) of fem::DisplacementAndUnknown; with a tool that moves also the load
-/// factor.
-/// data: Delta, X, then the tool's own.
-/// out:  (-R n_x, -R'(t) (h - h(t)), -R n_y, 0, -R n_z, 0), the derivatives of one potential where n = grad
-/// h. A point that is over no part of the tool has h = Delta and feels no force.
-template <class Tool>
-struct CurveContactLaw {
-  static constexpr int numPlace = detail::PlaceInputs<Tool>::value;
-  static constexpr int numToolData = detail::ToolData<Tool>::value, toolData = 4;  // and where they begin
-  static constexpr int numInputs = 3 + numPlace, numOutputs = 6, numData = toolData + numToolData;
-  static constexpr bool symmetric = Tool::symmetric;
-
-  Tool tool;
-  RegularisedPressure pressure;
-
-  template <class T>
-  KOKKOS_INLINE_FUNCTION void operator()(const T* in, const taylor::Passive<T>* data, T* out) const {
-    using std::exp;
-    T projection[Tool::numUnknowns];
-    project(in, data, projection);
-    const T up = exp(in[1]), down = exp(-in[1]);
-    const T R = pressure.eta * (up - 1.0);
-    for (int i = 0; i < 3; ++i)
-      if constexpr (numToolData > 0)
-        out[2 * i] = -(R * projection[1 + i]) * tool.carries(data + toolData);
-      else
-        out[2 * i] = -(R * projection[1 + i]);
-    const T mismatch =
-        projection[0] - data[0] * down + (pressure.compliance * pressure.eta) * (up + down - 2.0);
-    out[1] = -(pressure.eta * (up * mismatch));
-    out[3] = out[5] = T(0.0);
-  }
-
-  static constexpr int numObserved = 2;
-  static std::vector<std::string> observedNames() { return {"contact_gap", "contact_pressure"}; }
-  KOKKOS_INLINE_FUNCTION void observe(const double* in, const double* data, double* observed) const {
-    double projection[Tool::numUnknowns];
-    project(in, data, projection);
-    observed[0] = projection[0];
-    observed[1] = pressure.eta * std::expm1(in[1]);
-    if constexpr (numToolData > 0)
-      if (tool.carries(data + toolData) == 0) {
-        observed[0] = std::numeric_limits<double>::infinity();
-        observed[1] = 0;
-      }
-  }
-
-  /// The place (x), or (x, load factor), of a point with these inputs and data.
-  template <class T>
-  KOKKOS_INLINE_FUNCTION static void placeOf(const T* in, const taylor::Passive<T>* data, T* place) {
-    for (int i = 0; i < 3; ++i) place[i] = in[2 * i] + data[1 + i];
-    if constexpr (numPlace == 4) place[3] = in[6];
-  }
-
-  void validate() const {
-    tool.validate();
-    pressure.validate();
-  }
-
- private:
-  template <class T>
-  KOKKOS_INLINE_FUNCTION void project(const T* in, const taylor::Passive<T>* data, T* projection) const {
-    T place[numPlace];
-    placeOf(in, data, place);
-    for (int i = 0; i < Tool::numUnknowns; ++i) projection[i] = T(0.0);
-    if constexpr (numToolData > 0) {
-      taylor::solveImplicit<numPlace, Tool::numUnknowns, numToolData>(tool, static_cast<const T*>(place),
-                                                                      data + toolData, projection);
-      const taylor::Passive<T> on = tool.carries(data + toolData);
-      projection[0] = projection[0] * on + (1.0 - on) * data[0];
-    } else {
-      taylor::solveImplicit<numPlace, Tool::numUnknowns>(tool, place, projection);
-    }
-  }
-};
 
 /// The points' nodes and parameters of contact with its curve as unknown, and their data but for the tool's.
 struct CurvePoints {
@@ -115,8 +32,8 @@ void addCurveContact(fem::FeModel& model, const fem::PointSet& points, const Too
   tool.validate();
   using Law = CurveContactLaw<Tool>;
   const CurvePoints curves = withCurves(model, points, pressure, gaps);
-  model.terms.push_back(std::make_unique<fem::LawTerm<Law, fem::DisplacementAndUnknown>>(
-      Law{tool, pressure}, fem::withUnknowns(curves.points), curves.data));
+  model.terms.push_back(
+      fem::lawTerm(fem::pointLaw(Law{tool, pressure}), fem::withUnknowns(curves.points), curves.data));
 }
 
 /// The same with a set of patches, at rest (PatchTool) or moving (MovingTool<PatchTool>).
@@ -134,8 +51,8 @@ void addCurveContact(fem::FeModel& model, const fem::PointSet& points, const Pat
   const auto pieces =
       search.pieces(Law::numInputs, Law::toolData,
                     [](const double* in, const double* own, double* x) { Law::placeOf(in, own, x); });
-  model.terms.push_back(std::make_unique<fem::LawTerm<Law, fem::DisplacementAndUnknown>>(
-      Law{search.tool, pressure}, fem::withUnknowns(curves.points), data, pieces));
+  model.terms.push_back(fem::lawTerm(fem::pointLaw(Law{search.tool, pressure}),
+                                     fem::withUnknowns(curves.points), data, pieces));
 }
 
 }  // namespace atrapos::contact

@@ -1,7 +1,7 @@
 #pragma once
 
 #include <Kokkos_Macros.hpp>
-#include <Sacado.hpp>
+#include <Sacado_Fad_SFad.hpp>
 #include <cmath>
 #include <string>
 

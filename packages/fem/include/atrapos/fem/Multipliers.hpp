@@ -30,13 +30,8 @@ UnilateralPoints withCornerMultipliers(FeModel& model, const PointSet& faces);
 /// The corner nodes of these faces in the order of their multipliers: as the faces come to them.
 std::vector<int> cornersOf(const PointSet& faces);
 
-/// Law input (u_x, y_x, u_y, y_y, u_z, y_z): displacement at the point and the dofs of its multiplier's node.
-struct DisplacementAndUnknown {
-  static constexpr int components = 2;
-  static constexpr int numInputs = 6;
-};
-
-/// Points of withMultipliers with the shape components of DisplacementAndUnknown.
+/// Points of withMultipliers with two shape components: the inputs of a law are (u_x, y_x, u_y, y_y, u_z,
+/// y_z), displacement at the point and dofs of its multiplier's node.
 PointSet withUnknowns(PointSet points);
 
 }  // namespace atrapos::fem

@@ -28,7 +28,6 @@ namespace atrapos::solid {
 /// the second Piola-Kirchhoff stress of the Green-Lagrange strain, Cartesian components.
 template <class Material>
 struct AssumedShearLaw {
-  static constexpr int components = 4;  ///< vectors at a point
   static constexpr int numInputs = 13, numOutputs = 13, numData = 24;
   static constexpr bool symmetric = Material::symmetric;
 
@@ -41,18 +40,6 @@ struct AssumedShearLaw {
     const ShellBase<T> f = shellForces(h, S, data, data + 12);
     f.store(out);
     out[12] = projection(S, data + 21);
-  }
-
-  /// s alone: what the enhanced parameters' own equation needs.
-  template <class T>
-  KOKKOS_INLINE_FUNCTION T enhancedStress(const T* in, const taylor::Passive<T>* data) const {
-    return projection(stress(ShellBase<T>(in), in[12], data), data + 21);
-  }
-
-  /// Strain per unit of e.
-  KOKKOS_INLINE_FUNCTION double enhancedStrainSize(const double* data) const {
-    const double* g = data + 21;
-    return g[0] * g[0] + g[1] * g[1] + g[2] * g[2];
   }
 
   static constexpr int numObserved = 6;

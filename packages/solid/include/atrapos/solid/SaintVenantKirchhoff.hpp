@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "atrapos/solid/Material.hpp"
 #include "atrapos/solid/Strain.hpp"
 #include "atrapos/taylor/Law.hpp"
 
@@ -60,3 +61,5 @@ struct SaintVenantKirchhoff {
 };
 
 }  // namespace atrapos::solid
+
+ATRAPOS_DECLARE_MATERIAL(atrapos::solid::SaintVenantKirchhoff)

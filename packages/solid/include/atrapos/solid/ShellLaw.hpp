@@ -23,7 +23,6 @@ namespace atrapos::solid {
 /// the second Piola-Kirchhoff stress of the Green-Lagrange strain.
 template <class Material>
 struct ShellLaw {
-  static constexpr int components = 3;  ///< of a shape function's gradient
   static constexpr int numInputs = 10, numOutputs = 10, numData = 3;
   static constexpr bool symmetric = Material::symmetric;
 
@@ -43,17 +42,6 @@ struct ShellLaw {
     const taylor::Matrix3<T> P = full(S) + H * S;
     P.store(out);
     out[9] = projection(S, g);
-  }
-
-  /// s alone: what the enhanced parameters' own equation needs.
-  template <class T>
-  KOKKOS_INLINE_FUNCTION T enhancedStress(const T* in, const taylor::Passive<T>* g) const {
-    return projection(stress(taylor::Matrix3<T>(in), in[9], g), g);
-  }
-
-  /// Strain per unit of e.
-  KOKKOS_INLINE_FUNCTION double enhancedStrainSize(const double* g) const {
-    return g[0] * g[0] + g[1] * g[1] + g[2] * g[2];
   }
 
   static constexpr int numObserved = 6;

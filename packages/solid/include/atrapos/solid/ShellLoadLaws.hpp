@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "atrapos/fem/PointLaw.hpp"
 #include "atrapos/taylor/Law.hpp"
 
 /// Laws of loads that follow a shell; their terms are made by ShellLoads.hpp (docs/theory/shell.md, "Loads").
@@ -19,18 +20,6 @@ struct LoadAmount {
   KOKKOS_INLINE_FUNCTION T at(const T& lambda) const {
     return rate * lambda + constant;
   }
-};
-
-/// Operator of a surface zeta = const: x, x_xi, x_eta without their undeformed parts. Inputs [i][3].
-struct SurfaceFrame {
-  static constexpr int components = 3;
-  static constexpr int numInputs = 9;
-};
-
-/// Operator of an edge: v, v_s, w. Inputs [i][3].
-struct EdgeFrame {
-  static constexpr int components = 3;
-  static constexpr int numInputs = 9;
 };
 
 namespace detail {
@@ -68,10 +57,6 @@ struct FollowerPressure {
       for (int c = 1; c < 3; ++c) out[3 * i + c] = 0.0;
     }
   }
-
-  static constexpr int numObserved = 0;
-  static std::vector<std::string> observedNames() { return {}; }
-  KOKKOS_INLINE_FUNCTION void observe(const double*, const double*, double*) const {}
 };
 
 /// Forces and a moment per undeformed length of an edge that turn with it. Frame: tangent t of the deformed
@@ -106,10 +91,6 @@ struct FollowerEdgeLoad {
       out[3 * i + 2] = -(couple * b[i]);
     }
   }
-
-  static constexpr int numObserved = 0;
-  static std::vector<std::string> observedNames() { return {}; }
-  KOKKOS_INLINE_FUNCTION void observe(const double*, const double*, double*) const {}
 };
 
 /// A moment vector per undeformed length of an edge that keeps its direction: the couple (m x d)/(d.d) on the
@@ -134,10 +115,10 @@ struct DeadEdgeMoment {
       out[3 * i + 2] = -(c[i] / d2);
     }
   }
-
-  static constexpr int numObserved = 0;
-  static std::vector<std::string> observedNames() { return {}; }
-  KOKKOS_INLINE_FUNCTION void observe(const double*, const double*, double*) const {}
 };
 
 }  // namespace atrapos::solid
+
+ATRAPOS_DECLARE_POINT_LAW(atrapos::solid::FollowerPressure)
+ATRAPOS_DECLARE_POINT_LAW(atrapos::solid::FollowerEdgeLoad)
+ATRAPOS_DECLARE_POINT_LAW(atrapos::solid::DeadEdgeMoment)

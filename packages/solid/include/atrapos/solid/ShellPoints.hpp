@@ -3,8 +3,6 @@
 #include <vector>
 
 #include "atrapos/fem/EnhancedTerm.hpp"
-#include "atrapos/solid/AssumedShearLaw.hpp"
-#include "atrapos/solid/ShellLaw.hpp"
 
 namespace atrapos::solid {
 
@@ -36,24 +34,16 @@ struct ShellCubature {
 /// Parameters of the enhanced thickness strain: beta in span{1, xi, eta, xi eta}.
 constexpr int numShellParameters = 4;
 
-/// Term of a shell with this material.
-template <class Material>
-using ShellTerm = fem::EnhancedTerm<ShellLaw<Material>, numShellParameters>;
-
-/// The same with assumed transverse shear strains: about twice the cost of an element, and no locking of thin
-/// plates that are clamped (docs/theory/shell.md, "Assumed transverse shear").
-template <class Material>
-using AssumedShearTerm = fem::EnhancedTerm<AssumedShearLaw<Material>, numShellParameters>;
-
-/// The cubature points of shell elements: gradients of N_a and zeta N_a with respect to X = R + zeta D,
-/// volume weights, modes zeta {1, xi, eta, xi eta} and the scaled base vector g (docs/theory/shell.md).
-/// Points are in the order [eta][xi][zeta], zeta fastest. Throws std::runtime_error naming the element
-/// (counted from 1) where the Jacobian of X is not positive: the thickness is too large for the curvature, or
-/// the element is turned over or degenerate.
+/// For fem::enhancedTerm with the law ShellLaw<Material>: gradients of N_a and zeta N_a with respect to X = R
+/// + zeta D, volume weights, modes zeta {1, xi, eta, xi eta} and the scaled base vector g
+/// (docs/theory/shell.md). Points are in the order [eta][xi][zeta], zeta fastest. Throws std::runtime_error
+/// naming the element (counted from 1) where the Jacobian of X is not positive: the thickness is too large
+/// for the curvature, or the element is turned over or degenerate.
 fem::EnhancedPoints shellPoints(const ShellElements& elements, const ShellCubature& cubature = {});
 
-/// The same for AssumedShearLaw: shape functions of the four vectors x_,xi, x_,eta, d_1, d_2, and the law's
-/// data.
+/// The same for AssumedShearLaw<Material>: about twice the cost of an element, and no locking of thin plates
+/// that are clamped (docs/theory/shell.md, "Assumed transverse shear"). Shape functions of the four vectors
+/// x_,xi, x_,eta, d_1, d_2, and the law's data.
 fem::EnhancedPoints assumedShearPoints(const ShellElements& elements, const ShellCubature& cubature = {});
 
 }  // namespace atrapos::solid

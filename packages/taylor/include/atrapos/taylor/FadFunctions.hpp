@@ -1,6 +1,6 @@
 #pragma once
 
-#include <Sacado.hpp>
+#include <Sacado_Fad_SFad.hpp>
 #include <cmath>
 #include <type_traits>
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <Sacado.hpp>
+#include <Sacado_Fad_SFad.hpp>
 #include <cstddef>
 #include <vector>
 
@@ -122,21 +122,29 @@ KOKKOS_FORCEINLINE_FUNCTION void sweepKnown(const Law& law, Context<L>& context,
   detail::execute<Execution<L, Pass::Sweep>, true>(law, context, in, data, out);
 }
 
-/// out = law(in) and jacobian[i * numInputs + j] = d out[i] / d in[j] at L points: order 0, then the linear
-/// response to each unit vector (docs/theory/taylor.md, Tangents in lanes). context.memory holds
-/// shape.doubles<L>(0) doubles; the order is ignored. On a kink (abs, min, max) one side's, as with Fad
+/// After `start` with context.plain: out[i] = d out[i] / d in[column] at L points, the linear response to a
+/// unit vector (docs/theory/taylor.md, Tangents in lanes). On a kink (abs, min, max) one side's, as with Fad
 /// types.
+template <int L, class Law>
+KOKKOS_INLINE_FUNCTION void tangentColumn(const Law& law, Context<L>& context, int column,
+                                          const Lanes<L>* data, Lanes<L>* out) {
+  Lanes<L> unit[Law::numInputs];
+  for (int i = 0; i < Law::numInputs; ++i) unit[i] = i == column ? 1.0 : 0.0;
+  context.order = 1;
+  detail::execute<Execution<L, Pass::Linear>, true>(law, context, unit, data, out);
+}
+
+/// out = law(in) and jacobian[i * numInputs + j] = d out[i] / d in[j] at L points. context.memory holds
+/// shape.doubles<L>(0) doubles; the order is ignored.
 template <int L, class Law>
 KOKKOS_INLINE_FUNCTION void tangent(const Law& law, Context<L> context, const Lanes<L>* in,
                                     const Lanes<L>* data, Lanes<L>* out, Lanes<L>* jacobian) {
   context.plain = true;
   context.order = 0;
   start(law, context, in, data, out);
-  context.order = 1;
   for (int j = 0; j < Law::numInputs; ++j) {
-    Lanes<L> unit[Law::numInputs], column[Law::numOutputs];
-    for (int i = 0; i < Law::numInputs; ++i) unit[i] = i == j ? 1.0 : 0.0;
-    detail::execute<Execution<L, Pass::Linear>, true>(law, context, unit, data, column);
+    Lanes<L> column[Law::numOutputs];
+    tangentColumn(law, context, j, data, column);
     for (int i = 0; i < Law::numOutputs; ++i) jacobian[i * Law::numInputs + j] = column[i];
   }
 }

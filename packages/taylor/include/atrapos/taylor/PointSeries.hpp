@@ -46,7 +46,7 @@ class PointSeries {
     maxOrder_ = maxOrder;
     next_ = 1;
     memory_.resize(groups() * stride_);  // kept from series to series
-    Lanes<L> in[Law::numInputs], out[Law::numOutputs], data[Law::numData + 1];
+    Lanes<L> in[Law::numInputs], out[Law::numOutputs], data[Law::numData + 1] = {};
     for (int g = 0; g < groups(); ++g) {
       Failures<L> failures;
       Context<L> context = at(g, 0);
@@ -72,7 +72,7 @@ class PointSeries {
       throw std::invalid_argument("PointSeries: order " + std::to_string(k) + " asked for, order " +
                                   std::to_string(next_) + " of " + std::to_string(maxOrder_) + " is next");
     ++next_;
-    Lanes<L> in[Law::numInputs], out[Law::numOutputs], data[Law::numData + 1];
+    Lanes<L> in[Law::numInputs], out[Law::numOutputs], data[Law::numData + 1] = {};
     for (int g = 0; g < groups(); ++g) {
       load(g, gather, in, data, k > 1);
       if (k > 1) {

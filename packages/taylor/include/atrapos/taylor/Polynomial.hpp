@@ -61,7 +61,7 @@ std::vector<Polynomial> polynomials(const Law& law, const std::vector<Polynomial
   std::vector<double> memory(context.shape.template doubles<1>(static_cast<int>(length) - 1));
   context.memory = memory.data();
   context.failures = &failures;
-  Lanes<1> x[n], d[Law::numData + 1], y[m];
+  Lanes<1> x[n], d[Law::numData + 1] = {}, y[m];
   for (int j = 0; j < Law::numData; ++j) d[j] = data[j];
   std::vector<std::vector<double>> out(m);
   for (std::size_t k = 0; k < length; ++k) {

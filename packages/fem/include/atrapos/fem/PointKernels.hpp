@@ -1,0 +1,161 @@
+#pragma once
+
+#include "atrapos/fem/PointLaw.hpp"
+#include "atrapos/taylor/Law.hpp"
+
+namespace atrapos::fem::detail {
+
+/// A law's passes over a batch of points, compiled for one instruction set.
+struct PointKernels {
+  void (*value)(const void* law, const taylor::HistoryShape&, const PointBatch&, const double* in,
+                double* out);
+  /// By the inputs first .. first + count - 1.
+  void (*tangent)(const void* law, const taylor::HistoryShape&, const PointBatch&, int first, int count,
+                  const double* in, double* out, double* jacobian);
+  void (*start)(const void* law, const taylor::HistoryShape&, const PointBatch&, int maxOrder,
+                const double* in, double* out, PointFailure& failure);
+  void (*order)(const void* law, const taylor::HistoryShape&, const PointBatch&, const SeriesOrder&,
+                const double* last, double* out);
+};
+
+/// Those of a law for L lanes: defined where they are compiled.
+template <class Law, int L>
+struct PointKernelsOf {
+  static PointKernels table();
+};
+
+#ifndef ATRAPOS_KERNEL_LEVELS
+/// Nothing but arithmetic on the caller's arrays: what is compiled for another instruction set than the rest
+/// of the program must share no function with it.
+template <class Law, int L>
+struct PointPasses {
+  using Pack = taylor::Lanes<L>;
+  static constexpr int I = Law::numInputs, O = Law::numOutputs, D = Law::numData;
+  static constexpr int groups = kLanes / L;  ///< of L lanes, in a batch
+  static_assert(kLanes % L == 0, "a batch is a number of whole registers");
+
+  /// `count` entries of L lanes from or to [entry][kLanes].
+  static KOKKOS_FORCEINLINE_FUNCTION void load(const double* from, int count, Pack* to) {
+    for (int m = 0; m < count; ++m) to[m] = Pack::load(from + m * kLanes);
+  }
+  static KOKKOS_FORCEINLINE_FUNCTION void store(const Pack* from, int count, double* to) {
+    for (int m = 0; m < count; ++m) from[m].store(to + m * kLanes);
+  }
+  static KOKKOS_FORCEINLINE_FUNCTION void loadData(const PointBatch& points, int q, int s, Pack* data) {
+    if constexpr (D > 0)
+      load(points.data + q * D * kLanes + s, D, data);
+    else
+      data[0] = Pack(0.0);  // never read
+  }
+
+  static KOKKOS_FORCEINLINE_FUNCTION taylor::Context<L> scratch(const taylor::HistoryShape& shape,
+                                                                double* memory) {
+    taylor::Context<L> c;
+    c.memory = memory;
+    c.shape = shape;
+    c.plain = true;
+    return c;
+  }
+
+  // The law at order 0 stands here alone.
+  ATRAPOS_NOINLINE static void evaluate(const Law& law, taylor::Context<L>& context, const Pack* in,
+                                        const Pack* data, Pack* out) {
+    taylor::start(law, context, in, data, out);
+  }
+
+  static void value(const void* law, const taylor::HistoryShape& shape, const PointBatch& points,
+                    const double* in, double* out) {
+    for (int q = 0; q < points.numPoints; ++q)
+      for (int s = 0; s < points.lanes; s += L) {
+        Pack x[I], y[O], data[D + 1];
+        load(in + q * I * kLanes + s, I, x);
+        loadData(points, q, s, data);
+        auto context = scratch(shape, points.memory);
+        evaluate(*static_cast<const Law*>(law), context, x, data, y);
+        store(y, O, out + q * O * kLanes + s);
+      }
+  }
+
+  static void tangent(const void* law, const taylor::HistoryShape& shape, const PointBatch& points, int first,
+                      int count, const double* in, double* out, double* jacobian) {
+    for (int q = 0; q < points.numPoints; ++q)
+      for (int s = 0; s < points.lanes; s += L) {
+        Pack x[I], y[O], data[D + 1];
+        load(in + q * I * kLanes + s, I, x);
+        loadData(points, q, s, data);
+        auto context = scratch(shape, points.memory);
+        evaluate(*static_cast<const Law*>(law), context, x, data, y);
+        store(y, O, out + q * O * kLanes + s);
+        for (int j = 0; j < count; ++j) {
+          taylor::tangentColumn(*static_cast<const Law*>(law), context, first + j, data, y);
+          for (int i = 0; i < O; ++i) y[i].store(jacobian + ((q * O + i) * count + j) * kLanes + s);
+        }
+      }
+  }
+
+  static taylor::Context<L> series(const taylor::HistoryShape& shape, const PointBatch& points, int q, int s,
+                                   const SeriesOrder& order, int k) {
+    const auto doubles =
+        static_cast<std::ptrdiff_t>((static_cast<std::size_t>(shape.slots) * (order.maxOrder + 1) +
+                                     shape.constants + static_cast<std::size_t>(shape.sums) * order.waiting) *
+                                    L);
+    taylor::Context<L> c;
+    c.memory = points.memory + (q * groups + s / L) * doubles;
+    c.shape = shape;
+    c.order = k;
+    c.block = order.block;
+    c.waiting = order.waiting;
+    c.ahead = doubles;
+    return c;
+  }
+
+  static void start(const void* law, const taylor::HistoryShape& shape, const PointBatch& points,
+                    int maxOrder, const double* in, double* out, PointFailure& first) {
+    const SeriesOrder order = seriesOrder(0, maxOrder);
+    for (int q = 0; q < points.numPoints; ++q)
+      for (int s = 0; s < points.lanes; s += L) {
+        Pack x[I], y[O], data[D + 1];
+        load(in + q * I * kLanes + s, I, x);
+        loadData(points, q, s, data);
+        taylor::Failures<L> noted;
+        auto context = series(shape, points, q, s, order, 0);
+        context.failures = &noted;
+        evaluate(*static_cast<const Law*>(law), context, x, data, y);
+        store(y, O, out + q * O * kLanes + s);
+        for (int lane = 0; lane < L && s + lane < points.lanes && first.lane < 0; ++lane)
+          for (int m = 0; m < O; ++m)
+            if (y[m][lane] != y[m][lane]) {
+              const bool named = noted.operation[lane] != taylor::Operation::None;
+              first = {s + lane, q, named ? noted.operation[lane] : taylor::Operation::Result,
+                       noted.value[lane]};
+              break;
+            }
+      }
+  }
+
+  static void order(const void* law, const taylor::HistoryShape& shape, const PointBatch& points,
+                    const SeriesOrder& order, const double* last, double* out) {
+    for (int q = 0; q < points.numPoints; ++q)
+      for (int s = 0; s < points.lanes; s += L) {
+        Pack x[I], y[O], data[D + 1];
+        loadData(points, q, s, data);
+        if (order.k > 1) {
+          load(last + q * I * kLanes + s, I, x);
+          auto previous = series(shape, points, q, s, order, order.k - 1);
+          taylor::complete(*static_cast<const Law*>(law), previous, x, data);
+        }
+        auto context = series(shape, points, q, s, order, order.k);
+        taylor::sweep(*static_cast<const Law*>(law), context, data, y);
+        store(y, O, out + q * O * kLanes + s);
+      }
+  }
+};
+
+template <class Law, int L>
+PointKernels PointKernelsOf<Law, L>::table() {
+  using Passes = PointPasses<Law, L>;
+  return {Passes::value, Passes::tangent, Passes::start, Passes::order};
+}
+#endif
+
+}  // namespace atrapos::fem::detail

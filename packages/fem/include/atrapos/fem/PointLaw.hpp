@@ -1,0 +1,93 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "atrapos/taylor/Context.hpp"
+
+namespace atrapos::fem {
+
+/// Entities of a batch: their numbers lie side by side, [...][lane], the same on every machine. Laws and
+/// loops work through them in as many lanes at a time as a register holds.
+constexpr int kLanes = 8;
+
+/// Points that a law works on in one call: those of a batch of entities.
+struct PointBatch {
+  int numPoints = 0;             ///< of each entity
+  int lanes = 0;                 ///< entities there are, 1..kLanes; what the others hold does not matter
+  const double* data = nullptr;  ///< [point][datum][lane]
+  double* memory = nullptr;      ///< what each call says; aligned to 16 bytes
+};
+
+/// Order k of series of orders up to maxOrder, with what all points share.
+struct SeriesOrder {
+  int k = 0, maxOrder = 0;
+  taylor::OrderBlock block;
+  int waiting = 0;
+};
+/// k = 0 (start) to maxOrder.
+SeriesOrder seriesOrder(int k, int maxOrder);
+
+/// A point where a law has no Taylor series.
+struct PointFailure {
+  int lane = -1, point = 0;  ///< -1: none
+  taylor::Operation operation = taylor::Operation::None;
+  double value = 0;
+};
+
+/// What a law (taylor/Law.hpp) is to element loops. All arrays are [point][entry][lane].
+struct LawShape {
+  int inputs = 0, outputs = 0;
+  int data = 0;            ///< passive numbers a point
+  bool symmetric = false;  ///< d out/d in is
+  int observed = 0;        ///< named values
+};
+
+/// A law in batches of points: compiled once, whatever loops it stands in. Virtual once a batch.
+class PointLaw {
+ public:
+  virtual ~PointLaw() = default;
+
+  virtual LawShape shape() const = 0;
+  /// Doubles that the series of kLanes points keep; with maxOrder = 0 what `value` and the tangents need as
+  /// scratch memory, once for all points.
+  virtual std::size_t historyDoubles(int maxOrder) const = 0;
+
+  /// out = law(in). memory: historyDoubles(0) of scratch.
+  virtual void value(const PointBatch& points, const double* in, double* out) const = 0;
+  /// The same and jacobian [point][output][input][lane].
+  virtual void tangent(const PointBatch& points, const double* in, double* out, double* jacobian) const = 0;
+  /// The same by one input alone: derivative [point][output][lane].
+  virtual void derivative(const PointBatch& points, int input, const double* in, double* out,
+                          double* derivative) const = 0;
+
+  /// Order 0 of a series. memory: numPoints times historyDoubles(maxOrder), kept from order to order. Notes
+  /// the first point without a series.
+  virtual void start(const PointBatch& points, int maxOrder, const double* in, double* out,
+                     PointFailure& failure) const = 0;
+  /// Makes order k - 1 that of the inputs `last` (not read for k = 1), then out = order k with coefficient k
+  /// of the inputs taken as zero: in one visit, so that histories are read from memory once an order.
+  virtual void order(const PointBatch& points, const SeriesOrder& order, const double* last,
+                     double* out) const = 0;
+
+  /// Names of the values that the law shows at its points.
+  virtual std::vector<std::string> observedNames() const = 0;
+  /// These values at one point: in [input], data [datum], values [name].
+  virtual void observe(const double* in, const double* data, double* values) const = 0;
+  /// Whether there is something for the law to act on at a point with these data (patches: whether it is over
+  /// one).
+  virtual bool exists(const double* data) const = 0;
+};
+
+/// The law in batches. Defined for a law in PointLawOf.hpp; laws of the packages are compiled there, for
+/// every instruction set that the program is for, and their headers say so (ATRAPOS_DECLARE_POINT_LAW).
+template <class Law>
+std::unique_ptr<PointLaw> pointLaw(const Law& law);
+
+}  // namespace atrapos::fem
+
+/// In the header of a law whose source has ATRAPOS_POINT_LAW; outside of namespaces.
+#define ATRAPOS_DECLARE_POINT_LAW(...) \
+  extern template std::unique_ptr<atrapos::fem::PointLaw> atrapos::fem::pointLaw(const __VA_ARGS__&);

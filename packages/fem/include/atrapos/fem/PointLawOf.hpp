@@ -1,0 +1,125 @@
+#pragma once
+
+#include <type_traits>
+#include <utility>
+
+#include "atrapos/fem/PointKernels.hpp"
+#include "atrapos/fem/PointLaw.hpp"
+#include "atrapos/fem/Processor.hpp"
+
+/// A law written as a template (taylor/Law.hpp) as a PointLaw. It may show named values through
+///     static constexpr int numObserved;  static std::vector<std::string> observedNames();
+///     void observe(const double* in, const double* data, double* observed) const;
+/// says `static constexpr bool symmetric` when d out/d in is symmetric, and, where it may have nothing to act
+/// on at a point, bool exists(const double* data) const.
+///
+/// A source with one line for each law, ATRAPOS_POINT_LAW(Law), compiles it (outside of namespaces).
+namespace atrapos::fem {
+
+namespace detail {
+template <class Law, class = void>
+struct NumObserved : std::integral_constant<int, 0> {};
+template <class Law>
+struct NumObserved<Law, std::void_t<decltype(Law::numObserved)>>
+    : std::integral_constant<int, Law::numObserved> {};
+
+template <class Law, class = void>
+struct HasNames : std::false_type {};
+template <class Law>
+struct HasNames<Law, std::void_t<decltype(Law::observedNames())>> : std::true_type {};
+
+template <class Law, class = void>
+struct HasExists : std::false_type {};
+template <class Law>
+struct HasExists<Law, std::void_t<decltype(std::declval<const Law&>().exists((const double*)nullptr))>>
+    : std::true_type {};
+
+/// The law's kernels for the instruction set that this program uses here.
+template <class Law>
+PointKernels kernelsHere() {
+#ifdef ATRAPOS_KERNEL_LEVELS
+  switch (processorLanes()) {
+    case 8:
+      return PointKernelsOf<Law, 8>::table();
+    case 4:
+      return PointKernelsOf<Law, 4>::table();
+    default:
+      return PointKernelsOf<Law, 2>::table();
+  }
+#else
+  return PointKernelsOf<Law, taylor::nativeLanes>::table();
+#endif
+}
+}  // namespace detail
+
+template <class Law>
+class PointLawOf final : public PointLaw {
+ public:
+  explicit PointLawOf(const Law& law)
+      : law_(law), histories_(taylor::historyShape(law)), kernels_(detail::kernelsHere<Law>()) {}
+
+  LawShape shape() const override {
+    return {Law::numInputs, Law::numOutputs, Law::numData, Law::symmetric, detail::NumObserved<Law>::value};
+  }
+  std::size_t historyDoubles(int maxOrder) const override { return histories_.doubles<kLanes>(maxOrder); }
+
+  void value(const PointBatch& points, const double* in, double* out) const override {
+    kernels_.value(&law_, histories_, points, in, out);
+  }
+  void tangent(const PointBatch& points, const double* in, double* out, double* jacobian) const override {
+    kernels_.tangent(&law_, histories_, points, 0, Law::numInputs, in, out, jacobian);
+  }
+  void derivative(const PointBatch& points, int input, const double* in, double* out,
+                  double* derivative) const override {
+    kernels_.tangent(&law_, histories_, points, input, 1, in, out, derivative);
+  }
+  void start(const PointBatch& points, int maxOrder, const double* in, double* out,
+             PointFailure& failure) const override {
+    kernels_.start(&law_, histories_, points, maxOrder, in, out, failure);
+  }
+  void order(const PointBatch& points, const SeriesOrder& order, const double* last,
+             double* out) const override {
+    kernels_.order(&law_, histories_, points, order, last, out);
+  }
+
+  std::vector<std::string> observedNames() const override {
+    if constexpr (detail::HasNames<Law>::value)
+      return Law::observedNames();
+    else
+      return {};
+  }
+  void observe([[maybe_unused]] const double* in, [[maybe_unused]] const double* data,
+               [[maybe_unused]] double* values) const override {
+    if constexpr (detail::NumObserved<Law>::value > 0) law_.observe(in, data, values);
+  }
+  bool exists([[maybe_unused]] const double* data) const override {
+    if constexpr (detail::HasExists<Law>::value)
+      return law_.exists(data);
+    else
+      return true;
+  }
+
+ private:
+  Law law_;
+  taylor::HistoryShape histories_;
+  detail::PointKernels kernels_;
+};
+
+template <class Law>
+std::unique_ptr<PointLaw> pointLaw(const Law& law) {
+  return std::make_unique<PointLawOf<Law>>(law);
+}
+
+}  // namespace atrapos::fem
+
+// A source with kernels is compiled once without a level, for all but the kernels, and once for each level
+// with ATRAPOS_KERNEL_LEVEL, for the kernels alone (cmake/AtraposKernels.cmake); or once for both, for one
+// instruction set.
+#if defined(ATRAPOS_KERNEL_LEVEL)
+#define ATRAPOS_POINT_LAW(...)                \
+  template atrapos::fem::detail::PointKernels \
+  atrapos::fem::detail::PointKernelsOf<__VA_ARGS__, atrapos::taylor::nativeLanes>::table();
+#else
+#define ATRAPOS_POINT_LAW(...) \
+  template std::unique_ptr<atrapos::fem::PointLaw> atrapos::fem::pointLaw(const __VA_ARGS__&);
+#endif

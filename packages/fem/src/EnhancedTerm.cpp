@@ -1,0 +1,307 @@
+#include "atrapos/fem/EnhancedTerm.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "EnhancedParameters.hpp"
+#include "LawArrays.hpp"
+#include "atrapos/taylor/Domain.hpp"
+
+namespace atrapos::fem {
+namespace {
+
+class EnhancedTerm final : public Term {
+ public:
+  EnhancedTerm(std::unique_ptr<PointLaw> law, const EnhancedPoints& p)
+      : a_(std::move(law), p.points, p.data), I_(a_.elements.inputs()), M_(p.numParameters), modes_(p.modes) {
+    const std::size_t Q = view().Q, J = I_ + 1;
+    if (a_.shape.inputs != I_ + 1 || a_.shape.outputs != I_ + 1)
+      throw std::logic_error("enhancedTerm: the law's inputs and outputs are vectors and one strain");
+    if (M_ < 1 || M_ > kMaxParameters || modes_.size() != Q * M_ ||
+        p.strain.size() != static_cast<std::size_t>(p.points.numPoints()))
+      throw std::logic_error("enhancedTerm: wrong number of parameters, modes or strains");
+    strain_ = a_.elements.packed(p.strain, Q);
+    const std::size_t dofs = 3 * view().N * kLanes, rank = M_;
+    a_.allocateScratch(dofs * (1 + 2 * rank) + a_.perBatch(3 * J + J * J) + 3 * rank * rank * kLanes);
+    makeWorkspace();
+  }
+
+  int numEntities() const override { return view().numEntities; }
+  int nodesPerEntity() const override { return view().N; }
+  const std::vector<int>& nodes() const override { return a_.elements.nodes(); }
+  bool symmetric() const override { return a_.shape.symmetric; }
+  bool seesLoadFactor() const override { return false; }
+  std::size_t historyBytes(int maxOrder) const override { return a_.historyBytes(maxOrder); }
+
+  void keep(const TermPart& part) override {
+    strain_ = ElementArrays::packedOf(part, strain_.data(), view().Q);
+    a_.keep(part);
+    makeWorkspace();
+  }
+
+  void setPositions(const std::vector<int>& positions) override { a_.elements.setPositions(positions); }
+
+  double addResidual(const ConstField& u, double, const Field& f) const override {
+    std::vector<double> squares(batches().count);
+    forEachBatch("residual", batches(), [&](int b) {
+      const ThreadMemory::Held held(a_.memory());
+      const Scratch s(*this, held);
+      inputs(b, u, held, s);
+      a_.law->value(a_.batch(b, a_.data(), held.data()), s.in, s.out);
+      kernels().forces(view(), b, s.out, I_ + 1, true, zero(s.force, 3 * view().N));
+      kernels().scatter(view(), b, s.force, f.data());
+      squares[b] = a_.elements.squares(b, 3 * view().N, s.force);
+    });
+    return sumOf(squares);
+  }
+
+  void addTangent(const ConstField& u, double, const TangentSink& sink) const override {
+    const BlockSink blocks{sink.rowStart.data(), sink.values.data()};
+    forEachBatch("tangent", batches(), [&](int b) {
+      const ThreadMemory::Held held(a_.memory());
+      const Scratch s(*this, held);
+      inputs(b, u, held, s);
+      double* byE = s.out;  // [q][I + 1][lane], its last row unused
+      double* byh = s.in;   // the same, once the inputs were read
+      linearize(b, held, s, byE, byh, s.inverse);
+      // K_ub and -K_bb^-1 K_bu by dof, [dof][parameter].
+      const int N3 = 3 * view().N;
+      zero(s.left, N3 * M_);
+      zero(s.right, N3 * M_);
+      for (int j = 0; j < M_; ++j) {
+        kernels().forces(view(), b, scaled(byE, j, s.product), I_ + 1, false, zero(s.force, N3));
+        for (int n = 0; n < N3; ++n) copy(s.force + n * kLanes, s.left + (n * M_ + j) * kLanes);
+        kernels().forces(view(), b, scaled(byh, j, s.product), I_ + 1, false, zero(s.force, N3));
+        for (int n = 0; n < N3; ++n)
+          for (int k = 0; k < M_; ++k)
+            subtractProduct(s.inverse + (k * M_ + j) * kLanes, s.force + n * kLanes,
+                            s.right + (n * M_ + k) * kLanes);
+      }
+      kernels().moduli(view(), b, s.jacobian, I_ + 1, I_ + 1, s.jacobian);
+      kernels().blocks(view(), b, s.jacobian, a_.shape.symmetric, {M_, s.left, s.right, nullptr}, blocks);
+    });
+  }
+
+  void beginSeries(const ConstField& u, double, int maxOrder) override {
+    a_.reserveHistory(maxOrder);
+    std::vector<PointFailure> failures(batches().count);
+    forEachBatch("beginSeries", batches(), [&](int b) {
+      const ThreadMemory::Held held(a_.memory());
+      const Scratch s(*this, held);
+      inputs(b, u, held, s);
+      std::copy_n(s.in, a_.perBatch(I_ + 1), s.product);
+      linearize(b, held, s, &dfde_[b * a_.perBatch(I_ + 1)], &dsdh_[b * a_.perBatch(I_ + 1)],
+                &inverse_[static_cast<std::size_t>(b) * M_ * M_ * kLanes]);
+      a_.start(b, a_.data(), s.product, s.out, failures[b]);
+    });
+    const std::string unsolved = failure();
+    if (!unsolved.empty())
+      throw taylor::DomainError(taylor::Operation::Result, std::numeric_limits<double>::quiet_NaN(),
+                                unsolved);
+    a_.throwFirst(failures);
+  }
+
+  // f_k - K_ub K_bb^-1 g_k, after the histories of order k - 1 became those of the true (U, beta).
+  void addOrder(int k, const ConstField& last, double, const Field& f) override {
+    const SeriesOrder order = seriesOrder(k, a_.maxOrder());
+    forEachBatch("addOrder", batches(), [&](int b) {
+      const ThreadMemory::Held held(a_.memory());
+      const Scratch s(*this, held);
+      double* g = &g_[static_cast<std::size_t>(b) * M_ * kLanes];
+      if (k > 1) trueInputs(b, last, g, s);
+      a_.law->order(a_.seriesBatch(b, a_.data()), order, s.in, s.out);
+      zero(g, M_);
+      for (int q = 0; q < view().Q; ++q) {
+        double ofStrain[kLanes];
+        product(a_.elements.weights(b) + q * kLanes, s.out + (q * (I_ + 1) + I_) * kLanes, ofStrain);
+        for (int j = 0; j < M_; ++j) addTimes(mode(q, j), ofStrain, g + j * kLanes);
+      }
+      kernels().forces(view(), b, s.out, I_ + 1, true, zero(s.force, 3 * view().N));
+      // What the parameters of this order do to the forces.
+      double beta[kMaxParameters * kLanes];
+      solve(b, g, beta);
+      const double* byE = &dfde_[b * a_.perBatch(I_ + 1)];
+      for (int q = 0; q < view().Q; ++q) {
+        double minusE[kLanes] = {};
+        for (int j = 0; j < M_; ++j) addTimes(-mode(q, j), beta + j * kLanes, minusE);
+        for (int m = 0; m < I_; ++m) {
+          const std::size_t at = (static_cast<std::size_t>(q) * (I_ + 1) + m) * kLanes;
+          product(byE + at, minusE, s.product + at);
+        }
+      }
+      kernels().forces(view(), b, s.product, I_ + 1, false, s.force);
+      kernels().scatter(view(), b, s.force, f.data());
+    });
+  }
+
+  PointValues observe(const ConstField& u, double) const override {
+    const int Q = view().Q, J = I_ + 1;
+    std::vector<double> all(static_cast<std::size_t>(view().numEntities) * Q * J);
+    forEachBatch("inputs", batches(), [&](int b) {
+      const ThreadMemory::Held held(a_.memory());
+      const Scratch s(*this, held);
+      inputs(b, u, held, s);
+      for (int lane = 0; lane < view().lanesIn(b); ++lane)
+        for (int i = 0; i < Q * J; ++i)
+          all[(static_cast<std::size_t>(b) * kLanes + lane) * Q * J + i] = s.in[i * kLanes + lane];
+    });
+    return a_.observe(all, a_.data());
+  }
+
+ private:
+  /// A batch's numbers in a thread's memory.
+  struct Scratch {
+    Scratch(const EnhancedTerm& t, const ThreadMemory::Held& held) {
+      const std::size_t dofs = 3 * t.view().N * kLanes, J = t.I_ + 1, rank = t.M_;
+      force = t.a_.scratchOf(held);
+      left = force + dofs;
+      right = left + dofs * rank;
+      in = right + dofs * rank;
+      out = in + t.a_.perBatch(J);
+      product = out + t.a_.perBatch(J);
+      jacobian = product + t.a_.perBatch(J);
+      inverse = jacobian + t.a_.perBatch(J * J);
+    }
+    double *force, *left, *right, *in, *out, *product, *jacobian, *inverse;
+  };
+
+  // Numbers of all lanes.
+  static double* zero(double* to, std::size_t count) {
+    std::fill_n(to, count * kLanes, 0.0);
+    return to;
+  }
+  static void copy(const double* from, double* to) { std::copy_n(from, kLanes, to); }
+  static void product(const double* a, const double* b, double* to) {
+    for (int l = 0; l < kLanes; ++l) to[l] = a[l] * b[l];
+  }
+  static void addTimes(double factor, const double* a, double* to) {
+    for (int l = 0; l < kLanes; ++l) to[l] += factor * a[l];
+  }
+  static void subtractProduct(const double* a, const double* b, double* to) {
+    for (int l = 0; l < kLanes; ++l) to[l] -= a[l] * b[l];
+  }
+
+  double mode(int q, int j) const { return modes_[q * M_ + j]; }
+
+  /// in[q] = (h, e) with the beta that belongs to the displacements.
+  void inputs(int b, const ConstField& u, const ThreadMemory::Held& held, const Scratch& s) const {
+    kernels().inputs(view(), b, u.data(), I_ + 1, s.in);
+    EnhancedFailure failure[kLanes];
+    solveEnhanced(*a_.law, a_.batch(b, a_.data(), held.data()),
+                  {M_, modes_.data(), a_.elements.weights(b), &strain_[b * a_.perBatch(1)]}, s.in, s.out,
+                  s.jacobian, failure);
+    for (int lane = 0; lane < view().lanesIn(b); ++lane)
+      failed_[static_cast<std::size_t>(b) * kLanes + lane] = failure[lane];
+  }
+
+  /// The law's tangent at all points in s.jacobian, weighted f by e and s by h, [q][I + 1], and K_bb^-1.
+  /// `byh` may be the inputs' own place.
+  void linearize(int b, const ThreadMemory::Held& held, const Scratch& s, double* byE, double* byh,
+                 double* inverse) const {
+    const int J = I_ + 1;
+    double K[kMaxParameters * kMaxParameters * kLanes];
+    zero(K, M_ * M_);
+    a_.law->tangent(a_.batch(b, a_.data(), held.data()), s.in, s.out, s.jacobian);
+    for (int q = 0; q < view().Q; ++q) {
+      const double* w = a_.elements.weights(b) + q * kLanes;
+      const double* jacobian = s.jacobian + static_cast<std::size_t>(q) * J * J * kLanes;
+      for (int m = 0; m < I_; ++m) {
+        product(w, jacobian + (m * J + I_) * kLanes, byE + (q * J + m) * kLanes);
+        product(w, jacobian + (I_ * J + m) * kLanes, byh + (q * J + m) * kLanes);
+      }
+      double dsde[kLanes];
+      product(w, jacobian + (I_ * J + I_) * kLanes, dsde);
+      for (int j = 0; j < M_; ++j)
+        for (int k = 0; k < M_; ++k) addTimes(mode(q, j) * mode(q, k), dsde, K + (j * M_ + k) * kLanes);
+    }
+    for (int lane = view().lanesIn(b); lane < kLanes; ++lane)
+      for (int j = 0; j < M_; ++j) K[(j * M_ + j) * kLanes + lane] = 1;  // padding: no weight, no stiffness
+    invertInLanes(M_, K, inverse);
+  }
+
+  /// product[q][m] = mode_j of the point times a[q][m].
+  double* scaled(const double* a, int j, double* to) const {
+    const int J = I_ + 1;
+    for (int q = 0; q < view().Q; ++q)
+      for (int m = 0; m < I_ * kLanes; ++m) to[q * J * kLanes + m] = a[q * J * kLanes + m] * mode(q, j);
+    return to;
+  }
+
+  /// x = K_bb^-1 y
+  void solve(int b, const double* y, double* x) const {
+    const double* K = &inverse_[static_cast<std::size_t>(b) * M_ * M_ * kLanes];
+    for (int j = 0; j < M_; ++j)
+      for (int l = 0; l < kLanes; ++l) {
+        double sum = 0;
+        for (int i = 0; i < M_; ++i) sum += K[(j * M_ + i) * kLanes + l] * y[i * kLanes + l];
+        x[j * kLanes + l] = sum;
+      }
+  }
+
+  /// in[q] = (h_k, e_k) of U_k, with beta_k = -K_bb^-1 (g_k + K_bu U_k) and the g_k that the sweep of order
+  /// k left.
+  void trueInputs(int b, const ConstField& Uk, const double* g, const Scratch& s) const {
+    const int J = I_ + 1;
+    double sum[kMaxParameters * kLanes], minusBeta[kMaxParameters * kLanes];
+    std::copy_n(g, M_ * kLanes, sum);
+    kernels().inputs(view(), b, Uk.data(), J, s.in);
+    const double* byh = &dsdh_[b * a_.perBatch(J)];
+    for (int q = 0; q < view().Q; ++q) {
+      double stress[kLanes] = {};
+      for (int m = 0; m < I_; ++m)
+        for (int l = 0; l < kLanes; ++l)
+          stress[l] += byh[(q * J + m) * kLanes + l] * s.in[(q * J + m) * kLanes + l];
+      for (int j = 0; j < M_; ++j) addTimes(mode(q, j), stress, sum + j * kLanes);
+    }
+    solve(b, sum, minusBeta);
+    for (int q = 0; q < view().Q; ++q) {
+      double* e = zero(s.in + (q * J + I_) * kLanes, 1);
+      for (int j = 0; j < M_; ++j) addTimes(-mode(q, j), minusBeta + j * kLanes, e);
+    }
+  }
+
+  /// The first element without enhanced parameters in the last loop over states, and why; empty where all
+  /// have theirs.
+  std::string failure() const {
+    for (int e = 0; e < view().numEntities; ++e)
+      if (failed_[e] != EnhancedFailure::none)
+        return "element " + std::to_string(a_.elements.numberInTerm(e) + 1) + ": " + describe(failed_[e]);
+    return {};
+  }
+
+  void makeWorkspace() {
+    const std::size_t count = batches().count;
+    dfde_.assign(count * a_.perBatch(I_ + 1), 0.0);
+    dsdh_.assign(count * a_.perBatch(I_ + 1), 0.0);
+    inverse_.assign(count * M_ * M_ * kLanes, 0.0);
+    g_.assign(count * M_ * kLanes, 0.0);
+    failed_.assign(count * kLanes, EnhancedFailure::none);
+  }
+
+  const ElementView& view() const { return a_.elements.view(); }
+  const ElementKernels& kernels() const { return a_.elements.kernels(); }
+  const Batches& batches() const { return a_.elements.batches(); }
+
+  LawArrays a_;
+  int I_, M_;
+  std::vector<double> modes_;   ///< [q][parameter]
+  std::vector<double> strain_;  ///< [batch][q][lane]
+  // At the start of the series under way:
+  std::vector<double> dfde_;     ///< [batch][q][I + 1][lane], times the weight
+  std::vector<double> dsdh_;     ///< the same
+  std::vector<double> inverse_;  ///< [batch][M][M][lane] K_bb^-1
+  std::vector<double> g_;        ///< [batch][M][lane] of the order swept last: g_k with U_k = 0, beta_k = 0
+  mutable std::vector<EnhancedFailure> failed_;  ///< [batch][lane] of the last loop over states
+};
+
+}  // namespace
+
+std::unique_ptr<Term> enhancedTerm(std::unique_ptr<PointLaw> law, const EnhancedPoints& points) {
+  return std::make_unique<EnhancedTerm>(std::move(law), points);
+}
+
+}  // namespace atrapos::fem

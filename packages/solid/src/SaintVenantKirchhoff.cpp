@@ -1,0 +1,5 @@
+#include "atrapos/solid/SaintVenantKirchhoff.hpp"
+
+#include "atrapos/fem/PointLawOf.hpp"
+
+ATRAPOS_MATERIAL(atrapos::solid::SaintVenantKirchhoff)
