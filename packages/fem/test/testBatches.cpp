@@ -79,9 +79,15 @@ TEST(Batches, ChunksLeaveWorkForManyThreads) {
     const auto batches = makeBatches(8, count, 8, block.nodes);
     check(batches, count, 8, block.nodes);
     const int colours = static_cast<int>(batches.colourStart.size()) - 1;
-    if (each == 4) EXPECT_EQ(batches.perChunk, 1);
-    if (each == 40) EXPECT_GT(batches.perChunk, 4);
-    if (batches.perChunk > 1) EXPECT_GE(batches.chunks(), 32 * colours);
+    if (each == 4) {
+      EXPECT_EQ(batches.perChunk, 1);
+    }
+    if (each == 40) {
+      EXPECT_GT(batches.perChunk, 4);
+    }
+    if (batches.perChunk > 1) {
+      EXPECT_GE(batches.chunks(), 32 * colours);
+    }
   }
 }
 
