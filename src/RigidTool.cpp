@@ -3,9 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <variant>
 
-#include "RigidToolOf.hpp"
+#include "StagedTool.hpp"
 #include "deck/Deck.hpp"
 
 namespace atrapos {
@@ -129,9 +130,9 @@ std::shared_ptr<const contact::PatchSet> patchSet(const deck::PatchesTool& t) {
 }  // namespace
 
 std::unique_ptr<RigidTool> makeTool(const deck::Tool& entry) {
-  const bool moves = entry.motion.moves();
-  if (const auto* t = std::get_if<deck::PatchesTool>(&entry.surface))
-    return moves ? patchTool(patchSet(*t), motion(entry.motion)) : patchTool(patchSet(*t));
+  std::optional<contact::Motion> moves;
+  if (entry.motion.moves()) moves = motion(entry.motion);
+  if (const auto* t = std::get_if<deck::PatchesTool>(&entry.surface)) return stagedTool(patchSet(*t), moves);
   const contact::AnyTool rigid = std::visit(
       [](const auto& t) -> contact::AnyTool {
         if constexpr (std::is_same_v<decltype(t), const deck::PatchesTool&>)
@@ -140,8 +141,7 @@ std::unique_ptr<RigidTool> makeTool(const deck::Tool& entry) {
           return tool(t);
       },
       entry.surface);
-  return moves ? rigidTool(contact::MovingTool<contact::AnyTool>{rigid, motion(entry.motion)})
-               : rigidTool(rigid);
+  return stagedTool(rigid, moves);
 }
 
 }  // namespace atrapos

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <type_traits>
+
 #include "atrapos/fem/PointLaw.hpp"
 #include "atrapos/taylor/Law.hpp"
 
@@ -14,9 +16,15 @@ struct PointKernels {
                   const double* in, double* out, double* jacobian);
   void (*start)(const void* law, const taylor::HistoryShape&, const PointBatch&, int maxOrder,
                 const double* in, double* out, PointFailure& failure);
-  void (*order)(const void* law, const taylor::HistoryShape&, const PointBatch&, const SeriesOrder&,
-                const double* last, double* out);
+  void (*advance)(const void* law, const taylor::HistoryShape&, const PointBatch&, const SeriesOrder&,
+                  PointLaw::In in, PointLaw::Out out);
 };
+
+/// Whether a law stands behind others (stagedLaw).
+template <class Law, class = void>
+struct IsStage : std::false_type {};
+template <class Law>
+struct IsStage<Law, std::void_t<decltype(Law::stage)>> : std::integral_constant<bool, Law::stage> {};
 
 /// Those of a law for L lanes: defined where they are compiled.
 template <class Law, int L>
@@ -133,20 +141,32 @@ struct PointPasses {
       }
   }
 
-  static void order(const void* law, const taylor::HistoryShape& shape, const PointBatch& points,
-                    const SeriesOrder& order, const double* last, double* out) {
+  static void advance(const void* law, const taylor::HistoryShape& shape, const PointBatch& points,
+                      const SeriesOrder& order, PointLaw::In in, PointLaw::Out out) {
+    const Law& own = *static_cast<const Law*>(law);
     for (int q = 0; q < points.numPoints; ++q)
       for (int s = 0; s < points.lanes; s += L) {
         Pack x[I], y[O], data[D + 1];
         loadData(points, q, s, data);
         if (order.k > 1) {
-          load(last + q * I * kLanes + s, I, x);
+          load(in.last + q * I * kLanes + s, I, x);
           auto previous = series(shape, points, q, s, order, order.k - 1);
-          taylor::complete(*static_cast<const Law*>(law), previous, x, data);
+          if constexpr (IsStage<Law>::value) {
+            taylor::completeKnown(own, previous, x, data, y);
+            if (out.last != nullptr) store(y, O, out.last + q * O * kLanes + s);
+          } else {
+            taylor::complete(own, previous, x, data);
+          }
         }
         auto context = series(shape, points, q, s, order, order.k);
-        taylor::sweep(*static_cast<const Law*>(law), context, data, y);
-        store(y, O, out + q * O * kLanes + s);
+        if constexpr (IsStage<Law>::value) {
+          for (int j = 0; j < I; ++j)
+            x[j] = in.current != nullptr ? Pack::load(in.current + (q * I + j) * kLanes + s) : Pack(0.0);
+          taylor::sweepKnown(own, context, x, data, y);
+        } else {
+          taylor::sweep(own, context, data, y);
+        }
+        store(y, O, out.current + q * O * kLanes + s);
       }
   }
 };
@@ -154,7 +174,7 @@ struct PointPasses {
 template <class Law, int L>
 PointKernels PointKernelsOf<Law, L>::table() {
   using Passes = PointPasses<Law, L>;
-  return {Passes::value, Passes::tangent, Passes::start, Passes::order};
+  return {Passes::value, Passes::tangent, Passes::start, Passes::advance};
 }
 #endif
 

@@ -69,8 +69,22 @@ class PointLaw {
                      PointFailure& failure) const = 0;
   /// Makes order k - 1 that of the inputs `last` (not read for k = 1), then out = order k with coefficient k
   /// of the inputs taken as zero: in one visit, so that histories are read from memory once an order.
-  virtual void order(const PointBatch& points, const SeriesOrder& order, const double* last,
-                     double* out) const = 0;
+  void order(const PointBatch& points, const SeriesOrder& order, const double* last, double* out) const {
+    advance(points, order, {last, nullptr}, {nullptr, out});
+  }
+
+  /// Inputs and outputs of two orders.
+  struct In {
+    const double* last;     ///< order k - 1: what was not given when it was the order under way
+    const double* current;  ///< order k, as much as is known of it; null: nothing
+  };
+  struct Out {
+    double* last;     ///< the linear effect of In::last; null: not wanted
+    double* current;  ///< order k
+  };
+  /// The same for a law that stands behind others (stagedLaw), whose inputs of order k are known in part.
+  /// Only laws that are made for it (`static constexpr bool stage = true`) take `current` and give `last`.
+  virtual void advance(const PointBatch& points, const SeriesOrder& order, In in, Out out) const = 0;
 
   /// Names of the values that the law shows at its points.
   virtual std::vector<std::string> observedNames() const = 0;

@@ -77,9 +77,8 @@ class PointLawOf final : public PointLaw {
              PointFailure& failure) const override {
     kernels_.start(&law_, histories_, points, maxOrder, in, out, failure);
   }
-  void order(const PointBatch& points, const SeriesOrder& order, const double* last,
-             double* out) const override {
-    kernels_.order(&law_, histories_, points, order, last, out);
+  void advance(const PointBatch& points, const SeriesOrder& order, In in, Out out) const override {
+    kernels_.advance(&law_, histories_, points, order, in, out);
   }
 
   std::vector<std::string> observedNames() const override {

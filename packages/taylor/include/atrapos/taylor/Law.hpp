@@ -47,8 +47,11 @@ KOKKOS_INLINE_FUNCTION void tangent(const Law& law, const double* in, const doub
 
 namespace detail {
 
+/// Inputs of a pass: not known yet, given, or an increment of those that the sweep was given.
+enum class Inputs { unknown, given, increment };
+
 // Inlined whole, law included: only then do contexts, slots and what is constant stay out of memory.
-template <class X, bool Known, int L, class Law>
+template <class X, Inputs inputs, int L, class Law>
 ATRAPOS_FLATTEN KOKKOS_INLINE_FUNCTION void execute(const Law& law, Context<L>& given,
                                                     [[maybe_unused]] const Lanes<L>* in, const Lanes<L>* data,
                                                     Lanes<L>* out) {
@@ -61,9 +64,12 @@ ATRAPOS_FLATTEN KOKKOS_INLINE_FUNCTION void execute(const Law& law, Context<L>& 
   ATRAPOS_UNROLL
   for (int j = 0; j < Law::numInputs; ++j) {
     double* slot = slots + j * X::lanes;
-    if constexpr (Known) {
+    if constexpr (inputs != Inputs::unknown) {
       x[j] = Sweep<X>(in[j], &context, slot);
-      if constexpr (X::pass != Pass::Linear) in[j].store(slot + context.order * context.stride);
+      if constexpr (inputs == Inputs::increment)
+        record<X::pass>(context, slot, in[j]);
+      else if constexpr (X::pass != Pass::Linear)
+        in[j].store(slot + context.order * context.stride);
     } else {
       x[j] = Sweep<X>::unknown(&context, slot);
     }
@@ -87,7 +93,7 @@ ATRAPOS_FLATTEN KOKKOS_INLINE_FUNCTION void execute(const Law& law, Context<L>& 
 template <int L, class Law>
 KOKKOS_FORCEINLINE_FUNCTION void start(const Law& law, Context<L>& context, const Lanes<L>* in,
                                        const Lanes<L>* data, Lanes<L>* out) {
-  detail::execute<Execution<L, Pass::Start>, true>(law, context, in, data, out);
+  detail::execute<Execution<L, Pass::Start>, detail::Inputs::given>(law, context, in, data, out);
 }
 
 /// Order k with coefficient k of the inputs taken as zero, because it is not known yet: `out` is the
@@ -95,8 +101,8 @@ KOKKOS_FORCEINLINE_FUNCTION void start(const Law& law, Context<L>& context, cons
 template <int L, class Law>
 KOKKOS_FORCEINLINE_FUNCTION void sweep(const Law& law, Context<L>& context, const Lanes<L>* data,
                                        Lanes<L>* out) {
-  detail::execute<Execution<L, Pass::Sweep>, false>(law, context, static_cast<const Lanes<L>*>(nullptr), data,
-                                                    out);
+  detail::execute<Execution<L, Pass::Sweep>, detail::Inputs::unknown>(
+      law, context, static_cast<const Lanes<L>*>(nullptr), data, out);
 }
 
 /// Once after such a sweep: `in` is coefficient k of the inputs. The histories become those of the true
@@ -104,22 +110,30 @@ KOKKOS_FORCEINLINE_FUNCTION void sweep(const Law& law, Context<L>& context, cons
 template <int L, class Law>
 KOKKOS_FORCEINLINE_FUNCTION void complete(const Law& law, Context<L>& context, const Lanes<L>* in,
                                           const Lanes<L>* data) {
-  detail::execute<Execution<L, Pass::Complete>, true>(law, context, in, data,
-                                                      static_cast<Lanes<L>*>(nullptr));
+  detail::execute<Execution<L, Pass::Complete>, detail::Inputs::given>(law, context, in, data,
+                                                                       static_cast<Lanes<L>*>(nullptr));
 }
 
 /// The same, and `out` is the linear effect of `in`.
 template <int L, class Law>
 KOKKOS_FORCEINLINE_FUNCTION void complete(const Law& law, Context<L>& context, const Lanes<L>* in,
                                           const Lanes<L>* data, Lanes<L>* out) {
-  detail::execute<Execution<L, Pass::Complete>, true>(law, context, in, data, out);
+  detail::execute<Execution<L, Pass::Complete>, detail::Inputs::given>(law, context, in, data, out);
 }
 
-/// Order k in one pass where coefficient k of the inputs is known.
+/// Order k in one pass where coefficient k of the inputs is known, or as much of it as is.
 template <int L, class Law>
 KOKKOS_FORCEINLINE_FUNCTION void sweepKnown(const Law& law, Context<L>& context, const Lanes<L>* in,
                                             const Lanes<L>* data, Lanes<L>* out) {
-  detail::execute<Execution<L, Pass::Sweep>, true>(law, context, in, data, out);
+  detail::execute<Execution<L, Pass::Sweep>, detail::Inputs::given>(law, context, in, data, out);
+}
+
+/// Once after sweepKnown with a part of coefficient k of the inputs: `in` is the rest of it, `out` its linear
+/// effect. The histories become those of the true series.
+template <int L, class Law>
+KOKKOS_FORCEINLINE_FUNCTION void completeKnown(const Law& law, Context<L>& context, const Lanes<L>* in,
+                                               const Lanes<L>* data, Lanes<L>* out) {
+  detail::execute<Execution<L, Pass::Complete>, detail::Inputs::increment>(law, context, in, data, out);
 }
 
 /// After `start` with context.plain: out[i] = d out[i] / d in[column] at L points, the linear response to a
@@ -131,7 +145,7 @@ KOKKOS_INLINE_FUNCTION void tangentColumn(const Law& law, Context<L>& context, i
   Lanes<L> unit[Law::numInputs];
   for (int i = 0; i < Law::numInputs; ++i) unit[i] = i == column ? 1.0 : 0.0;
   context.order = 1;
-  detail::execute<Execution<L, Pass::Linear>, true>(law, context, unit, data, out);
+  detail::execute<Execution<L, Pass::Linear>, detail::Inputs::given>(law, context, unit, data, out);
 }
 
 /// out = law(in) and jacobian[i * numInputs + j] = d out[i] / d in[j] at L points. context.memory holds
@@ -162,7 +176,7 @@ HistoryShape historyShape(const Law& law) {
     Lanes<1> in[Law::numInputs], data[Law::numData + 1];
     for (auto& x : in) x = 1.0;
     for (auto& x : data) x = 1.0;
-    detail::execute<X, true>(law, context, in, data, static_cast<Lanes<1>*>(nullptr));
+    detail::execute<X, detail::Inputs::given>(law, context, in, data, static_cast<Lanes<1>*>(nullptr));
     if (context.taken.slots <= context.shape.slots) break;
     context.shape.slots = context.taken.slots;
   }

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include "atrapos/contact/MovingTool.hpp"
+#include "atrapos/contact/OneOf.hpp"
+#include "atrapos/contact/PatchTool.hpp"
+#include "atrapos/contact/RegularisedPressure.hpp"
+#include "atrapos/fem/PointLaw.hpp"
+
+/// Contact laws put together of stages when the program runs: where the point is for the tool, projection,
+/// normal, pressure. They are to rounding the laws ContactLaw, HardContactLaw, CurveContactLaw and
+/// SharpenedContact of the same tool, which are one template each, with the same inputs, data and outputs.
+namespace atrapos::contact {
+
+/// A tool as stages see it.
+struct ToolStages {
+  std::function<std::unique_ptr<fem::PointLaw>()> projection;  ///< ProjectionStage of the tool at rest
+  bool patches = false;
+  bool symmetric = true;         ///< n is the gradient of h
+  std::optional<Motion> motion;  ///< none: at rest
+};
+
+/// Of a tool of the package, of patches, and of any tool whose ProjectionStage is compiled
+/// (ATRAPOS_POINT_LAW).
+ToolStages stagesOf(const AnyTool& tool, const std::optional<Motion>& motion = {});
+ToolStages stagesOf(const PatchTool& tool, const std::optional<Motion>& motion = {});
+
+std::unique_ptr<fem::PointLaw> stagedContact(const ToolStages& tool, const AnyPressure& pressure);
+std::unique_ptr<fem::PointLaw> stagedHardContact(const ToolStages& tool);
+std::unique_ptr<fem::PointLaw> stagedCurveContact(const ToolStages& tool,
+                                                  const RegularisedPressure& pressure);
+/// The tool stands where it is at `loadFactor`.
+std::unique_ptr<fem::PointLaw> stagedSharpenedContact(const ToolStages& tool,
+                                                      const RegularisedPressure& pressure, double loadFactor);
+
+}  // namespace atrapos::contact

@@ -1,0 +1,149 @@
+#include "atrapos/contact/ContactStages.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "CompiledStages.hpp"
+#include "atrapos/fem/StagedLaw.hpp"
+
+namespace atrapos::contact {
+namespace {
+
+using fem::StagedPlan;
+
+/// Stages one behind the other.
+class Chain {
+ public:
+  Chain(int inputs, int data, bool symmetric) : wires_(inputs) {
+    plan_.inputs = inputs;
+    plan_.data = data;
+    plan_.symmetric = symmetric;
+  }
+
+  /// The wires of its outputs.
+  std::vector<int> add(std::unique_ptr<fem::PointLaw> law, std::vector<int> inputs,
+                       std::vector<int> data = {}) {
+    std::vector<int> outputs(law->shape().outputs);
+    for (int& wire : outputs) wire = wires_++;
+    plan_.stages.push_back({std::move(law), std::move(inputs), std::move(data)});
+    return outputs;
+  }
+
+  /// h, n of the point whose place is on the wires x; lambda: the wire that the motion follows. Delta: its
+  /// datum, -1: 0. firstPatch: the first of the patches' data.
+  std::vector<int> project(const ToolStages& tool, std::vector<int> x, int lambda,
+                           const std::optional<Motion>& motion, int Delta, int firstPatch) {
+    if (motion) {
+      x.push_back(lambda);
+      x = add(fem::pointLaw(PullStage{*motion}), x);
+    }
+    std::vector<int> data;
+    if (tool.patches) {
+      data = {Delta, firstPatch, firstPatch + 1, firstPatch + 2};
+      plan_.existence = firstPatch;
+    }
+    std::vector<int> hn = add(tool.projection(), x, data);
+    if (motion && motion->turns()) {
+      const auto n = add(fem::pointLaw(TurnStage{*motion}), {hn[1], hn[2], hn[3], lambda});
+      std::copy(n.begin(), n.end(), hn.begin() + 1);
+    }
+    return hn;
+  }
+
+  void show(int gap, int pressure) {
+    plan_.observed = {{"contact_gap", gap, std::numeric_limits<double>::infinity()},
+                      {"contact_pressure", pressure, 0.0}};
+  }
+
+  std::unique_ptr<fem::PointLaw> law(std::vector<int> outputs) {
+    plan_.outputs = std::move(outputs);
+    return fem::stagedLaw(std::move(plan_));
+  }
+
+ private:
+  StagedPlan plan_;
+  int wires_;
+};
+
+constexpr int patchData = PatchTool::numToolData;
+
+/// The motion that stands still where this one is at `loadFactor`.
+Motion heldAt(const Motion& motion, double loadFactor) {
+  Motion held = motion;
+  for (int k = Motion::maxDegree; k > 0; --k) {
+    held.angle[k - 1] += loadFactor * held.angle[k];
+    held.angle[k] = 0;
+    for (int i = 0; i < 3; ++i) {
+      held.shift[k - 1][i] += loadFactor * held.shift[k][i];
+      held.shift[k][i] = 0;
+    }
+  }
+  return held;
+}
+
+}  // namespace
+
+ToolStages stagesOf(const AnyTool& tool, const std::optional<Motion>& motion) {
+  ToolStages stages;
+  stages.motion = motion;
+  tool.with([&](const auto& one) {
+    using Tool = std::decay_t<decltype(one)>;
+    stages.symmetric = Tool::symmetric;
+    stages.projection = [one] { return fem::pointLaw(ProjectionStage<Tool>{one}); };
+  });
+  return stages;
+}
+
+ToolStages stagesOf(const PatchTool& tool, const std::optional<Motion>& motion) {
+  return {[tool] { return fem::pointLaw(ProjectionStage<PatchTool>{tool}); }, true, PatchTool::symmetric,
+          motion};
+}
+
+std::unique_ptr<fem::PointLaw> stagedContact(const ToolStages& tool, const AnyPressure& pressure) {
+  Chain chain(tool.motion ? 4 : 3, 1 + (tool.patches ? patchData : 0), tool.symmetric);
+  const auto hn = chain.project(tool, {0, 1, 2}, 3, tool.motion, 0, 1);
+  std::vector<int> f;
+  pressure.with([&](const auto& one) {
+    f = chain.add(fem::pointLaw(PressureStage<std::decay_t<decltype(one)>>{one}), hn, {0});
+  });
+  chain.show(hn[0], f[3]);
+  return chain.law({f[0], f[1], f[2]});
+}
+
+std::unique_ptr<fem::PointLaw> stagedSharpenedContact(const ToolStages& tool,
+                                                      const RegularisedPressure& pressure,
+                                                      double loadFactor) {
+  Chain chain(4, 1 + (tool.patches ? patchData : 0), tool.symmetric);
+  std::optional<Motion> held;
+  if (tool.motion) held = heldAt(*tool.motion, loadFactor);
+  const auto hn = chain.project(tool, {0, 1, 2}, 3, held, 0, 1);
+  const SharpenedStage stage{{pressure.compliance, pressure.eta}};
+  const auto f = chain.add(fem::pointLaw(stage), {hn[0], hn[1], hn[2], hn[3], 3}, {0});
+  chain.show(hn[0], f[3]);
+  return chain.law({f[0], f[1], f[2]});
+}
+
+std::unique_ptr<fem::PointLaw> stagedHardContact(const ToolStages& tool) {
+  constexpr int r = 3;
+  Chain chain(tool.motion ? 5 : 4, tool.patches ? patchData : 0, tool.symmetric);
+  const auto hn = chain.project(tool, {0, 1, 2}, 4, tool.motion, -1, 0);
+  const auto f = chain.add(fem::pointLaw(HardStage{}), {hn[1], hn[2], hn[3], r});
+  chain.show(hn[0], r);
+  return chain.law({f[0], f[1], f[2], hn[0]});
+}
+
+std::unique_ptr<fem::PointLaw> stagedCurveContact(const ToolStages& tool,
+                                                  const RegularisedPressure& pressure) {
+  constexpr int t = 1, firstX = 1, firstPatch = 4;
+  Chain chain(tool.motion ? 7 : 6, firstPatch + (tool.patches ? patchData : 0), tool.symmetric);
+  const auto x = chain.add(fem::pointLaw(PlaceStage{}), {0, 2, 4}, {firstX, firstX + 1, firstX + 2});
+  const auto hn = chain.project(tool, x, 6, tool.motion, 0, firstPatch);
+  const auto f = chain.add(fem::pointLaw(CurveStage{pressure}), {hn[0], hn[1], hn[2], hn[3], t}, {0});
+  chain.show(hn[0], f[6]);
+  return chain.law({f.begin(), f.begin() + 6});
+}
+
+}  // namespace atrapos::contact

@@ -1,0 +1,224 @@
+#include "atrapos/fem/StagedLaw.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+namespace atrapos::fem {
+namespace {
+
+class StagedLaw final : public PointLaw {
+ public:
+  explicit StagedLaw(StagedPlan plan) : plan_(std::move(plan)), numWires_(plan_.inputs) {
+    const auto within = [](const std::vector<int>& numbers, int first, int end) {
+      return std::all_of(numbers.begin(), numbers.end(), [=](int n) { return n >= first && n < end; });
+    };
+    for (const LawStage& stage : plan_.stages) {
+      const LawShape s = stage.law->shape();
+      if (static_cast<int>(stage.inputs.size()) != s.inputs ||
+          static_cast<int>(stage.data.size()) != s.data || !within(stage.inputs, 0, numWires_) ||
+          !within(stage.data, -1, plan_.data))
+        throw std::logic_error("stagedLaw: a stage reads what is not there");
+      numWires_ += s.outputs;
+      widest_ = std::max({widest_, s.inputs, s.outputs, s.data});
+      largest_ = std::max(largest_, s.inputs * s.outputs);
+    }
+    if (!within(plan_.outputs, 0, numWires_))
+      throw std::logic_error("stagedLaw: an output that is not there");
+  }
+
+  LawShape shape() const override {
+    return {plan_.inputs, static_cast<int>(plan_.outputs.size()), plan_.data, plan_.symmetric,
+            static_cast<int>(plan_.observed.size())};
+  }
+  // The memory of one stage stands behind that of another, for series and for scratch.
+  std::size_t historyDoubles(int maxOrder) const override {
+    std::size_t sum = 0;
+    for (const LawStage& stage : plan_.stages) sum += stage.law->historyDoubles(maxOrder);
+    return sum;
+  }
+
+  void value(const PointBatch& points, const double* in, double* out) const override {
+    const Room room(*this, points.numPoints);
+    evaluate(points, in, room, [&](const PointLaw& law, const PointBatch& own, int, int) {
+      law.value(own, room.in, room.out);
+    });
+    room.pick(plan_.outputs, room.wires, out);
+  }
+
+  void tangent(const PointBatch& points, const double* in, double* out, double* jacobian) const override {
+    const int Q = points.numPoints, J = plan_.inputs, O = static_cast<int>(plan_.outputs.size());
+    const Room room(*this, Q, true);
+    // Derivatives of the wires by the inputs, [point][wire][input][lane].
+    const auto row = [&](int q, int wire) { return room.derivatives + (q * numWires_ + wire) * J * kLanes; };
+    std::fill_n(room.derivatives, static_cast<std::size_t>(Q) * numWires_ * J * kLanes, 0.0);
+    for (int q = 0; q < Q; ++q)
+      for (int j = 0; j < J; ++j) std::fill_n(row(q, j) + j * kLanes, kLanes, 1.0);
+    evaluate(points, in, room, [&](const PointLaw& law, const PointBatch& own, int s, int firstWire) {
+      law.tangent(own, room.in, room.out, room.jacobian);
+      const LawStage& stage = plan_.stages[s];
+      const int I = static_cast<int>(stage.inputs.size()), outputs = law.shape().outputs;
+      for (int q = 0; q < Q; ++q)
+        for (int o = 0; o < outputs; ++o)
+          for (int i = 0; i < I; ++i) {
+            const double* by = room.jacobian + ((q * outputs + o) * I + i) * kLanes;
+            const double* from = row(q, stage.inputs[i]);
+            double* to = row(q, firstWire + o);
+            for (int j = 0; j < J; ++j)
+              for (int lane = 0; lane < kLanes; ++lane)
+                to[j * kLanes + lane] += by[lane] * from[j * kLanes + lane];
+          }
+    });
+    room.pick(plan_.outputs, room.wires, out);
+    for (int q = 0; q < Q; ++q)
+      for (int o = 0; o < O; ++o)
+        std::copy_n(row(q, plan_.outputs[o]), J * kLanes, jacobian + (q * O + o) * J * kLanes);
+  }
+
+  void derivative(const PointBatch& points, int input, const double* in, double* out,
+                  double* derivative) const override {
+    const std::size_t rows = points.numPoints * plan_.outputs.size(), J = plan_.inputs;
+    std::vector<double> jacobian(rows * J * kLanes);
+    tangent(points, in, out, jacobian.data());
+    for (std::size_t m = 0; m < rows; ++m)
+      std::copy_n(&jacobian[(m * J + input) * kLanes], kLanes, derivative + m * kLanes);
+  }
+
+  void start(const PointBatch& points, int maxOrder, const double* in, double* out,
+             PointFailure& failure) const override {
+    const Room room(*this, points.numPoints);
+    double* memory = points.memory;
+    evaluate(points, in, room, [&](const PointLaw& law, PointBatch own, int, int) {
+      own.memory = memory;
+      memory += points.numPoints * law.historyDoubles(maxOrder);
+      law.start(own, maxOrder, room.in, room.out, failure);
+    });
+    room.pick(plan_.outputs, room.wires, out);
+  }
+
+  // Stage by stage, of each order k - 1 before order k: what they read of either was worked out by then.
+  void advance(const PointBatch& points, const SeriesOrder& order, In in, Out out) const override {
+    const Room room(*this, points.numPoints);
+    const bool completes = order.k > 1;
+    if (completes) room.put(plan_.inputs, in.last, 0, room.lastWires);
+    if (in.current != nullptr)
+      room.put(plan_.inputs, in.current, 0, room.wires);
+    else
+      room.clear(plan_.inputs, room.wires);
+    double* memory = points.memory;
+    int wire = plan_.inputs;
+    for (const LawStage& stage : plan_.stages) {
+      const int outputs = stage.law->shape().outputs;
+      PointBatch own = batchOf(stage, points, room);
+      own.memory = memory;
+      memory += points.numPoints * stage.law->historyDoubles(order.maxOrder);
+      if (completes) room.pick(stage.inputs, room.lastWires, room.lastIn);
+      room.pick(stage.inputs, room.wires, room.in);
+      stage.law->advance(own, order, {room.lastIn, room.in}, {room.lastOut, room.out});
+      if (completes) room.put(outputs, room.lastOut, wire, room.lastWires);
+      room.put(outputs, room.out, wire, room.wires);
+      wire += outputs;
+    }
+    if (out.last != nullptr && completes) room.pick(plan_.outputs, room.lastWires, out.last);
+    room.pick(plan_.outputs, room.wires, out.current);
+  }
+
+  std::vector<std::string> observedNames() const override {
+    std::vector<std::string> names;
+    for (const auto& shown : plan_.observed) names.push_back(shown.name);
+    return names;
+  }
+
+  void observe(const double* in, const double* data, double* values) const override {
+    const bool here = exists(data);
+    const Room room(*this, 1);
+    std::vector<double> memory(historyDoubles(0)), x(plan_.inputs * kLanes), own(plan_.data * kLanes + 1);
+    for (int i = 0; i < plan_.inputs; ++i) std::fill_n(&x[i * kLanes], kLanes, in[i]);
+    for (int d = 0; d < plan_.data; ++d) std::fill_n(&own[d * kLanes], kLanes, data[d]);
+    if (here)
+      evaluate({1, 1, own.data(), memory.data()}, x.data(), room,
+               [&](const PointLaw& law, const PointBatch& points, int, int) {
+                 law.value(points, room.in, room.out);
+               });
+    for (std::size_t m = 0; m < plan_.observed.size(); ++m)
+      values[m] = here ? room.wires[plan_.observed[m].wire * kLanes] : plan_.observed[m].absent;
+  }
+
+  bool exists(const double* data) const override { return plan_.existence < 0 || data[plan_.existence] >= 0; }
+
+ private:
+  /// A thread's numbers of a batch: wires [point][wire][lane], and what one stage reads and writes.
+  struct Room {
+    Room(const StagedLaw& law, int numPoints, bool tangent = false)
+        : Q(numPoints), W(law.numWires_), D(law.plan_.data) {
+      static thread_local std::vector<double> memory;
+      const std::size_t each = static_cast<std::size_t>(Q) * kLanes, wire = each * W,
+                        stage = each * law.widest_;
+      const std::size_t matrices = tangent ? each * (law.largest_ + W * law.plan_.inputs) : 0;
+      if (memory.size() < 2 * wire + 5 * stage + matrices) memory.resize(2 * wire + 5 * stage + matrices);
+      double* at = memory.data();
+      const auto take = [&](std::size_t size) { return std::exchange(at, at + size); };
+      wires = take(wire);
+      lastWires = take(wire);
+      for (double** part : {&in, &out, &lastIn, &lastOut, &data}) *part = take(stage);
+      jacobian = at;
+      derivatives = at + each * law.largest_;
+    }
+
+    /// to[point][m] = wire number m of these.
+    void pick(const std::vector<int>& numbers, const double* from, double* to) const {
+      for (int q = 0; q < Q; ++q)
+        for (const int n : numbers) to = std::copy_n(from + (q * W + n) * kLanes, kLanes, to);
+    }
+    /// The wires from `first` on become from[point][m], m < count.
+    void put(int count, const double* from, int first, double* to) const {
+      for (int q = 0; q < Q; ++q)
+        std::copy_n(from + q * count * kLanes, count * kLanes, to + (q * W + first) * kLanes);
+    }
+    void clear(int count, double* to) const {
+      for (int q = 0; q < Q; ++q) std::fill_n(to + q * W * kLanes, count * kLanes, 0.0);
+    }
+
+    int Q, W, D;
+    double *wires, *lastWires, *in, *out, *lastIn, *lastOut, *data, *jacobian, *derivatives;
+  };
+
+  /// The points with the stage's own data.
+  static PointBatch batchOf(const LawStage& stage, const PointBatch& points, const Room& room) {
+    PointBatch own = points;
+    own.data = room.data;
+    double* to = room.data;
+    for (int q = 0; q < points.numPoints; ++q)
+      for (const int d : stage.data)
+        if (d < 0)
+          to = std::fill_n(to, kLanes, 0.0);
+        else
+          to = std::copy_n(points.data + (q * room.D + d) * kLanes, kLanes, to);
+    return own;
+  }
+
+  /// All wires at the inputs, stage by stage; call(law, points, stage, first wire of its outputs) turns
+  /// room.in into room.out.
+  template <class Call>
+  void evaluate(const PointBatch& points, const double* in, const Room& room, const Call& call) const {
+    room.put(plan_.inputs, in, 0, room.wires);
+    int wire = plan_.inputs;
+    for (std::size_t s = 0; s < plan_.stages.size(); ++s) {
+      const LawStage& stage = plan_.stages[s];
+      const int outputs = stage.law->shape().outputs;
+      room.pick(stage.inputs, room.wires, room.in);
+      call(*stage.law, batchOf(stage, points, room), static_cast<int>(s), wire);
+      room.put(outputs, room.out, wire, room.wires);
+      wire += outputs;
+    }
+  }
+
+  StagedPlan plan_;
+  int numWires_, widest_ = 1, largest_ = 1;
+};
+
+}  // namespace
+
+std::unique_ptr<PointLaw> stagedLaw(StagedPlan plan) { return std::make_unique<StagedLaw>(std::move(plan)); }
+
+}  // namespace atrapos::fem

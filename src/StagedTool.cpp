@@ -1,0 +1,217 @@
+#include "StagedTool.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "atrapos/contact/ContactStages.hpp"
+#include "atrapos/contact/CurveContact.hpp"
+#include "atrapos/contact/PatchSearch.hpp"
+#include "atrapos/fem/LawTerm.hpp"
+#include "atrapos/fem/UnilateralTerm.hpp"
+
+namespace atrapos {
+namespace {
+
+/// x (3) for somebody who moves with the tool; place: (x, load factor).
+void toToolFrame(const std::optional<contact::Motion>& motion, const double* place, double* X) {
+  if (motion)
+    contact::MovingTool<contact::Plane>{{}, *motion}.toToolFrame(place, X);
+  else
+    std::copy_n(place, 3, X);
+}
+
+/// y = (h, n, ...) with the normal of the tool where it stands.
+ToolProjection projection(const std::optional<contact::Motion>& motion, const double* place, const double* y,
+                          double distance) {
+  ToolProjection result{y[0], {y[1], y[2], y[3]}, distance};
+  if (!motion || !motion->turns()) return result;
+  double c[3], sine, cosine;
+  motion->at(place[3], c, sine, cosine);
+  motion->turn(y + 1, sine, cosine, result.normal.data());
+  return result;
+}
+
+/// What does not depend on the kind of the tool: laws of its stages, at points whose data a search keeps up
+/// to date where the tool has pieces.
+class StagedTool : public RigidTool {
+ public:
+  StagedTool(contact::ToolStages stages, std::optional<contact::Motion> motion)
+      : stages_(std::move(stages)), motion_(std::move(motion)) {
+    if (motion_) motion_->validate();
+  }
+
+  bool moves() const override { return motion_.has_value(); }
+
+  std::unique_ptr<fem::Term> term(const contact::AnyPressure& pressure, const fem::PointSet& points,
+                                  const std::vector<double>& referenceGaps) const override {
+    return onPieces(contact::stagedContact(stages_, pressure), points, withTool(referenceGaps, 1), pieces(1));
+  }
+
+  void addHard(fem::FeModel& model, const fem::PointSet& points) const override {
+    const fem::PointSet own = fem::withMultipliers(model, points);
+    model.terms.push_back(fem::unilateralTerm(contact::stagedHardContact(stages_), own,
+                                              withTool(std::vector<double>(), own.numPoints(), 0),
+                                              pieces(0)));
+  }
+
+  void addHardFaces(fem::FeModel& model, const fem::PointSet& faces) const override {
+    const fem::UnilateralPoints own = fem::withCornerMultipliers(model, faces);
+    model.terms.push_back(fem::unilateralTerm(contact::stagedHardContact(stages_), own,
+                                              withTool(std::vector<double>(), own.points.numPoints(), 0),
+                                              pieces(0)));
+  }
+
+  void addCurve(fem::FeModel& model, const contact::RegularisedPressure& pressure,
+                const fem::PointSet& points, const std::vector<double>& referenceGaps) const override {
+    constexpr int before = 4;  // Delta, X
+    const contact::CurvePoints curves = contact::withCurves(model, points, pressure, referenceGaps);
+    const bool moving = moves();
+    const auto placeOf = [moving](const double* in, const double* own, double* x) {
+      for (int i = 0; i < 3; ++i) x[i] = in[2 * i] + own[1 + i];
+      if (moving) x[3] = in[6];
+    };
+    model.terms.push_back(onPieces(contact::stagedCurveContact(stages_, pressure),
+                                   fem::withUnknowns(curves.points), withTool(curves.data, before),
+                                   pieces(moving ? 7 : 6, before, placeOf)));
+  }
+
+  std::unique_ptr<fem::Term> sharpened(const contact::RegularisedPressure& pressure,
+                                       const fem::PointSet& points, const std::vector<double>& referenceGaps,
+                                       double loadFactor) const override {
+    auto law = contact::stagedSharpenedContact(stages_, pressure, loadFactor);
+    const auto data = withTool(referenceGaps, 1);
+    const fem::PieceSearch search = pieces(1);
+    if (!search.update) return fem::lawTerm(std::move(law), points, data);
+    // Places have the load factor where the tool moves; the law's last input is how sharp it is.
+    const auto update = [search, loadFactor, moving = moves()](int numPoints, const double* in, double* own) {
+      std::vector<double> places;
+      for (int p = 0; p < numPoints; ++p) {
+        places.insert(places.end(), in + 4 * p, in + 4 * p + 3);
+        if (moving) places.push_back(loadFactor);
+      }
+      const std::vector<int> none(numPoints, fem::PointPieces::any);
+      search.update(numPoints, places.data(), none.data(), own);
+    };
+    return fem::lawTerm(std::move(law), points, data, update);
+  }
+
+ protected:
+  using PlaceOf = std::function<void(const double* in, const double* data, double* x)>;
+
+  /// How the points' data follow their places, `before` others ahead of the tool's; without an update where
+  /// the tool has no pieces.
+  virtual fem::PieceSearch pieces(int numInputs, int before, const PlaceOf& placeOf) const = 0;
+
+  fem::PieceSearch pieces(int before) const {
+    const int numPlace = moves() ? 4 : 3;
+    return pieces(numPlace, before,
+                  [numPlace](const double* in, const double*, double* x) { std::copy_n(in, numPlace, x); });
+  }
+
+  const std::optional<contact::Motion>& motion() const { return motion_; }
+
+ private:
+  static std::unique_ptr<fem::Term> onPieces(std::unique_ptr<fem::PointLaw> law, const fem::PointSet& points,
+                                             const std::vector<double>& data, fem::PieceSearch search) {
+    if (!search.update) return fem::lawTerm(std::move(law), points, data);
+    return fem::lawTerm(std::move(law), points, data, std::move(search));
+  }
+
+  /// [point] `each` of these data, and the tool's of points that are over nothing.
+  std::vector<double> withTool(const std::vector<double>& data, int each) const {
+    return withTool(data, static_cast<int>(data.size()) / each, each);
+  }
+  std::vector<double> withTool(const std::vector<double>& data, int numPoints, int each) const {
+    if (!stages_.patches) return data;
+    std::vector<double> all;
+    for (int p = 0; p < numPoints; ++p) {
+      all.insert(all.end(), data.begin() + each * p, data.begin() + each * (p + 1));
+      all.insert(all.end(), {-1, 0, 0});
+    }
+    return all;
+  }
+
+  contact::ToolStages stages_;
+  std::optional<contact::Motion> motion_;
+};
+
+class SmoothTool final : public StagedTool {
+ public:
+  SmoothTool(const contact::AnyTool& tool, const std::optional<contact::Motion>& motion)
+      : StagedTool(contact::stagesOf(tool, motion), motion), tool_(tool) {
+    tool_.validate();
+  }
+
+  std::string ambiguity(const double* place) const override {
+    double X[3];
+    toToolFrame(motion(), place, X);
+    return tool_.ambiguity(X);
+  }
+
+  ToolProjection project(const double* place) const override {
+    double X[3], y[contact::AnyTool::numUnknowns];
+    toToolFrame(motion(), place, X);
+    taylor::solveImplicit<3, contact::AnyTool::numUnknowns>(tool_, X, y);
+    return projection(motion(), place, y, std::abs(y[0]));
+  }
+
+ private:
+  fem::PieceSearch pieces(int, int, const PlaceOf&) const override { return {}; }
+
+  contact::AnyTool tool_;
+};
+
+class PatchedTool final : public StagedTool {
+ public:
+  PatchedTool(std::shared_ptr<const contact::PatchSet> set, const std::optional<contact::Motion>& motion)
+      : StagedTool(contact::stagesOf(set->tool(), motion), motion), tool_(set->tool()), set_(std::move(set)) {
+    tool_.validate();
+  }
+
+  std::string ambiguity(const double* place) const override {
+    double X[3];
+    toToolFrame(motion(), place, X);
+    return set_->ambiguity(X);
+  }
+
+  ToolProjection project(const double* place) const override {
+    double X[3], y[contact::PatchTool::numUnknowns];
+    toToolFrame(motion(), place, X);
+    const double distance = set_->nearest(X).distance;
+    const auto data = set_->locate(X);
+    if (data[0] < 0) {
+      ToolProjection none;
+      none.distance = distance;
+      return none;
+    }
+    taylor::solveImplicit<3, contact::PatchTool::numUnknowns, contact::PatchTool::numToolData>(
+        tool_, X, data.data(), y);
+    return projection(motion(), place, y, distance);
+  }
+
+ private:
+  fem::PieceSearch pieces(int numInputs, int before, const PlaceOf& placeOf) const override {
+    if (motion())
+      return contact::PatchSearch<contact::MovingTool<contact::PatchTool>>{set_, {tool_, *motion()}}.pieces(
+          numInputs, before, placeOf);
+    return contact::PatchSearch<contact::PatchTool>{set_, tool_}.pieces(numInputs, before, placeOf);
+  }
+
+  contact::PatchTool tool_;
+  std::shared_ptr<const contact::PatchSet> set_;
+};
+
+}  // namespace
+
+std::unique_ptr<RigidTool> stagedTool(const contact::AnyTool& tool,
+                                      const std::optional<contact::Motion>& motion) {
+  return std::make_unique<SmoothTool>(tool, motion);
+}
+
+std::unique_ptr<RigidTool> stagedTool(std::shared_ptr<const contact::PatchSet> set,
+                                      const std::optional<contact::Motion>& motion) {
+  return std::make_unique<PatchedTool>(std::move(set), motion);
+}
+
+}  // namespace atrapos
