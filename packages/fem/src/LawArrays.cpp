@@ -71,21 +71,33 @@ void LawArrays::throwFirst(const std::vector<PointFailure>& perBatch) const {
 PointValues LawArrays::observe(const std::vector<double>& inputs, const double* data) const {
   const ElementView& e = elements.view();
   PointValues result{law->observedNames(), {}};
-  const std::size_t points = static_cast<std::size_t>(e.numEntities) * e.Q, J = shape.inputs,
-                    V = shape.observed;
-  result.values.resize(points * V);
+  const std::size_t Q = e.Q, J = shape.inputs, V = shape.observed;
+  result.values.resize(e.numEntities * Q * V);
   forEachBatch("observe", elements.batches(), [&](int b) {
-    std::vector<double> own(shape.data + 1);
-    for (int lane = 0; lane < e.lanesIn(b); ++lane)
-      for (int q = 0; q < e.Q; ++q) {
-        const std::size_t p = (static_cast<std::size_t>(b) * kLanes + lane) * e.Q + q;
-        for (int d = 0; d < shape.data; ++d)
-          own[d] =
-              data[b * perBatch(shape.data) + (static_cast<std::size_t>(q) * shape.data + d) * kLanes + lane];
-        law->observe(&inputs[p * J], own.data(), result.values.data() + p * V);
-      }
+    const ThreadMemory::Held held(memory_);
+    std::vector<double> in(Q * J * kLanes, 0.0), values(Q * V * kLanes);
+    const int lanes = e.lanesIn(b);
+    for (int lane = 0; lane < lanes; ++lane)
+      for (std::size_t i = 0; i < Q * J; ++i)
+        in[i * kLanes + lane] = inputs[(static_cast<std::size_t>(b) * kLanes + lane) * Q * J + i];
+    law->observeAll(batch(b, data, held.data()), in.data(), values.data());
+    for (int lane = 0; lane < lanes; ++lane)
+      for (std::size_t i = 0; i < Q * V; ++i)
+        result.values[(static_cast<std::size_t>(b) * kLanes + lane) * Q * V + i] = values[i * kLanes + lane];
   });
   return result;
+}
+
+void PointLaw::observeAll(const PointBatch& points, const double* in, double* values) const {
+  const LawShape s = shape();
+  std::vector<double> x(s.inputs), data(s.data + 1), shown(s.observed + 1);
+  for (int q = 0; q < points.numPoints; ++q)
+    for (int lane = 0; lane < points.lanes; ++lane) {
+      for (int m = 0; m < s.inputs; ++m) x[m] = in[(q * s.inputs + m) * kLanes + lane];
+      for (int d = 0; d < s.data; ++d) data[d] = points.data[(q * s.data + d) * kLanes + lane];
+      observe(x.data(), data.data(), shown.data());
+      for (int v = 0; v < s.observed; ++v) values[(q * s.observed + v) * kLanes + lane] = shown[v];
+    }
 }
 
 double sumOf(const std::vector<double>& perBatch) {

@@ -130,18 +130,30 @@ class StagedLaw final : public PointLaw {
   }
 
   void observe(const double* in, const double* data, double* values) const override {
-    const bool here = exists(data);
-    const Room room(*this, 1);
-    std::vector<double> memory(historyDoubles(0)), x(plan_.inputs * kLanes), own(plan_.data * kLanes + 1);
-    for (int i = 0; i < plan_.inputs; ++i) std::fill_n(&x[i * kLanes], kLanes, in[i]);
-    for (int d = 0; d < plan_.data; ++d) std::fill_n(&own[d * kLanes], kLanes, data[d]);
-    if (here)
-      evaluate({1, 1, own.data(), memory.data()}, x.data(), room,
-               [&](const PointLaw& law, const PointBatch& points, int, int) {
-                 law.value(points, room.in, room.out);
-               });
-    for (std::size_t m = 0; m < plan_.observed.size(); ++m)
-      values[m] = here ? room.wires[plan_.observed[m].wire * kLanes] : plan_.observed[m].absent;
+    const int D = plan_.data, V = static_cast<int>(plan_.observed.size());
+    std::vector<double> memory(historyDoubles(0)), x(plan_.inputs * kLanes), own(D * kLanes + 1),
+        shown(V * kLanes + 1);
+    for (int i = 0; i < plan_.inputs; ++i) x[i * kLanes] = in[i];
+    for (int d = 0; d < D; ++d) own[d * kLanes] = data[d];
+    observeAll({1, 1, own.data(), memory.data()}, x.data(), shown.data());
+    for (int v = 0; v < V; ++v) values[v] = shown[v * kLanes];
+  }
+
+  void observeAll(const PointBatch& points, const double* in, double* values) const override {
+    const Room room(*this, points.numPoints);
+    evaluate(points, in, room, [&](const PointLaw& law, const PointBatch& own, int, int) {
+      law.value(own, room.in, room.out);
+    });
+    for (int q = 0; q < points.numPoints; ++q)
+      for (const StagedPlan::Shown& shown : plan_.observed) {
+        const double* wire = room.wires + (q * numWires_ + shown.wire) * kLanes;
+        for (int lane = 0; lane < points.lanes; ++lane) {
+          const bool here =
+              plan_.existence < 0 || points.data[(q * plan_.data + plan_.existence) * kLanes + lane] >= 0;
+          values[lane] = here ? wire[lane] : shown.absent;
+        }
+        values += kLanes;
+      }
   }
 
   bool exists(const double* data) const override { return plan_.existence < 0 || data[plan_.existence] >= 0; }

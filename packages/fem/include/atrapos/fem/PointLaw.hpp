@@ -90,6 +90,8 @@ class PointLaw {
   virtual std::vector<std::string> observedNames() const = 0;
   /// These values at one point: in [input], data [datum], values [name].
   virtual void observe(const double* in, const double* data, double* values) const = 0;
+  /// The same at all points of a batch: values [point][name][lane]. memory: historyDoubles(0) of scratch.
+  virtual void observeAll(const PointBatch& points, const double* in, double* values) const;
   /// Whether there is something for the law to act on at a point with these data (patches: whether it is over
   /// one).
   virtual bool exists(const double* data) const = 0;
