@@ -93,16 +93,12 @@ double ElementArrays::squares(int b, int count, const double* force) const {
   return sum;
 }
 
-void ElementArrays::pack(const std::vector<double>& from, std::size_t count, double* to) const {
+std::vector<double> ElementArrays::packed(const std::vector<double>& from, std::size_t count) const {
+  std::vector<double> to(static_cast<std::size_t>(batches_.count) * kLanes * count);
   for (std::size_t i = 0; i < static_cast<std::size_t>(batches_.count) * kLanes; ++i) {
     const double* own = &from[std::min<std::size_t>(i, view_.numEntities - 1) * count];
     for (std::size_t m = 0; m < count; ++m) to[(i / kLanes * count + m) * kLanes + i % kLanes] = own[m];
   }
-}
-
-std::vector<double> ElementArrays::packed(const std::vector<double>& from, std::size_t count) const {
-  std::vector<double> to(static_cast<std::size_t>(batches_.count) * kLanes * count);
-  pack(from, count, to.data());
   return to;
 }
 

@@ -46,7 +46,6 @@ class ElementArrays {
   }
 
   /// [entity][m] -> [batch][m][lane], m < count; lanes beyond the last entity copy it.
-  void pack(const std::vector<double>& from, std::size_t count, double* to) const;
   std::vector<double> packed(const std::vector<double>& from, std::size_t count) const;
   /// [batch][m][lane] of the whole term -> of a part; before `keep`.
   static std::vector<double> packedOf(const TermPart& part, const double* from, std::size_t count);

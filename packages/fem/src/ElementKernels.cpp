@@ -3,7 +3,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "atrapos/fem/Processor.hpp"
+#include "atrapos/fem/KernelChoice.hpp"
 
 // Shape components: values; values with multipliers; gradients; four vectors of a shell; five of a rigid
 // body.
@@ -21,18 +21,8 @@ namespace {
 
 template <int C>
 ElementKernels kernelsHere() {
-#ifdef ATRAPOS_KERNEL_LEVELS
-  switch (processorLanes()) {
-    case 8:
-      return detail::ElementKernelsOf<C, 8>::table();
-    case 4:
-      return detail::ElementKernelsOf<C, 4>::table();
-    default:
-      return detail::ElementKernelsOf<C, 2>::table();
-  }
-#else
-  return detail::ElementKernelsOf<C, taylor::nativeLanes>::table();
-#endif
+  return detail::chosenKernels(
+      [](auto lanes) { return detail::ElementKernelsOf<C, decltype(lanes)::value>::table(); });
 }
 
 }  // namespace

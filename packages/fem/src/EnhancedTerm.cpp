@@ -139,17 +139,11 @@ class EnhancedTerm final : public Term {
   }
 
   PointValues observe(const ConstField& u, double) const override {
-    const int Q = view().Q, J = I_ + 1;
-    std::vector<double> all(static_cast<std::size_t>(view().numEntities) * Q * J);
-    forEachBatch("inputs", batches(), [&](int b) {
-      const ThreadMemory::Held held(a_.memory());
+    return a_.observe(a_.data(), [&](int b, const ThreadMemory::Held& held) {
       const Scratch s(*this, held);
       inputs(b, u, held, s);
-      for (int lane = 0; lane < view().lanesIn(b); ++lane)
-        for (int i = 0; i < Q * J; ++i)
-          all[(static_cast<std::size_t>(b) * kLanes + lane) * Q * J + i] = s.in[i * kLanes + lane];
+      return s.in;
     });
-    return a_.observe(all, a_.data());
   }
 
  private:

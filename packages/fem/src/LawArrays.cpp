@@ -26,7 +26,11 @@ LawArrays::LawArrays(std::unique_ptr<PointLaw> theLaw, const PointSet& points,
     throw std::logic_error("a term's law has " + std::to_string(shape.data) + " data a point, " +
                            std::to_string(pointData.size()) + " are given for " +
                            std::to_string(points.numPoints()) + " points");
-  data_ = elements.packed(pointData, static_cast<std::size_t>(points.pointsPerEntity) * shape.data);
+  data_ = packed(pointData);
+}
+
+std::vector<double> LawArrays::packed(const std::vector<double>& pointData) const {
+  return elements.packed(pointData, static_cast<std::size_t>(elements.view().Q) * shape.data);
 }
 
 void LawArrays::keep(const TermPart& part) {
@@ -49,8 +53,8 @@ std::size_t LawArrays::historyBytes(int maxOrder) const {
 }
 
 void LawArrays::reserveHistory(int maxOrder) {
-  const std::size_t size = law->historyDoubles(maxOrder);
-  maxOrder_ = maxOrder;
+  start_ = seriesOrder(0, maxOrder);
+  const std::size_t size = law->seriesDoubles(start_);
   if (history_.size() != 0 && pointDoubles_ == size) return;
   pointDoubles_ = size;
   history_ = View<double*>();  // free before the new one is made
@@ -66,38 +70,6 @@ void LawArrays::throwFirst(const std::vector<PointFailure>& perBatch) const {
           "entity " +
               std::to_string(elements.numberInTerm(static_cast<int>(b) * kLanes + perBatch[b].lane) + 1) +
               ", point " + std::to_string(perBatch[b].point + 1));
-}
-
-PointValues LawArrays::observe(const std::vector<double>& inputs, const double* data) const {
-  const ElementView& e = elements.view();
-  PointValues result{law->observedNames(), {}};
-  const std::size_t Q = e.Q, J = shape.inputs, V = shape.observed;
-  result.values.resize(e.numEntities * Q * V);
-  forEachBatch("observe", elements.batches(), [&](int b) {
-    const ThreadMemory::Held held(memory_);
-    std::vector<double> in(Q * J * kLanes, 0.0), values(Q * V * kLanes);
-    const int lanes = e.lanesIn(b);
-    for (int lane = 0; lane < lanes; ++lane)
-      for (std::size_t i = 0; i < Q * J; ++i)
-        in[i * kLanes + lane] = inputs[(static_cast<std::size_t>(b) * kLanes + lane) * Q * J + i];
-    law->observeAll(batch(b, data, held.data()), in.data(), values.data());
-    for (int lane = 0; lane < lanes; ++lane)
-      for (std::size_t i = 0; i < Q * V; ++i)
-        result.values[(static_cast<std::size_t>(b) * kLanes + lane) * Q * V + i] = values[i * kLanes + lane];
-  });
-  return result;
-}
-
-void PointLaw::observeAll(const PointBatch& points, const double* in, double* values) const {
-  const LawShape s = shape();
-  std::vector<double> x(s.inputs), data(s.data + 1), shown(s.observed + 1);
-  for (int q = 0; q < points.numPoints; ++q)
-    for (int lane = 0; lane < points.lanes; ++lane) {
-      for (int m = 0; m < s.inputs; ++m) x[m] = in[(q * s.inputs + m) * kLanes + lane];
-      for (int d = 0; d < s.data; ++d) data[d] = points.data[(q * s.data + d) * kLanes + lane];
-      observe(x.data(), data.data(), shown.data());
-      for (int v = 0; v < s.observed; ++v) values[(q * s.observed + v) * kLanes + lane] = shown[v];
-    }
 }
 
 double sumOf(const std::vector<double>& perBatch) {

@@ -23,6 +23,8 @@ class LawArrays {
   LawShape shape;
 
   const double* data() const { return data_.data(); }  ///< [batch][q][datum][lane]
+  /// pointData in that order.
+  std::vector<double> packed(const std::vector<double>& pointData) const;
   /// Numbers a batch of `count` entries a point.
   std::size_t perBatch(std::size_t count) const { return elements.view().Q * count * kLanes; }
 
@@ -40,25 +42,27 @@ class LawArrays {
   std::size_t historyBytes(int maxOrder) const;
   /// Histories for series of orders up to `maxOrder`; kept where they are of that size already.
   void reserveHistory(int maxOrder);
-  int maxOrder() const { return maxOrder_; }
+  int maxOrder() const { return start_.maxOrder; }
 
   /// Starts the series at `in` and notes the first failure of each batch.
   void start(int b, const double* data, const double* in, double* out, PointFailure& failure) const {
-    law->start(seriesBatch(b, data), maxOrder_, in, out, failure);
+    law->start(seriesBatch(b, data), start_, in, out, failure);
   }
   /// Throws taylor::DomainError for the first batch that noted a failure.
   void throwFirst(const std::vector<PointFailure>& perBatch) const;
 
-  /// The law's named values at the inputs [entity][point][input], as Term::observe gives them.
-  PointValues observe(const std::vector<double>& inputs, const double* data) const;
+  /// The law's named values, as Term::observe gives them; inputs(batch, thread's memory) are those of a
+  /// batch, [q][input][lane], in the thread's own memory.
+  template <class Inputs>
+  PointValues observe(const double* data, const Inputs& inputs) const;
 
  private:
   std::vector<double> data_;
   std::size_t lawDoubles_;
   ThreadMemory memory_;
   std::size_t pointDoubles_ = 0;  // of the histories of kLanes points
-  int maxOrder_ = -1;
-  View<double*> history_;  // [batch][q], then as the law has it
+  SeriesOrder start_;             // of the series under way
+  View<double*> history_;         // [batch][q], then as the law has it
 };
 
 /// Runs kernel(batch) colour by colour; within a colour chunks of batches in parallel.
@@ -74,6 +78,22 @@ void forEachBatch(const char* name, const Batches& batches, const Kernel& kernel
           for (int b = first; b < end; ++b) kernel(b);
         });
   Execution().fence();
+}
+
+template <class Inputs>
+PointValues LawArrays::observe(const double* data, const Inputs& inputs) const {
+  const ElementView& e = elements.view();
+  const std::size_t size = static_cast<std::size_t>(e.Q) * shape.observed;
+  PointValues result{law->observedNames(), std::vector<double>(e.numEntities * size)};
+  forEachBatch("observe", elements.batches(), [&](int b) {
+    const ThreadMemory::Held held(memory_);
+    std::vector<double> values(size * kLanes);
+    law->observe(batch(b, data, held.data()), inputs(b, held), values.data());
+    for (int lane = 0; lane < e.lanesIn(b); ++lane)
+      for (std::size_t i = 0; i < size; ++i)
+        result.values[(static_cast<std::size_t>(b) * kLanes + lane) * size + i] = values[i * kLanes + lane];
+  });
+  return result;
 }
 
 /// The sum over all batches, in one order for any number of threads.

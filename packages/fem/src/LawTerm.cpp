@@ -95,7 +95,7 @@ class LawTerm final : public Term {
     if (update_) {
       const auto data = renewed(u, lambda);
       if (pieces_) pieces_->beginSeries(data);
-      seriesData_ = packed(data);
+      seriesData_ = a_.packed(data);
     }
     const double* data = seriesData();
     std::vector<PointFailure> failures(batches().count);
@@ -141,7 +141,11 @@ class LawTerm final : public Term {
   PointValues observe(const ConstField& u, double lambda) const override {
     std::vector<double> room;
     const double* data = dataAt(u, lambda, room);
-    return a_.observe(places(u, lambda), data);
+    return a_.observe(data, [&](int b, const ThreadMemory::Held& held) {
+      const Scratch s(*this, held);
+      inputs(b, u, lambda, true, s.in);
+      return s.in;
+    });
   }
 
  private:
@@ -182,13 +186,10 @@ class LawTerm final : public Term {
     update_(view().numEntities * view().Q, places(u, lambda).data(), data.data());
     return data;
   }
-  std::vector<double> packed(const std::vector<double>& data) const {
-    return a_.elements.packed(data, static_cast<std::size_t>(view().Q) * a_.shape.data);
-  }
   /// The packed data at the state; `room` holds them where they are brought up to date.
   const double* dataAt(const ConstField& u, double lambda, std::vector<double>& room) const {
     if (!update_) return a_.data();
-    room = packed(renewed(u, lambda));
+    room = a_.packed(renewed(u, lambda));
     return room.data();
   }
 

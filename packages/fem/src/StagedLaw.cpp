@@ -32,9 +32,9 @@ class StagedLaw final : public PointLaw {
             static_cast<int>(plan_.observed.size())};
   }
   // The memory of one stage stands behind that of another, for series and for scratch.
-  std::size_t historyDoubles(int maxOrder) const override {
+  std::size_t seriesDoubles(const SeriesOrder& order) const override {
     std::size_t sum = 0;
-    for (const LawStage& stage : plan_.stages) sum += stage.law->historyDoubles(maxOrder);
+    for (const LawStage& stage : plan_.stages) sum += stage.law->seriesDoubles(order);
     return sum;
   }
 
@@ -84,14 +84,14 @@ class StagedLaw final : public PointLaw {
       std::copy_n(&jacobian[(m * J + input) * kLanes], kLanes, derivative + m * kLanes);
   }
 
-  void start(const PointBatch& points, int maxOrder, const double* in, double* out,
+  void start(const PointBatch& points, const SeriesOrder& order, const double* in, double* out,
              PointFailure& failure) const override {
     const Room room(*this, points.numPoints);
     double* memory = points.memory;
     evaluate(points, in, room, [&](const PointLaw& law, PointBatch own, int, int) {
       own.memory = memory;
-      memory += points.numPoints * law.historyDoubles(maxOrder);
-      law.start(own, maxOrder, room.in, room.out, failure);
+      memory += points.numPoints * law.seriesDoubles(order);
+      law.start(own, order, room.in, room.out, failure);
     });
     room.pick(plan_.outputs, room.wires, out);
   }
@@ -111,7 +111,7 @@ class StagedLaw final : public PointLaw {
       const int outputs = stage.law->shape().outputs;
       PointBatch own = batchOf(stage, points, room);
       own.memory = memory;
-      memory += points.numPoints * stage.law->historyDoubles(order.maxOrder);
+      memory += points.numPoints * stage.law->seriesDoubles(order);
       if (completes) room.pick(stage.inputs, room.lastWires, room.lastIn);
       room.pick(stage.inputs, room.wires, room.in);
       stage.law->advance(own, order, {room.lastIn, room.in}, {room.lastOut, room.out});
@@ -129,17 +129,7 @@ class StagedLaw final : public PointLaw {
     return names;
   }
 
-  void observe(const double* in, const double* data, double* values) const override {
-    const int D = plan_.data, V = static_cast<int>(plan_.observed.size());
-    std::vector<double> memory(historyDoubles(0)), x(plan_.inputs * kLanes), own(D * kLanes + 1),
-        shown(V * kLanes + 1);
-    for (int i = 0; i < plan_.inputs; ++i) x[i * kLanes] = in[i];
-    for (int d = 0; d < D; ++d) own[d * kLanes] = data[d];
-    observeAll({1, 1, own.data(), memory.data()}, x.data(), shown.data());
-    for (int v = 0; v < V; ++v) values[v] = shown[v * kLanes];
-  }
-
-  void observeAll(const PointBatch& points, const double* in, double* values) const override {
+  void observe(const PointBatch& points, const double* in, double* values) const override {
     const Room room(*this, points.numPoints);
     evaluate(points, in, room, [&](const PointLaw& law, const PointBatch& own, int, int) {
       law.value(own, room.in, room.out);

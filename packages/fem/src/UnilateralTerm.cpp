@@ -142,7 +142,7 @@ class UnilateralTerm final : public EventTerm {
     if (pieces_) {
       const auto data = pieces_->at(places(u, lambda));
       pieces_->beginSeries(data);
-      seriesData_ = packed(data);
+      seriesData_ = a_.packed(data);
     }
     const double* data = pieces_ ? seriesData_.data() : a_.data();
     const int Q = view().Q;
@@ -484,13 +484,10 @@ class UnilateralTerm final : public EventTerm {
     for (std::size_t at = 0; at < conditionOf_.size(); ++at) f(conditionOf_[at], at);
   }
 
-  std::vector<double> packed(const std::vector<double>& data) const {
-    return a_.elements.packed(data, static_cast<std::size_t>(view().Q) * a_.shape.data);
-  }
   /// The packed data at the state; `room` holds them where points are on pieces.
   const double* dataAt(const ConstField& u, double lambda, std::vector<double>& room) const {
     if (!pieces_) return a_.data();
-    room = packed(pieces_->at(places(u, lambda)));
+    room = a_.packed(pieces_->at(places(u, lambda)));
     return room.data();
   }
 

@@ -111,7 +111,7 @@ TYPED_TEST(PointLaws, OrdersAreThoseOfPointSeries) {
     std::vector<double> memory(Q * law->historyDoubles(K)), out(Q * O * kLanes);
     const PointBatch batch{Q, lanes, data.data(), memory.data()};
     PointFailure failure;
-    law->start(batch, K, in[0].data(), out.data(), failure);
+    law->start(batch, seriesOrder(0, K), in[0].data(), out.data(), failure);
     EXPECT_EQ(failure.lane, -1);
     for (int k = 1; k <= K; ++k) {
       law->order(batch, seriesOrder(k, K), in[k - 1].data(), out.data());
@@ -134,7 +134,7 @@ TEST(PointLaw, NamesTheFirstPointWithoutSeriesAndPassesValuesBy) {
   std::vector<double> memory(Q * law->historyDoubles(4)), out(Q * kLanes);
   const PointBatch batch{Q, lanes, data.data(), memory.data()};
   PointFailure failure;
-  law->start(batch, 4, in.data(), out.data(), failure);
+  law->start(batch, seriesOrder(0, 4), in.data(), out.data(), failure);
   EXPECT_EQ(failure.lane, 5);
   EXPECT_EQ(failure.point, 1);
   EXPECT_EQ(failure.operation, taylor::Operation::Sqrt);
@@ -156,10 +156,12 @@ TEST(PointLaw, SaysWhatTheLawSays) {
   EXPECT_TRUE(solid->shape().symmetric);
   EXPECT_FALSE(pointLaw(Swirl{})->shape().symmetric);
   EXPECT_EQ(solid->observedNames(), (std::vector<std::string>{"trace", "scale"}));
-  double H[9] = {1, 0, 0, 0, 2, 0, 0, 0, 3}, shown[2];
-  solid->observe(H, &seven, shown);
-  EXPECT_EQ(shown[0], 6);
-  EXPECT_EQ(shown[1], 7);
+  std::vector<double> H(9 * kLanes, 0.0), data(kLanes, 7.0), memory(solid->historyDoubles(0)),
+      shown(2 * kLanes);
+  for (int i = 0; i < 3; ++i) H[4 * i * kLanes + 1] = i + 1;  // of the second entity
+  solid->observe({1, 2, data.data(), memory.data()}, H.data(), shown.data());
+  EXPECT_EQ(shown[1], 6);
+  EXPECT_EQ(shown[kLanes + 1], 7);
 }
 
 }  // namespace

@@ -81,7 +81,7 @@ struct PullStage {
   }
 };
 
-/// n of the tool at rest, lambda (4) -> n (3).
+/// n of the tool at rest, lambda (4) -> n (3), of motions that turn.
 struct TurnStage {
   static constexpr bool stage = true, symmetric = false;
   static constexpr int numInputs = 4, numOutputs = 3, numData = 0;
@@ -91,10 +91,7 @@ struct TurnStage {
   KOKKOS_INLINE_FUNCTION void operator()(const T* in, const taylor::Passive<T>*, T* n) const {
     T c[3], sine, cosine;
     motion.at(in[3], c, sine, cosine);
-    if (motion.turns())
-      motion.turn(in, sine, cosine, n);
-    else
-      for (int i = 0; i < 3; ++i) n[i] = in[i];
+    motion.turn(in, sine, cosine, n);
   }
 };
 

@@ -9,12 +9,10 @@ namespace atrapos::fem::detail {
 
 /// A law's passes over a batch of points, compiled for one instruction set.
 struct PointKernels {
-  void (*value)(const void* law, const taylor::HistoryShape&, const PointBatch&, const double* in,
-                double* out);
-  /// By the inputs first .. first + count - 1.
+  /// Values, and derivatives by the inputs first .. first + count - 1; count = 0: values alone.
   void (*tangent)(const void* law, const taylor::HistoryShape&, const PointBatch&, int first, int count,
                   const double* in, double* out, double* jacobian);
-  void (*start)(const void* law, const taylor::HistoryShape&, const PointBatch&, int maxOrder,
+  void (*start)(const void* law, const taylor::HistoryShape&, const PointBatch&, const SeriesOrder&,
                 const double* in, double* out, PointFailure& failure);
   void (*advance)(const void* law, const taylor::HistoryShape&, const PointBatch&, const SeriesOrder&,
                   PointLaw::In in, PointLaw::Out out);
@@ -71,19 +69,6 @@ struct PointPasses {
     taylor::start(law, context, in, data, out);
   }
 
-  static void value(const void* law, const taylor::HistoryShape& shape, const PointBatch& points,
-                    const double* in, double* out) {
-    for (int q = 0; q < points.numPoints; ++q)
-      for (int s = 0; s < points.lanes; s += L) {
-        Pack x[I], y[O], data[D + 1];
-        load(in + q * I * kLanes + s, I, x);
-        loadData(points, q, s, data);
-        auto context = scratch(shape, points.memory);
-        evaluate(*static_cast<const Law*>(law), context, x, data, y);
-        store(y, O, out + q * O * kLanes + s);
-      }
-  }
-
   static void tangent(const void* law, const taylor::HistoryShape& shape, const PointBatch& points, int first,
                       int count, const double* in, double* out, double* jacobian) {
     for (int q = 0; q < points.numPoints; ++q)
@@ -103,10 +88,7 @@ struct PointPasses {
 
   static taylor::Context<L> series(const taylor::HistoryShape& shape, const PointBatch& points, int q, int s,
                                    const SeriesOrder& order, int k) {
-    const auto doubles =
-        static_cast<std::ptrdiff_t>((static_cast<std::size_t>(shape.slots) * (order.maxOrder + 1) +
-                                     shape.constants + static_cast<std::size_t>(shape.sums) * order.waiting) *
-                                    L);
+    const auto doubles = static_cast<std::ptrdiff_t>(shape.doubles<L>(order.maxOrder, order.waiting));
     taylor::Context<L> c;
     c.memory = points.memory + (q * groups + s / L) * doubles;
     c.shape = shape;
@@ -118,8 +100,7 @@ struct PointPasses {
   }
 
   static void start(const void* law, const taylor::HistoryShape& shape, const PointBatch& points,
-                    int maxOrder, const double* in, double* out, PointFailure& first) {
-    const SeriesOrder order = seriesOrder(0, maxOrder);
+                    const SeriesOrder& order, const double* in, double* out, PointFailure& first) {
     for (int q = 0; q < points.numPoints; ++q)
       for (int s = 0; s < points.lanes; s += L) {
         Pack x[I], y[O], data[D + 1];
@@ -174,7 +155,7 @@ struct PointPasses {
 template <class Law, int L>
 PointKernels PointKernelsOf<Law, L>::table() {
   using Passes = PointPasses<Law, L>;
-  return {Passes::value, Passes::tangent, Passes::start, Passes::advance};
+  return {Passes::tangent, Passes::start, Passes::advance};
 }
 #endif
 

@@ -53,7 +53,9 @@ class PointLaw {
   virtual LawShape shape() const = 0;
   /// Doubles that the series of kLanes points keep; with maxOrder = 0 what `value` and the tangents need as
   /// scratch memory, once for all points.
-  virtual std::size_t historyDoubles(int maxOrder) const = 0;
+  std::size_t historyDoubles(int maxOrder) const { return seriesDoubles(seriesOrder(0, maxOrder)); }
+  /// The same for series of these orders.
+  virtual std::size_t seriesDoubles(const SeriesOrder& order) const = 0;
 
   /// out = law(in). memory: historyDoubles(0) of scratch.
   virtual void value(const PointBatch& points, const double* in, double* out) const = 0;
@@ -65,7 +67,7 @@ class PointLaw {
 
   /// Order 0 of a series. memory: numPoints times historyDoubles(maxOrder), kept from order to order. Notes
   /// the first point without a series.
-  virtual void start(const PointBatch& points, int maxOrder, const double* in, double* out,
+  virtual void start(const PointBatch& points, const SeriesOrder& order, const double* in, double* out,
                      PointFailure& failure) const = 0;
   /// Makes order k - 1 that of the inputs `last` (not read for k = 1), then out = order k with coefficient k
   /// of the inputs taken as zero: in one visit, so that histories are read from memory once an order.
@@ -88,10 +90,8 @@ class PointLaw {
 
   /// Names of the values that the law shows at its points.
   virtual std::vector<std::string> observedNames() const = 0;
-  /// These values at one point: in [input], data [datum], values [name].
-  virtual void observe(const double* in, const double* data, double* values) const = 0;
-  /// The same at all points of a batch: values [point][name][lane]. memory: historyDoubles(0) of scratch.
-  virtual void observeAll(const PointBatch& points, const double* in, double* values) const;
+  /// These values at all points of a batch: [point][name][lane]. memory: historyDoubles(0) of scratch.
+  virtual void observe(const PointBatch& points, const double* in, double* values) const = 0;
   /// Whether there is something for the law to act on at a point with these data (patches: whether it is over
   /// one).
   virtual bool exists(const double* data) const = 0;

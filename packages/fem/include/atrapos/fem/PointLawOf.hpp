@@ -3,9 +3,9 @@
 #include <type_traits>
 #include <utility>
 
+#include "atrapos/fem/KernelChoice.hpp"
 #include "atrapos/fem/PointKernels.hpp"
 #include "atrapos/fem/PointLaw.hpp"
-#include "atrapos/fem/Processor.hpp"
 
 /// A law written as a template (taylor/Law.hpp) as a PointLaw. It may show named values through
 ///     static constexpr int numObserved;  static std::vector<std::string> observedNames();
@@ -34,37 +34,25 @@ template <class Law>
 struct HasExists<Law, std::void_t<decltype(std::declval<const Law&>().exists((const double*)nullptr))>>
     : std::true_type {};
 
-/// The law's kernels for the instruction set that this program uses here.
-template <class Law>
-PointKernels kernelsHere() {
-#ifdef ATRAPOS_KERNEL_LEVELS
-  switch (processorLanes()) {
-    case 8:
-      return PointKernelsOf<Law, 8>::table();
-    case 4:
-      return PointKernelsOf<Law, 4>::table();
-    default:
-      return PointKernelsOf<Law, 2>::table();
-  }
-#else
-  return PointKernelsOf<Law, taylor::nativeLanes>::table();
-#endif
-}
 }  // namespace detail
 
 template <class Law>
 class PointLawOf final : public PointLaw {
  public:
   explicit PointLawOf(const Law& law)
-      : law_(law), histories_(taylor::historyShape(law)), kernels_(detail::kernelsHere<Law>()) {}
+      : law_(law), histories_(taylor::historyShape(law)), kernels_(detail::chosenKernels([](auto lanes) {
+          return detail::PointKernelsOf<Law, decltype(lanes)::value>::table();
+        })) {}
 
   LawShape shape() const override {
     return {Law::numInputs, Law::numOutputs, Law::numData, Law::symmetric, detail::NumObserved<Law>::value};
   }
-  std::size_t historyDoubles(int maxOrder) const override { return histories_.doubles<kLanes>(maxOrder); }
+  std::size_t seriesDoubles(const SeriesOrder& order) const override {
+    return histories_.doubles<kLanes>(order.maxOrder, order.waiting);
+  }
 
   void value(const PointBatch& points, const double* in, double* out) const override {
-    kernels_.value(&law_, histories_, points, in, out);
+    kernels_.tangent(&law_, histories_, points, 0, 0, in, out, nullptr);
   }
   void tangent(const PointBatch& points, const double* in, double* out, double* jacobian) const override {
     kernels_.tangent(&law_, histories_, points, 0, Law::numInputs, in, out, jacobian);
@@ -73,9 +61,9 @@ class PointLawOf final : public PointLaw {
                   double* derivative) const override {
     kernels_.tangent(&law_, histories_, points, input, 1, in, out, derivative);
   }
-  void start(const PointBatch& points, int maxOrder, const double* in, double* out,
+  void start(const PointBatch& points, const SeriesOrder& order, const double* in, double* out,
              PointFailure& failure) const override {
-    kernels_.start(&law_, histories_, points, maxOrder, in, out, failure);
+    kernels_.start(&law_, histories_, points, order, in, out, failure);
   }
   void advance(const PointBatch& points, const SeriesOrder& order, In in, Out out) const override {
     kernels_.advance(&law_, histories_, points, order, in, out);
@@ -87,9 +75,18 @@ class PointLawOf final : public PointLaw {
     else
       return {};
   }
-  void observe([[maybe_unused]] const double* in, [[maybe_unused]] const double* data,
+  void observe([[maybe_unused]] const PointBatch& points, [[maybe_unused]] const double* in,
                [[maybe_unused]] double* values) const override {
-    if constexpr (detail::NumObserved<Law>::value > 0) law_.observe(in, data, values);
+    constexpr int I = Law::numInputs, D = Law::numData, V = detail::NumObserved<Law>::value;
+    if constexpr (V > 0)
+      for (int q = 0; q < points.numPoints; ++q)
+        for (int lane = 0; lane < points.lanes; ++lane) {
+          double x[I], data[D + 1] = {}, shown[V];
+          for (int m = 0; m < I; ++m) x[m] = in[(q * I + m) * kLanes + lane];
+          for (int d = 0; d < D; ++d) data[d] = points.data[(q * D + d) * kLanes + lane];
+          law_.observe(x, data, shown);
+          for (int v = 0; v < V; ++v) values[(q * V + v) * kLanes + lane] = shown[v];
+        }
   }
   bool exists([[maybe_unused]] const double* data) const override {
     if constexpr (detail::HasExists<Law>::value)

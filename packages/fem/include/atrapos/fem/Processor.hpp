@@ -10,7 +10,7 @@ namespace atrapos::fem {
 /// Throws std::invalid_argument, one line, for a level that is unknown or that the processor does not have.
 int processorLanes();
 
-/// The same in words: "x86-64-v3 (4 lanes), chosen at start of v2, v3, v4".
+/// The same in words: "x86-64-v3 (4 lanes), chosen of v2, v3 and v4".
 std::string describeKernels();
 
 }  // namespace atrapos::fem

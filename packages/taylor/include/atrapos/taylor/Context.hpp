@@ -68,8 +68,13 @@ struct HistoryShape {
   /// Doubles of the histories of L points for orders 0..maxOrder. Host.
   template <int L>
   std::size_t doubles(int maxOrder) const {
+    return doubles<L>(maxOrder, waiting(maxOrder));
+  }
+  /// The same where it is known how many orders wait.
+  template <int L>
+  KOKKOS_INLINE_FUNCTION std::size_t doubles(int maxOrder, int ordersWaiting) const {
     return (static_cast<std::size_t>(slots) * (maxOrder + 1) + constants +
-            static_cast<std::size_t>(sums) * waiting(maxOrder)) *
+            static_cast<std::size_t>(sums) * ordersWaiting) *
            L;
   }
 };
