@@ -40,21 +40,22 @@ int numberOfParts(const deck::Deck& deck) {
   const std::string& file = deck.mesh.path;
   const std::vector<int> found = exodus::findParts(file);
   if (found.empty())
-    throw deck::DeckError(
-        fmt::format("{0}: mesh/decomposed: there are no part files {1}.<ranks>.<rank>; `atrapos split {1} N` "
-                    "makes them of a whole mesh",
-                    deck.file, file));
-  const std::string which = fmt::format("{}: mesh/file: {} is cut into {} parts", deck.file, file,
-                                        fmt::join(found, " and again into "));
+    deck::failAt(
+        deck, "mesh/decomposed",
+        fmt::format("there are no part files {0}.<ranks>.<rank>; `atrapos split {0} N` makes them of a "
+                    "whole mesh",
+                    file));
+  const std::string which =
+      fmt::format("{} is cut into {} parts", file, fmt::join(found, " and again into "));
   if (ranks::count() == 1) {
     if (found.size() == 1) return found.front();
-    throw deck::DeckError(
-        fmt::format("{}; one rank joins the parts of one decomposition: remove the others", which));
+    deck::failAt(deck, "mesh/file",
+                 which + "; one rank joins the parts of one decomposition: remove the others");
   }
   if (std::find(found.begin(), found.end(), ranks::count()) == found.end())
-    throw deck::DeckError(
-        fmt::format("{}, but runs on {} ranks: start mpirun -np {}, or cut it anew with "
-                    "`atrapos split`",
+    deck::failAt(
+        deck, "mesh/file",
+        fmt::format("{}, but runs on {} ranks: start mpirun -np {}, or cut it anew with `atrapos split`",
                     which, ranks::count(), found.front()));
   return ranks::count();
 }
@@ -72,12 +73,13 @@ DeckMesh readDeckMesh(const deck::Deck& deck) {
       return {std::move(joined.mesh), std::move(joined.partOfElement)};
     }
     if (!whole)
-      throw deck::DeckError(
-          fmt::format("{}: mesh/file: {} does not exist{}", deck.file, file,
+      deck::failAt(
+          deck, "mesh/file",
+          fmt::format("{} does not exist{}", file,
                       deck.mesh.generate ? fmt::format("; `atrapos mesh {}` makes it", deck.file) : ""));
     return exodus::readMesh(file);
   } catch (const exodus::Error& e) {
-    throw deck::DeckError(fmt::format("{}: mesh/file: {}", deck.file, e.what()));
+    deck::failAt(deck, "mesh/file", e.what());
   }
 }
 

@@ -149,8 +149,7 @@ std::string row(PathCase& pathCase, const Reference& reference, int order, doubl
 void writeMap(const std::vector<std::unique_ptr<PathCase>>& cases, const MapOptions& options) {
   for (const auto& pathCase : cases)
     if (!pathCase->deck().path.series())
-      throw std::invalid_argument(fmt::format(
-          "{}: path/method: the map varies the settings of series; expected series", pathCase->deck().file));
+      deck::failAt(pathCase->deck(), "path/method", "the map varies the settings of series; expected series");
   Table table(
       options.file,
       "problem,order,delta,pade,outcome,steps,factorizations,orders,corrections,points,points_expected,"

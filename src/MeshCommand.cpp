@@ -25,16 +25,15 @@ struct Builder {
 }  // namespace
 
 fem::Mesh generateMesh(const deck::Deck& deck) {
-  if (deck.problem) throw deck::DeckError(fmt::format("{}: problem: a model problem has no mesh", deck.file));
+  if (deck.problem) deck::failAt(deck, "problem", "a model problem has no mesh");
   if (!deck.mesh.generate)
-    throw deck::DeckError(fmt::format("{}: mesh/generate: missing; `atrapos mesh` needs it to make {}",
-                                      deck.file, deck.mesh.file));
+    deck::failAt(deck, "mesh/generate", "missing; `atrapos mesh` needs it to make " + deck.mesh.file);
   try {
     fem::Mesh mesh = std::visit(Builder{}, *deck.mesh.generate);
     mesh.title = deck::beginOf(deck.title, 80);  // what Exodus holds
     return mesh;
   } catch (const std::invalid_argument& e) {
-    throw deck::DeckError(fmt::format("{}: mesh/generate: {}", deck.file, e.what()));
+    deck::failAt(deck, "mesh/generate", e.what());
   }
 }
 

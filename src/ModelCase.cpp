@@ -36,7 +36,7 @@ ModelCase::ModelCase(const deck::Deck& deck) : deck_(deck) {
     problem_ = models::make(model.name, model.parameters);
     setup_ = models::setup(model.name, model.parameters, *problem_);
   } catch (const std::invalid_argument& e) {
-    throw deck::DeckError(fmt::format("{}: problem/parameters: {}", deck.file, e.what()));
+    deck::failAt(deck, "problem/parameters", e.what());
   }
   takeStops();
 }
@@ -51,9 +51,9 @@ void ModelCase::takeStops() {
     const auto monitor = std::find_if(setup_.monitors.begin(), setup_.monitors.end(),
                                       [&n = name](const models::Monitor& m) { return m.name == n; });
     if (monitor == setup_.monitors.end())
-      throw deck::DeckError(
-          fmt::format("{}: path/stop/monitor/{}: the problem {} has no such monitor; it has {}", deck_.file,
-                      name, deck_.problem->name, deck::joined(monitorNames())));
+      deck::failAt(deck_, "path/stop/monitor/" + name,
+                   fmt::format("the problem {} has no such monitor; it has {}", deck_.problem->name,
+                               deck::joined(monitorNames())));
     for (const double value : values) stops.functionals.push_back({name, monitor->weights, value});
   }
   setup_.stops = stops;

@@ -54,7 +54,7 @@ fem::FeModel Scene::makeModel() {
 }
 
 void Scene::fail(const std::string& key, const std::string& problem) const {
-  throw deck::DeckError(fmt::format("{}: {}: {}", deck_.file, key, problem));
+  deck::failAt(deck_, key, problem);
 }
 
 std::string Scene::dofName(int dof) const {

@@ -33,7 +33,7 @@ fem::ShellGeometry geometryOf(const deck::Deck& deck, const fem::Mesh& mesh) {
   try {
     return fem::shellGeometry(mesh, sectionsOf(deck, mesh), options);
   } catch (const std::invalid_argument& e) {
-    throw deck::DeckError(fmt::format("{}: shells: {}", deck.file, e.what()));
+    deck::failAt(deck, "shells", e.what());
   }
 }
 
@@ -48,9 +48,9 @@ int SceneShells::find(int block) const {
 SceneShells sceneShells(const deck::Deck& deck, const fem::Mesh& mesh) {
   for (const fem::Block& block : mesh.blocks)
     if (fem::isShell(block.topology) && block.topology != fem::Topology::Shell8)
-      throw deck::DeckError(fmt::format(
-          "{}: mesh/file: block '{}' has {}: the shell element has eight nodes; accepted is SHELL8",
-          deck.file, block.name, fem::topologyName(block.topology)));
+      deck::failAt(deck, "mesh/file",
+                   fmt::format("block '{}' has {}: the shell element has eight nodes; accepted is SHELL8",
+                               block.name, fem::topologyName(block.topology)));
   SceneShells shells;
   shells.geometry = geometryOf(deck, mesh);
   for (const fem::ShellBlock& b : shells.geometry.blocks) {

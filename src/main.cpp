@@ -155,10 +155,12 @@ int makeMesh(const std::string& deckFile, const std::string& output, bool quiet)
   const auto mesh = atrapos::generateMesh(deck);
   const std::string file = output.empty() ? deck.mesh.path : output;
   std::error_code notThere;
-  if (std::filesystem::equivalent(file, deckFile, notThere))  // links and other spellings too
-    throw atrapos::deck::DeckError(
-        fmt::format("{}: {}: {} is the deck itself, which the mesh would replace; expected another file",
-                    deckFile, output.empty() ? "mesh/file" : "--output", file));
+  if (std::filesystem::equivalent(file, deckFile, notThere)) {  // links and other spellings too
+    const std::string what =
+        file + " is the deck itself, which the mesh would replace; expected another file";
+    if (output.empty()) atrapos::deck::failAt(deck, "mesh/file", what);
+    throw atrapos::deck::DeckError(fmt::format("{}: --output: {}", deckFile, what));
+  }
   atrapos::exodus::writeMesh(mesh, file);
   if (!quiet) std::cout << fmt::format("{}: {}\n", file, atrapos::describeMesh(mesh));
   return 0;

@@ -199,7 +199,7 @@ class MeshCheck {
 
  private:
   [[noreturn]] void fail(const std::string& path, const std::string& what) const {
-    throw DeckError(fmt::format("{}: {}: {}", deck_.file, path, what));
+    failAt(deck_, path, what);
   }
 
   const fem::SideSet& sideSet(const std::string& name) const {

@@ -17,7 +17,8 @@
 /// Units are the user's own, consistent ones; "force", "length", "pressure" below mean those.
 namespace atrapos::deck {
 
-/// What is wrong with a deck, in one line: deck file, key path, problem, what would be accepted.
+/// What is wrong with a deck, in one line: deck file, line and column, key path, problem, what would be
+/// accepted.
 class DeckError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -469,6 +470,9 @@ Deck readDeckText(const std::string& text, const std::string& file);
 /// Checks every block and set name against the mesh, that each block of the mesh has exactly one material,
 /// and that what is meant for shells has shells. Throws DeckError, naming what the mesh has.
 void checkAgainstMesh(const Deck& deck, const fem::Mesh& mesh);
+
+/// Throws DeckError about the value at `keys`, "supports/clamp/set", with its place in the deck.
+[[noreturn]] void failAt(const Deck& deck, const std::string& keys, const std::string& what);
 
 /// Prints the effective values, defaults included, as a deck that reads back to the same values.
 void describe(const Deck& deck, std::ostream& out);

@@ -4,7 +4,6 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 
 #include "deck/DeckReferences.hpp"
 #include "deck/DeckTables.hpp"
@@ -15,11 +14,12 @@ namespace {
 
 std::string readText(const std::string& file) {
   std::ifstream in(file, std::ios::binary);
-  std::ostringstream text;
-  if (!in || (in.peek() != EOF && !(text << in.rdbuf()))) {
+  std::string text(mostBytes + 1, ' ');  // no more: the file may have no end
+  if (!in || !(in.read(text.data(), static_cast<std::streamsize>(text.size())) || in.eof())) {
     throw DeckError(fmt::format("{}: cannot be read: {}", file, std::strerror(errno)));
   }
-  return text.str();
+  text.resize(static_cast<std::size_t>(in.gcount()));
+  return text;
 }
 
 /// A file of surfaces: a deck with the one key `surfaces`.
@@ -32,7 +32,7 @@ std::vector<SplineSurface> readSurfaces(const std::string& file) {
                                                 splineSurfaceTable(), "each with degree, points, ...",
                                                 "Bezier, B-spline and NURBS surfaces")};
   SurfaceFile content;
-  read(table, Value(readYaml(readText(file), file), file), content);
+  read(table, Value(readYaml(readText(file), file)), content);
   return content.surfaces;
 }
 
@@ -63,7 +63,7 @@ double largestYoungsModulus(const Deck& deck) {
 }
 
 Deck readDeckText(const std::string& text, const std::string& file) {
-  const Value root(readYaml(text, file), file);
+  const Value root(readYaml(text, file));
 
   Deck deck;
   deck.file = file;
@@ -94,6 +94,13 @@ Deck readDeckText(const std::string& text, const std::string& file) {
   }
   deck.mesh.path = (path.parent_path() / deck.mesh.file).lexically_normal().string();
   return deck;
+}
+
+void failAt(const Deck& deck, const std::string& keys, const std::string& what) {
+  if (deck.text.empty()) {
+    throw DeckError(fmt::format("{}: {}: {}", deck.file, keys, what));
+  }
+  Value(readYaml(deck.text, deck.file)).failUnder(keys, what);
 }
 
 Deck readDeck(const std::string& file) {

@@ -70,7 +70,7 @@ const std::vector<std::string> columns{
 
 void checkMonitor(const Value& v, const Monitor& monitor, const Deck& deck) {
   if (std::find(columns.begin(), columns.end(), monitor.name) != columns.end()) {
-    v.fail("is the name of a column of path.csv or points.csv; expected none of " + joined(columns));
+    v.failKey("is the name of a column of path.csv or points.csv; expected none of " + joined(columns));
   }
   if (const auto* force = std::get_if<ContactForceMonitor>(&monitor.quantity)) {
     find(v.at("contact"), force->contact, deck.contacts, "contact");
@@ -182,11 +182,16 @@ void checkSolver(const Value& root, const Deck& deck) {
 void checkReferences(const Value& root, const Deck& deck) {
   checkMaterials(root.at("materials"), deck);
   checkSections(root, deck);
-  for (const auto& contact : deck.contacts) {
-    find(root.at("contact").at(contact.name).at("tool"), contact.tool, deck.tools, "tools");
+  if (root.has("contact")) {
+    for (const Value& contact : root.at("contact").entries().children()) {
+      find(contact.at("tool"), contact.at("tool").name(), deck.tools, "tools");
+    }
   }
-  for (const auto& monitor : deck.output.monitors) {
-    checkMonitor(root.at("output").at("monitors").at(monitor.name), monitor, deck);
+  if (!deck.output.monitors.empty()) {
+    const auto monitors = root.at("output").at("monitors").entries().children();
+    for (std::size_t i = 0; i < monitors.size(); ++i) {
+      checkMonitor(monitors[i], deck.output.monitors[i], deck);
+    }
   }
   checkStop(root.at("path").at("stop"), deck);
   checkBranches(root, deck);

@@ -37,6 +37,8 @@ namespace {
 
 using Kind = YamlNode::Kind;
 
+constexpr std::size_t longestText = 4096;  // as of a path
+
 /// Decimal notation, the whole text.
 template <class T>
 std::optional<T> parsed(const std::string& text, const char* characters) {
@@ -54,15 +56,15 @@ std::optional<long long> wholeNumber(const YamlNode& node) {
   return parsed<long long>(node.text, "+-0123456789");
 }
 
-std::optional<int> smallNumber(const YamlNode& node) {
-  const auto i = wholeNumber(node);
-  if (!i || *i > INT_MAX || *i < INT_MIN) return {};
-  return static_cast<int>(*i);
-}
-
 std::optional<double> number(const YamlNode& node) {
   if (node.kind != Kind::Scalar || node.quoted) return {};
   return parsed<double>(node.text, "+-0123456789.eE");
+}
+
+std::optional<int> smallNumber(const YamlNode& node) {
+  const auto x = number(node);
+  if (!x || *x != std::trunc(*x) || *x > INT_MAX || *x < INT_MIN) return {};
+  return static_cast<int>(*x);
 }
 
 std::optional<bool> truth(const YamlNode& node) {
@@ -86,20 +88,16 @@ std::optional<std::string> nameOf(const YamlNode& node) {
   return id ? std::to_string(*id) : textOf(node);
 }
 
-/// What `of` makes of every item; nothing where it makes nothing of one.
-template <class T>
-std::vector<T> all(const std::vector<YamlTree>& items, std::optional<T> (*of)(const YamlNode&)) {
-  std::vector<T> values;
-  for (const YamlTree& item : items) {
-    const auto value = of(*item);
-    if (!value) return {};
-    values.push_back(*value);
-  }
-  return values;
-}
-
 /// As it is written.
 std::string shownScalar(const YamlNode& node) { return node.kind == Kind::Nothing ? "null" : node.text; }
+
+/// A hint where a text without quotes is a number but for its comma.
+std::string commaHint(YamlNode text) {
+  const auto comma = text.text.find(',');
+  if (comma == std::string::npos) return "";
+  text.text[comma] = '.';
+  return number(text) ? fmt::format(" (decimals are written with a point: {})", shortened(text.text)) : "";
+}
 
 bool holds(const YamlNode& list, Kind kind) {
   return std::any_of(list.items.begin(), list.items.end(),
@@ -133,28 +131,22 @@ bool readsAsText(const std::string& word) {
   return !null && isText(node);
 }
 
-std::string beginOf(const std::string& text, std::size_t bytes) {
-  std::size_t size = std::min(bytes, text.size());
-  while (size > 0 && size < text.size() && (static_cast<unsigned char>(text[size]) & 0xC0) == 0x80) --size;
-  return text.substr(0, size);
-}
-
-std::string shortened(const std::string& text) {
-  constexpr std::size_t most = 60;
-  std::string line = beginOf(text, most) + (text.size() > most ? "..." : "");
-  std::replace_if(
-      line.begin(), line.end(), [](unsigned char c) { return c < 32; }, ' ');
-  return line;
-}
-
 std::string joined(const std::vector<std::string>& words) {
+  constexpr std::size_t most = 40;
+  if (words.size() > most) {
+    return fmt::format("{}, ... ({} in all)", fmt::join(words.begin(), words.begin() + most, ", "),
+                       words.size());
+  }
   return fmt::format("{}", fmt::join(words, ", "));
 }
 
 std::string suggestion(const std::string& word, const std::vector<std::string>& candidates) {
   const std::string* nearest = nullptr;
   std::size_t least = std::max<std::size_t>(2, word.size() / 3) + 1;
+  constexpr std::size_t longest =
+      100;  // no word is mistyped beyond; the distance costs the product of lengths
   for (const auto& candidate : candidates) {
+    if (word.size() > longest || candidate.size() > longest) continue;
     const auto distance = editDistance(word, candidate);
     if (distance < least && distance < candidate.size()) {
       least = distance;
@@ -164,24 +156,44 @@ std::string suggestion(const std::string& word, const std::vector<std::string>& 
   return nearest == nullptr ? "" : fmt::format(" (did you mean '{}'?)", *nearest);
 }
 
-Value::Value(YamlTree root, const std::string& file) : node_(std::move(root)), file_(&file) {}
+Value::Value(const YamlFile& file) : node_(file.root), source_(file.source) {}
+
+Value::Value(YamlTree item, const Value& list) : Value(list) { node_ = std::move(item); }
 
 Value::Value(YamlTree node, const Value& parent, const YamlKey& key)
     : node_(std::move(node)),
-      file_(parent.file_),
+      source_(parent.source_),
       key_(key.name),
-      path_(parent.path_.empty() ? key.name : parent.path_ + "/" + key.name),
-      line_(key.line) {}
+      path_(parent.under(key.name)),
+      keyBegin_(key.begin),
+      isRoot_(false) {}
 
-std::string Value::place() const { return line_ > 0 ? fmt::format(" (line {})", line_) : ""; }
+std::string Value::under(const std::string& keys) const { return path_.empty() ? keys : path_ + "/" + keys; }
 
-void Value::fail(const std::string& what) const {
-  throw DeckError(fmt::format("{}: {}{}{}{}", *file_, path_, path_.empty() ? "" : ": ", what, place()));
+void Value::fail(std::size_t begin, const std::string& path, const std::string& what) const {
+  const std::string line = path.empty() ? what : path + ": " + what;
+  isRoot_ ? source_->fail(line) : source_->fail(begin, line);
 }
 
+std::size_t Value::begin() const { return isMap() ? keyBegin_ : node_->begin; }
+
+void Value::fail(const std::string& what) const { fail(begin(), path_, what); }
+
+void Value::failKey(const std::string& what) const { fail(keyBegin_, path_, what); }
+
 void Value::failMissing(const std::string& key, const std::string& accepts) const {
-  throw DeckError(fmt::format("{}: {}{}{}: is missing; expected {}{}", *file_, path_,
-                              path_.empty() ? "" : "/", key, accepts, place()));
+  fail(keyBegin_, under(key), "is missing; expected " + accepts);
+}
+
+void Value::failUnder(const std::string& keys, const std::string& what) const {
+  Value deepest = *this;
+  for (std::size_t i = 0, end = 0; i < keys.size(); i = end + 1) {
+    end = std::min(keys.find('/', i), keys.size());
+    const std::string key = keys.substr(i, end - i);
+    if (!deepest.isList() && !deepest.has(key)) break;
+    deepest = deepest.at(key);
+  }
+  deepest.fail(deepest.begin(), under(keys), what);
 }
 
 bool Value::isMap() const { return node_->kind == Kind::Map || node_->kind == Kind::Nothing; }
@@ -212,7 +224,16 @@ Value Value::at(const std::string& key) const {
       return Value(node_->items[i], *this, node_->keys[i]);
     }
   }
-  throw std::logic_error("the deck has no " + path_ + "/" + key);
+  throw std::logic_error("the deck has no " + under(key));
+}
+
+std::vector<Value> Value::children() const {
+  std::vector<Value> children;
+  const auto count = keys().size();  // throws where it is not a map
+  for (std::size_t i = 0; i < count; ++i) {
+    children.push_back(Value(node_->items[i], *this, node_->keys[i]));
+  }
+  return children;
 }
 
 Value Value::entries() const {
@@ -221,23 +242,24 @@ Value Value::entries() const {
   }
   auto map = std::make_shared<YamlNode>();
   map->kind = Kind::Map;
-  std::map<std::string, int> lines;
+  std::map<std::string, std::size_t> begins;
   for (const YamlTree& item : node_->items) {
-    const Value each(item, *this, {"item " + std::to_string(lines.size() + 1), item->line});
+    const Value each(item, *this, {fmt::format("item {}", begins.size() + 1), item->begin});
     if (!each.has("name")) {
       each.fail("has no name; expected a map with the key name, or one map with an entry for each name");
     }
     const Value name = each.at("name");
-    const auto [previous, isNew] = lines.emplace(name.name(), item->line);
+    const auto [previous, isNew] = begins.emplace(name.name(), name.begin());
     if (!isNew) {
-      name.fail(fmt::format("'{}' is given twice, first on line {}", previous->first, previous->second));
+      name.fail(fmt::format("'{}' is given twice, first on line {}", previous->first,
+                            source_->lineOf(previous->second)));
     }
     auto entry = std::make_shared<YamlNode>(*item);
     const auto at = std::find_if(entry->keys.begin(), entry->keys.end(),
                                  [](const YamlKey& k) { return k.name == "name"; });
     entry->items.erase(entry->items.begin() + (at - entry->keys.begin()));
     entry->keys.erase(at);
-    map->keys.push_back({previous->first, item->line});
+    map->keys.push_back({previous->first, name.begin()});
     map->items.push_back(std::move(entry));
   }
   Value value = *this;
@@ -247,13 +269,13 @@ Value Value::entries() const {
 
 std::string Value::shown() const {
   if (isMap()) {
-    return isEmptyMap() ? "nothing" : "a map";
+    return node_->kind == Kind::Nothing ? "an empty value" : isEmptyMap() ? "an empty map" : "a map";
   }
   if (!isList()) {
     const auto flag = truth(*node_);
     return flag       ? (*flag ? "true" : "false")
-           : isText() ? fmt::format("the text '{}'", shortened(node_->text))
-                      : node_->text;
+           : isText() ? fmt::format("the text '{}'{}", shortened(node_->text), commaHint(*node_))
+                      : shortened(node_->text);
   }
   if (node_->items.empty()) {
     return "an empty list";
@@ -271,9 +293,7 @@ std::string Value::shown() const {
 double Value::real(const Check& check) const {
   const auto x = number(*node_);
   if (!x) {
-    const bool comma = isText() && node_->text.find(',') != std::string::npos;
-    fail(fmt::format("expected a finite number, got {}{}", shown(),
-                     comma ? " (decimals are written with a point: 0.3)" : ""));
+    fail("expected a finite number, got " + shown());
   }
   if (!check.holds(*x)) {
     fail(fmt::format("must be {}, got {}", check.words, shown()));
@@ -284,9 +304,10 @@ double Value::real(const Check& check) const {
 int Value::integer(const Check& check) const {
   const auto i = smallNumber(*node_);
   if (!i) {
-    const bool notation = number(*node_) && !wholeNumber(*node_);
-    const auto kind = notation ? "without point and exponent" : fmt::format("of at most {}", INT_MAX);
-    fail(fmt::format("expected a whole number {}, got {}", kind, shown()));
+    const auto x = number(*node_);
+    const bool large = x && *x == std::trunc(*x);
+    fail(fmt::format("expected a whole number{}, got {}", large ? fmt::format(" of at most {}", INT_MAX) : "",
+                     shown()));
   }
   if (!check.holds(*i)) {
     fail(fmt::format("must be {}, got {}", check.words, *i));
@@ -307,8 +328,11 @@ std::string Value::oneLine(std::string text) const {
   if (text.empty()) {
     fail("must not be empty");
   }
-  if (std::any_of(text.begin(), text.end(), [](unsigned char c) { return c < 32 || c == 127; })) {
+  if (hasControl(text)) {
     fail("must be one line, without control characters (a block of lines that begins with '>' is joined)");
+  }
+  if (text.size() > longestText) {
+    fail(fmt::format("must have at most {} bytes, has {}", longestText, text.size()));
   }
   return text;
 }
@@ -341,47 +365,50 @@ const std::vector<YamlTree>& Value::items() const {
   return isList() ? node_->items : none;
 }
 
-std::vector<double> Value::reals(std::size_t size) const {
-  const auto x = all(items(), number);
-  if (x.size() != size) {
-    fail(fmt::format("expected a list of {} finite numbers, got {}", size, shown()));
+template <class T>
+std::vector<T> Value::all(std::optional<T> (*of)(const YamlNode&), const std::string& expected,
+                          std::size_t size) const {
+  const auto refuse = [&](std::size_t begin) {
+    fail(begin, path_, fmt::format("expected {}, got {}", expected, shown()));
+  };
+  std::vector<T> values;
+  for (const YamlTree& item : items()) {
+    const auto value = of(*item);
+    if (!value) refuse(item->begin);
+    values.push_back(*value);
   }
-  return x;
+  if (size == any ? values.empty() : values.size() != size) refuse(begin());
+  return values;
 }
 
-std::vector<double> Value::reals() const {
-  const auto x = all(items(), number);
-  if (x.empty()) {
-    fail(fmt::format("expected a list of finite numbers, got {}", shown()));
-  }
-  return x;
+std::vector<double> Value::reals(std::size_t size) const {
+  return all(number, fmt::format("a list of {} finite numbers", size), size);
 }
+
+std::vector<double> Value::reals() const { return all(number, "a list of finite numbers"); }
 
 std::vector<std::array<double, 3>> Value::rowsOf3() const {
-  const auto single = all(items(), number);
-  if (single.size() == 3) {
-    return {{single[0], single[1], single[2]}};
-  }
+  constexpr const char* expected = "a list of lists of 3 finite numbers";
   std::vector<std::array<double, 3>> rows;
+  const auto add = [&](const Value& row) {
+    const auto x = row.all(number, expected, 3);
+    rows.push_back({x[0], x[1], x[2]});
+  };
+  if (!items().empty() && items().front()->kind == Kind::Scalar) {
+    add(*this);
+    return rows;
+  }
   for (const YamlTree& item : items()) {
-    const auto row = item->kind == Kind::List ? all(item->items, number) : std::vector<double>{};
-    if (row.size() != 3) {
-      rows.clear();
-      break;
-    }
-    rows.push_back({row[0], row[1], row[2]});
+    add(Value(item, *this));
   }
   if (rows.empty()) {
-    fail(fmt::format("expected a list of lists of 3 finite numbers, got {}", shown()));
+    fail(fmt::format("expected {}, got {}", expected, shown()));
   }
   return rows;
 }
 
 std::vector<int> Value::integers(std::size_t size, const Check& check) const {
-  const auto list = all(items(), smallNumber);
-  if (list.size() != size) {
-    fail(fmt::format("expected a list of {} whole numbers, got {}", size, shown()));
-  }
+  const auto list = all(smallNumber, fmt::format("a list of {} whole numbers", size), size);
   if (!std::all_of(list.begin(), list.end(), [&](int i) { return check.holds(i); })) {
     fail(fmt::format("each number must be {}, got {}", check.words, shown()));
   }
@@ -389,19 +416,13 @@ std::vector<int> Value::integers(std::size_t size, const Check& check) const {
 }
 
 std::vector<std::string> Value::texts() const {
-  const auto texts = isText() ? std::vector<std::string>{node_->text} : all(items(), textOf);
-  if (texts.empty()) {
-    fail(fmt::format("expected a text or a list of texts, got {}", shown()));
-  }
-  return oneLine(texts);
+  return oneLine(isText() ? std::vector<std::string>{node_->text} : all(textOf, "a text or a list of texts"));
 }
 
 std::vector<std::string> Value::names() const {
   const auto single = nameOf(*node_);
-  const auto names = oneLine(single ? std::vector<std::string>{*single} : all(items(), nameOf));
-  if (names.empty()) {
-    fail(fmt::format("expected a list of names or ids, got {}", shown()));
-  }
+  const auto names =
+      oneLine(single ? std::vector<std::string>{*single} : all(nameOf, "a list of names or ids"));
   std::set<std::string> seen;
   for (const auto& name : names) {
     if (!seen.insert(name).second) {

@@ -1,9 +1,12 @@
 #pragma once
 
 #include <array>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "deck/Characters.hpp"
 #include "deck/YamlTree.hpp"
 
 namespace atrapos::deck {
@@ -19,11 +22,10 @@ extern const Check any, positive, nonzero, fraction, fractionOrZero, count, natu
     poissonsRatio, acuteAngle, slopeAngle, exponent;
 }
 
-/// A value of the deck with its key path; `file` must outlive it. Every accessor throws DeckError where the
-/// value is not of its kind.
+/// A value of the deck with its key path. Every accessor throws DeckError where the value is not of its kind.
 class Value {
  public:
-  Value(YamlTree root, const std::string& file);
+  explicit Value(const YamlFile& file);
 
   /// Nothing counts as an empty map.
   bool isMap() const;
@@ -36,6 +38,8 @@ class Value {
   bool has(const std::string& key) const;
   /// The value of a key, which is there.
   Value at(const std::string& key) const;
+  /// The values of a map, in the deck's order.
+  std::vector<Value> children() const;
   /// Named entries: a map, or a list of maps each with the key `name`, as a map.
   Value entries() const;
   /// The key under which the value stands.
@@ -61,14 +65,30 @@ class Value {
   /// "the text 'x'", "3.5", "a map", ... for messages.
   std::string shown() const;
 
-  /// Throws `deck: key/path: what (line n)`.
+  /// Throws DeckError `deck:line:column: key/path: what` with the place of the value, of a map's key. The
+  /// whole deck has no place.
   [[noreturn]] void fail(const std::string& what) const;
-  /// Throws an error about a missing key of this map.
+  /// The same about the key itself.
+  [[noreturn]] void failKey(const std::string& what) const;
+  /// The same about a missing key of this map.
   [[noreturn]] void failMissing(const std::string& key, const std::string& accepts) const;
+  /// The same about `keys`, "a/b", below this value, with the place of the last one that is there.
+  [[noreturn]] void failUnder(const std::string& keys, const std::string& what) const;
 
  private:
+  static constexpr std::size_t any = 0;
+
+  Value(YamlTree item, const Value& list);
   Value(YamlTree node, const Value& parent, const YamlKey& key);
-  std::string place() const;
+  /// The path of a key below this value.
+  std::string under(const std::string& keys) const;
+  /// Where the value is to be looked for.
+  std::size_t begin() const;
+  [[noreturn]] void fail(std::size_t begin, const std::string& path, const std::string& what) const;
+  /// What `of` makes of the items of a list, so many or at least one; throws where it makes nothing of one.
+  template <class T>
+  std::vector<T> all(std::optional<T> (*of)(const YamlNode&), const std::string& expected,
+                     std::size_t size = any) const;
   /// Of a list; none of anything else.
   const std::vector<YamlTree>& items() const;
   /// The text, or each, without line ends after it; throws where it is empty or has control characters.
@@ -76,9 +96,10 @@ class Value {
   std::vector<std::string> oneLine(std::vector<std::string> texts) const;
 
   YamlTree node_;
-  const std::string* file_;
+  std::shared_ptr<const YamlSource> source_;
   std::string key_, path_;
-  int line_ = 0;  // of the key
+  std::size_t keyBegin_ = 0;
+  bool isRoot_ = true;
 };
 
 /// " (did you mean 'x'?)" for the candidate nearest to a word in edit distance, or nothing where none is
@@ -89,13 +110,7 @@ std::string suggestion(const std::string& word, const std::vector<std::string>& 
 /// null.
 bool readsAsText(const std::string& word);
 
-/// The first bytes of a text, so many at most, without a part of a character.
-std::string beginOf(const std::string& text, std::size_t bytes);
-
-/// A text cut to a length that suits a message.
-std::string shortened(const std::string& text);
-
-/// "a, b, c"
+/// "a, b, c", cut after forty.
 std::string joined(const std::vector<std::string>& words);
 
 }  // namespace atrapos::deck

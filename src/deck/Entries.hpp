@@ -7,13 +7,16 @@
 
 namespace atrapos::deck {
 
+/// Entries are looked for by their names one by one.
+constexpr std::size_t mostEntries = 10000;
+
 inline void checkEntryName(const Value& entry) {
   const std::string key = entry.key();
   const bool word = !key.empty() && std::all_of(key.begin(), key.end(), [](unsigned char c) {
     return std::isalnum(c) != 0 || c == '_' || c == '-' || c == '.';
   });
   if (!word) {
-    entry.fail("a name is made of letters, digits, '_', '-' and '.'");
+    entry.failKey("a name is made of letters, digits, '_', '-' and '.'");
   }
 }
 
@@ -27,15 +30,17 @@ Field<S> entries(std::string key, Need need, std::vector<Entry> S::*member, cons
           expected,
           std::move(meaning),
           [=, &kind](const Value& v, S& s) {
-            const Value all = v.entries();
-            if (all.keys().empty()) {
+            const auto all = v.entries().children();
+            if (all.empty()) {
               v.fail("is empty; expected " + expected);
             }
-            for (const auto& name : all.keys()) {
-              const Value value = all.at(name);
+            if (all.size() > mostEntries) {
+              v.fail(fmt::format("holds {} entries; expected at most {}", all.size(), mostEntries));
+            }
+            for (const Value& value : all) {
               checkEntryName(value);
               Entry entry{};
-              entry.name = name;
+              entry.name = value.key();
               read(kind, value, entry);
               (s.*member).push_back(std::move(entry));
             }

@@ -50,7 +50,7 @@ std::vector<std::string> keysOf(const Table<S>& table) {
 inline void refuseUnknownKeys(const Value& map, const std::vector<std::string>& allowed) {
   for (const auto& key : map.keys()) {
     if (std::find(allowed.begin(), allowed.end(), key) == allowed.end()) {
-      map.at(key).fail(
+      map.at(key).failKey(
           fmt::format("is not a key here{}; allowed are {}", suggestion(key, allowed), joined(allowed)));
     }
   }

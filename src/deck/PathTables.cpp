@@ -100,8 +100,8 @@ Field<Stop> stopMonitors(std::string key, std::string accepts) {
           std::move(accepts),
           "ends where a monitor takes a value",
           [](const Value& v, Stop& s) {
-            for (const auto& monitor : v.keys()) {
-              s.monitors[monitor] = oneOrMore(v.at(monitor), check::any);
+            for (const Value& each : v.children()) {
+              s.monitors[each.key()] = oneOrMore(each, check::any);
             }
           },
           [](const Stop& s) {

@@ -25,8 +25,8 @@ Field<ModelProblem> modelParameters() {
               allowed.push_back(name);
             }
             refuseUnknownKeys(v, allowed);
-            for (const auto& name : v.keys()) {
-              s.parameters[name] = v.at(name).real();
+            for (const Value& each : v.children()) {
+              s.parameters[each.key()] = each.real();
             }
           },
           [](const ModelProblem& s) {

@@ -4,35 +4,14 @@
 
 #include <algorithm>
 
+#include "deck/Characters.hpp"
 #include "deck/Deck.hpp"
 
 namespace atrapos::deck {
-namespace {
-
-/// Bytes of the UTF-8 character that begins at i, 0 where none does: bytes of the wrong kind, overlong forms,
-/// surrogates, beyond U+10FFFF.
-std::size_t characterSize(const std::string& s, std::size_t i) {
-  const auto byte = [&](std::size_t k) {
-    return i + k < s.size() ? static_cast<unsigned char>(s[i + k]) : 0u;
-  };
-  const unsigned first = byte(0);
-  const std::size_t size = first < 0x80                     ? 1
-                           : first >= 0xC2 && first <= 0xDF ? 2
-                           : first >= 0xE0 && first <= 0xEF ? 3
-                           : first >= 0xF0 && first <= 0xF4 ? 4
-                                                            : 0;
-  for (std::size_t k = 1; k < size; ++k) {
-    if ((byte(k) & 0xC0) != 0x80) return 0;
-  }
-  const unsigned second = byte(1);
-  const bool outside = (first == 0xE0 && second < 0xA0) || (first == 0xED && second > 0x9F) ||
-                       (first == 0xF0 && second < 0x90) || (first == 0xF4 && second > 0x8F);
-  return outside ? 0 : size;
-}
-
-}  // namespace
-
 YamlSource::YamlSource(const std::string& text, const std::string& file) : file_(file) {
+  if (text.size() > mostBytes) {
+    fail(fmt::format("is too large for a deck; expected at most {} bytes", mostBytes));
+  }
   for (std::size_t i = text.compare(0, 3, "\xEF\xBB\xBF") == 0 ? 3 : 0; i < text.size(); ++i) {
     if (text.compare(i, 2, "\r\n") != 0) text_ += text[i];
   }
@@ -52,8 +31,9 @@ void YamlSource::checkCharacters() const {
     if (size == 0) {
       fail(i, fmt::format("the byte 0x{:02x} is no UTF-8 here; a deck is text in UTF-8 or ASCII", byte));
     }
-    if ((byte < 32 && byte != '\t' && byte != '\n') || byte == 127) {
-      fail(i, fmt::format("control character 0x{:02x}; a deck is text in UTF-8 or ASCII", byte));
+    const unsigned code = codeOf(text_, i);
+    if (isControl(code) && byte != '\t' && byte != '\n') {
+      fail(i, fmt::format("control character U+{:04X}; a deck is text in UTF-8 or ASCII", code));
     }
   }
 }
@@ -84,11 +64,9 @@ void YamlSource::fail(std::size_t offset, const std::string& what) const {
   const auto column = 1 + std::count_if(before.begin(), before.end(), [](char c) {
                         return (static_cast<unsigned char>(c) & 0xC0) != 0x80;  // begins a character
                       });
-  throw DeckError(fmt::format("{}: line {}, column {}: {}", file_, line, column, what));
+  throw DeckError(fmt::format("{}:{}:{}: {}", file_, line, column, what));
 }
 
-void YamlSource::fail(int line, int column, const std::string& what) const {
-  fail(offset(line, column), what);
-}
+void YamlSource::fail(const std::string& what) const { throw DeckError(fmt::format("{}: {}", file_, what)); }
 
 }  // namespace atrapos::deck

@@ -1,15 +1,19 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
 namespace atrapos::deck {
 
+/// The most bytes that a deck, or a file beside it, may have: more takes minutes and gigabytes to be read.
+constexpr std::size_t mostBytes = 8000000;
+
 /// The text of a YAML file, for a parser that counts bytes from 0.
 class YamlSource {
  public:
-  /// Throws DeckError where the text is not UTF-8. A byte-order mark, carriage returns before line feeds and
-  /// blanks at the end go.
+  /// Throws DeckError where the text is not UTF-8, has control characters or is larger than mostBytes. A
+  /// byte-order mark, carriage returns before line feeds and blanks at the end go.
   YamlSource(const std::string& text, const std::string& file);
 
   const std::string& text() const { return text_; }
@@ -23,9 +27,10 @@ class YamlSource {
   /// Number from 1 of the line in which a byte stands.
   std::size_t lineOf(std::size_t offset) const;
 
-  /// Throws DeckError: file, line and column from 1, columns in characters, what is wrong.
-  [[noreturn]] void fail(int line, int column, const std::string& what) const;
+  /// Throws DeckError `file:line:column: what`, from 1, columns in characters.
   [[noreturn]] void fail(std::size_t offset, const std::string& what) const;
+  /// Throws DeckError `file: what`.
+  [[noreturn]] void fail(const std::string& what) const;
 
  private:
   void checkCharacters() const;

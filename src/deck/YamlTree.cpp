@@ -1,4 +1,4 @@
-// The one source that knows yaml-cpp: its events become a tree, its errors lines of ours.
+// yaml-cpp's events become a tree; YamlErrors makes lines of ours of its errors.
 #include "deck/YamlTree.hpp"
 
 #include <fmt/format.h>
@@ -7,14 +7,12 @@
 #include <yaml-cpp/mark.h>
 #include <yaml-cpp/parser.h>
 
-#include <algorithm>
 #include <cctype>
 #include <map>
 #include <sstream>
 
-#include "deck/Deck.hpp"
-#include "deck/DeckValue.hpp"
-#include "deck/YamlSource.hpp"
+#include "deck/Characters.hpp"
+#include "deck/YamlErrors.hpp"
 
 namespace atrapos::deck {
 namespace {
@@ -23,16 +21,8 @@ using Kind = YamlNode::Kind;
 
 constexpr std::size_t deepest = 64;
 constexpr std::size_t mostByAliases = 1000000;
+constexpr std::size_t longestKey = 200;  // bytes
 constexpr const char* mergeKey = "<<";
-
-std::string noEntry(const std::string& text) {
-  const bool digits = text.find_first_not_of("0123456789") == std::string::npos;
-  const bool colon = text.find(':') != std::string::npos;
-  return fmt::format("expected 'key: value', got '{}'{}", shortened(text),
-                     digits  ? " (decimals are written with a point: 0.3)"
-                     : colon ? " (a blank follows the colon)"
-                             : "");
-}
 
 class TreeBuilder : public YAML::EventHandler {
  public:
@@ -40,19 +30,13 @@ class TreeBuilder : public YAML::EventHandler {
 
   const YamlTree& root() const { return root_; }
 
-  // What the explanation of an error looks at.
-  /// Begin of the last scalar, or of the list or map that began after it.
-  std::size_t lastBegin() const { return lastBegin_; }
-  /// Begins of the brackets that are open, the innermost last.
-  std::vector<std::size_t> openBrackets() const {
-    std::vector<std::size_t> begins;
+  YamlProgress progress() const {
+    YamlProgress progress{lastBegin_, {}, endedList_};
     for (const Open& open : open_) {
-      if (open.flow) begins.push_back(open.begin);
+      if (open.flow) progress.openBrackets.push_back(open.begin);
     }
-    return begins;
+    return progress;
   }
-  /// Column of the items of the list in a block that has just ended; -1: something else has.
-  int endedList() const { return endedList_; }
 
   void OnDocumentStart(const YAML::Mark& mark) override {
     if (!documentEnded_) return;
@@ -120,8 +104,8 @@ class TreeBuilder : public YAML::EventHandler {
     bool flow = false;
     YAML::anchor_t anchor = 0;
     std::size_t countBefore = 0;
-    std::map<std::string, int> lines = {};  // of the keys
-    std::size_t keyBegin = 0;               // of the last one
+    std::map<std::string, std::size_t> begins = {};  // of the keys
+    std::size_t keyBegin = 0;                        // of the last one
     std::vector<YamlTree> merged = {};
   };
   struct Anchored {
@@ -145,7 +129,7 @@ class TreeBuilder : public YAML::EventHandler {
     }
     auto made = std::make_shared<YamlNode>();
     made->kind = kind;
-    made->line = mark.line + 1;
+    made->begin = begin(mark);
     return made;
   }
 
@@ -189,13 +173,16 @@ class TreeBuilder : public YAML::EventHandler {
     if (key.kind != Kind::Scalar) {
       source_.fail(at, "a key must be a text");
     }
-    const auto [previous, isNew] = map.lines.emplace(key.text, key.line);
+    if (key.text.size() > longestKey || hasControl(key.text)) {
+      source_.fail(at, fmt::format("a key is at most {} bytes without control characters", longestKey));
+    }
+    const auto [previous, isNew] = map.begins.emplace(key.text, at);
     if (!isNew) {
-      source_.fail(
-          at, fmt::format("'{}{}' is given twice, first on line {}", path(), key.text, previous->second));
+      source_.fail(at, fmt::format("'{}{}' is given twice, first on line {}", path(), key.text,
+                                   source_.lineOf(previous->second)));
     }
     map.keyBegin = at;
-    map.node->keys.push_back({key.text, key.line});
+    map.node->keys.push_back({key.text, at});
   }
 
   void addValue(const YamlTree& value) {
@@ -220,7 +207,7 @@ class TreeBuilder : public YAML::EventHandler {
     for (const YamlTree& other : map.merged) {
       countByAliases(other->keys.size(), map.keyBegin);
       for (std::size_t i = 0; i < other->keys.size(); ++i) {
-        if (map.lines.emplace(other->keys[i].name, other->keys[i].line).second) {
+        if (map.begins.emplace(other->keys[i].name, other->keys[i].begin).second) {
           map.node->keys.push_back(other->keys[i]);
           map.node->items.push_back(other->items[i]);
         }
@@ -268,136 +255,29 @@ class TreeBuilder : public YAML::EventHandler {
   int endedList_ = -1;
 };
 
-// ------------------------------------------------------------------------------- what went wrong, in words
-
-/// Where the text in quotes begins that is never closed: after the last value that was read.
-std::size_t openQuote(const std::string& text, std::size_t from) {
-  const auto mayBegin = [&](std::size_t i) {
-    return i == 0 || std::string(" \t\n[{,:-").find(text[i - 1]) != std::string::npos;
-  };
-  for (std::size_t i = from; i < text.size(); ++i) {
-    if (text[i] == '#' && mayBegin(i)) {
-      i = std::min(text.find('\n', i), text.size());
-    } else if ((text[i] == '"' || text[i] == '\'') && mayBegin(i)) {
-      auto end = i + 1;
-      const char escape = text[i] == '"' ? '\\' : '\'';
-      while (end < text.size() && (text[end] != text[i] || text.compare(end, 2, "''") == 0)) {
-        end += text[end] == escape ? 2 : 1;
-      }
-      if (end >= text.size()) return i;
-      i = end;
-    }
-  }
-  return from;
-}
-
-std::size_t indentation(const std::string& line) {
-  return std::min(line.find_first_not_of(" \t"), line.size());
-}
-
-/// A ':' where no key can be: the line before is no entry, or this one is indented as if it were.
-std::string unexpectedColon(const YamlSource& source, int line, int column) {
-  const std::string own = source.line(line);
-  int above = line - 1;
-  while (above >= 0 && indentation(source.line(above)) == source.line(above).size()) --above;
-  const std::string before = source.line(above);
-  const auto begin = indentation(own);
-  const bool firstOnLine = own.find(':', begin) == static_cast<std::size_t>(column);
-  const bool entry = above < 0 || before[indentation(before)] == '-' || before.back() == ':' ||
-                     before.find(": ") != std::string::npos;
-  if (firstOnLine && !entry) {
-    return fmt::format("line {} is no entry: {}", above + 1, noEntry(before.substr(indentation(before))));
-  }
-  if (firstOnLine && above >= 0 && begin > indentation(before)) {
-    return "this line is indented more than the one before, which begins no block";
-  }
-  return "unexpected ':'; a text that holds ': ' needs quotes, and an entry a line of its own or a ',' "
-         "before it";
-}
-
-/// The parser wanted another key, or item.
-std::string endOfBlock(const YamlSource& source, const TreeBuilder& builder, int line, int column) {
-  const std::string own = source.line(line);
-  const std::string rest = own.substr(std::min(static_cast<std::size_t>(column), own.size()));
-  if (indentation(own) != static_cast<std::size_t>(column) || rest.empty() ||
-      std::string(",[]{}\"'&*").find(rest[0]) != std::string::npos) {
-    return fmt::format("unexpected '{}'; expected 'key: value' on a line of its own", shortened(rest));
-  }
-  if (rest == "-" || rest.compare(0, 2, "- ") == 0) {
-    return "a list item must be indented below its key, as the items before it";
-  }
-  return builder.endedList() == column ? "expected a list item, '- ...'"
-                                       : "the indentation matches no enclosing block";
-}
-
-[[noreturn]] void explain(const YAML::Exception& error, const YamlSource& source,
-                          const TreeBuilder& builder) {
-  namespace msg = YAML::ErrorMsg;
-  const int line = error.mark.line, column = error.mark.column;
-  const auto at = source.offset(line, column);
-  const std::string own = source.line(line);
-  const std::string found = source.character(at);
-  const auto fail = [&](const std::string& what) { source.fail(at, what); };
-  const auto is = [&](const char* message) { return error.msg == message; };
-
-  if (builder.openBrackets().empty() && own.substr(0, indentation(own)).find('\t') != std::string::npos) {
-    source.fail(line, 0, "indentation takes spaces, not tabs");
-  }
-  if (is(msg::EOF_IN_SCALAR) || is(msg::DOC_IN_SCALAR)) {
-    source.fail(openQuote(source.text(), builder.lastBegin()), "the text in quotes is never closed");
-  }
-  if (is(msg::END_OF_MAP_FLOW) || is(msg::END_OF_SEQ_FLOW)) {
-    const std::string pair = is(msg::END_OF_SEQ_FLOW) ? "[]" : "{}";
-    const auto open = builder.openBrackets().empty() ? at : builder.openBrackets().back();
-    if (found.empty()) {
-      source.fail(open, fmt::format("'{}' is never closed", pair[0]));
-    }
-    fail(fmt::format("unexpected '{}'; expected ',' or '{}' for the '{}' on line {}", found, pair[1], pair[0],
-                     source.lineOf(open)));
-  }
-  if (is(msg::FLOW_END)) fail(fmt::format("'{}' closes nothing", found));
-  if (is(msg::MAP_VALUE)) fail(unexpectedColon(source, line, column));
-  if (is(msg::END_OF_MAP)) fail(endOfBlock(source, builder, line, column));
-  if (is(msg::END_OF_SEQ)) fail("expected a list item, '- ...'");
-  if (is(msg::BLOCK_ENTRY))
-    fail("a list item, '- ...', begins a line of its own; '-' as a text needs quotes");
-  if (is(msg::MAP_KEY)) fail("unexpected '?'; a text that begins with it needs quotes");
-  if (is(msg::UNKNOWN_TOKEN))
-    fail(fmt::format("unexpected '{}'; a text that begins with it needs quotes", found));
-  if (error.msg.rfind(msg::INVALID_ESCAPE, 0) == 0) {
-    source.fail(at - 2, fmt::format("unknown escape '\\{}'; in single quotes a backslash is itself",
-                                    source.character(at - 1)));
-  }
-  if (is(msg::UNKNOWN_ANCHOR)) {
-    const auto end = source.text().find_first_of(" \t\n,]}", at);
-    fail(fmt::format("no anchor '&{}' stands before this alias", source.text().substr(at + 1, end - at - 1)));
-  }
-  source.fail(at, error.msg);
-}
-
 }  // namespace
 
-YamlTree readYaml(const std::string& text, const std::string& file) {
-  const YamlSource source(text, file);
-  TreeBuilder builder(source);
+YamlFile readYaml(const std::string& text, const std::string& file) {
+  const auto source = std::make_shared<const YamlSource>(text, file);
+  TreeBuilder builder(*source);
   // The mark of the end: without it the parser takes a quote that is never closed for closed, and what stands
   // last in open brackets for a key.
-  std::istringstream in(source.text() + "\n...\n");
+  std::istringstream in(source->text() + "\n...\n");
   try {
     YAML::Parser parser(in);
     // The second document is refused; some that are none would never end.
     if (parser.HandleNextDocument(builder)) parser.HandleNextDocument(builder);
   } catch (const YAML::Exception& error) {
-    explain(error, source, builder);
+    explain(error, *source, builder.progress());
   }
   const YamlTree root = builder.root();
   if (!root || root->kind == Kind::Nothing) {
-    throw DeckError(file + ": the deck is empty; expected the blocks mesh, materials, supports, path, ...");
+    source->fail("the deck is empty; expected the blocks mesh, materials, supports, path, ...");
   }
   if (root->kind == Kind::Scalar) {
-    source.fail(builder.lastBegin(), noEntry(root->text));
+    source->fail(root->begin, noEntry(root->text));
   }
-  return root;
+  return {source, root};
 }
 
 }  // namespace atrapos::deck

@@ -57,11 +57,21 @@ std::string errorOf(const std::string& text) {
   return "no error";
 }
 
-/// Exact start of the line (file and key path) and words that it must hold; never more than one line.
+/// What a line of error says behind its file and place.
+std::string behindPlace(const std::string& error) {
+  const auto place = error.find(".yaml:");
+  return place == std::string::npos ? error
+                                    : error.substr(error.find_first_not_of("0123456789: ", place + 6));
+}
+
+/// Exact start of the line behind the file: its place, or the key path behind that; and words that it must
+/// hold. Never more than one line.
 void expectError(const std::string& text, const std::string& start, const std::vector<std::string>& words) {
-  const std::string error = errorOf(text);
-  const std::string begin = "some/folder/solid.yaml: " + start;
-  EXPECT_EQ(error.substr(0, begin.size()), begin) << error;
+  const std::string error = errorOf(text), file = "some/folder/solid.yaml:";
+  ASSERT_EQ(error.substr(0, file.size()), file) << error;
+  const bool withPlace = start.find_first_of("0123456789") == 0;
+  const std::string rest = withPlace ? error.substr(file.size()) : behindPlace(error);
+  EXPECT_EQ(rest.substr(0, start.size()), start) << error;
   EXPECT_EQ(error.find('\n'), std::string::npos) << error;
   for (const auto& word : words) {
     EXPECT_NE(error.find(word), std::string::npos) << "'" << word << "' is not in: " << error;
@@ -420,7 +430,12 @@ TEST(Deck, numbers) {
   EXPECT_EQ(radius("5e-324"), 5e-324);
   EXPECT_EQ(radius("1.7976931348623157e308"), 1.7976931348623157e308);
   EXPECT_EQ(radius("0.1000000000000000055511151231257827021181583404541015625"), 0.1);
-  EXPECT_EQ(readDeckText(changed("order: 15", "order: +15"), "d.yaml").path.order, 15);
+  for (const std::string number : {"15", "+15", "15.0", "1.5e1", "15."})
+    EXPECT_EQ(readDeckText(changed("order: 15", "order: " + number), "d.yaml").path.order, 15) << number;
+  EXPECT_EQ(std::get<fem::BoxOptions>(
+                *readDeckText(changed("[10, 2, 1], cell", "[1.0e1, 2.0, 1], cell"), "d.yaml").mesh.generate)
+                .divisions,
+            (std::array<int, 3>{10, 2, 1}));
   EXPECT_EQ(readDeckText(changed("set: x_min", "set: 007"), "d.yaml").supports[0].set, "7");
   EXPECT_EQ(readDeckText(changed("set: x_min", "set: '007'"), "d.yaml").supports[0].set, "007");
 }
@@ -481,6 +496,71 @@ TEST(Deck, examplesParse) {
 
 // ------------------------------------------------------------------------------------------- bad decks
 
+/// goodDeck with one change is refused with this line.
+void expectLine(const std::string& from, const std::string& to, const std::string& line) {
+  EXPECT_EQ(errorOf(changed(from, to)), "some/folder/solid.yaml" + line);
+}
+
+TEST(BadDeck, places) {
+  // Of a value, of an item that is wrong, of the key of a map, of a key that is none.
+  expectLine("radius: 50", "radius: -50", ":16:76: tools/roll/radius: must be positive, got -50");
+  expectLine("axis: [0, 1, 0]", "axis: [0, y, 0]",
+             ":16:61: tools/roll/axis: expected a list of 3 finite numbers, got the list [0, y, 0]");
+  expectLine("axis: [0, 1, 0]", "axis: [0, 1]",
+             ":16:57: tools/roll/axis: expected a list of 3 finite numbers, got the list [0, 1]");
+  expectLine(", radius: 50", "", ":16:3: tools/roll/radius: is missing; expected a number, positive");
+  expectLine(
+      "path:", "ä: 1\npath:",
+      ":19:1: ä: is not a key here; allowed are title, mesh, materials, shells, supports, couplings, loads, "
+      "tools, contact, path, solver, output");
+  expectLine("{tool: roll", "{tool: # ä\n    'rol'",
+             ":19:5: contact/lower/tool: no entry 'rol' in tools (did you mean 'roll'?); there are roll");
+  // Columns count characters.
+  expectLine("clamp: {set: x_min, x: 0", "clamp: {\"set\": \"ä\\u00e4 ☃ 😀\", x: a",
+             ":9:36: supports/clamp/x: expected a finite number, got the text 'a'");
+  // What an alias stands for is wrong where it is written, an entry of a list where its name is.
+  expectLine("total: [0, 0, -100]", "total: &t [0, 0, -100], at: *t",
+             ":14:43: loads/tip/at: expected one of top, middle, bottom, got the list [0, 0, -100]");
+  expectLine("  tip: {type: surface,", "  - {type: surface, name: a/b,",
+             ":14:27: loads/a/b: a name is made of letters, digits, '_', '-' and '.'");
+  // A block that is not there has no place.
+  EXPECT_EQ(errorOf("title: a\nmesh: {file: a}\n").find("some/folder/solid.yaml: materials: is missing"), 0u);
+}
+
+TEST(BadDeck, budgets) {
+  const std::string large(8000001, ' ');
+  expectError(large, "is too large for a deck; expected at most 8000000 bytes", {});
+  try {
+    readDeck("/dev/zero");  // has no end
+    ADD_FAILURE();
+  } catch (const DeckError& error) {
+    EXPECT_STREQ(error.what(), "/dev/zero: is too large for a deck; expected at most 8000000 bytes");
+  }
+  // As long as may be, and one more.
+  EXPECT_EQ(errorOf(changed("Strip on a roll", std::string(4096, 'x'))), "no error");
+  for (const std::string quote : {"", "'", "\""}) {
+    expectError("Strip on a roll", quote + std::string(4097, 'x') + quote,
+                "title: must have at most 4096 bytes, has 4097", {});
+    expectError("Strip on a roll", quote + std::string(1000000, 'x') + quote, "title: must have at most", {});
+  }
+  const std::string key(200, 'k');
+  expectError("path:", key + ": 1\npath:", key + ": is not a key here", {});
+  expectError("path:", key + "k: 1\npath:", "19:1: a key is at most 200 bytes", {});
+  std::string tools = "tools:\n", list;
+  for (int i = 0; i <= 10000; ++i) {
+    tools += fmt::format("  t{}: {{type: sphere, center: [0, 0, 0], radius: 1}}\n", i);
+    list += fmt::format("  - {{name: t{}, type: sphere, center: [0, 0, 0], radius: 1}}\n", i);
+  }
+  expectError("tools:\n", tools, "tools: holds 10002 entries; expected at most 10000", {});
+  expectError("tools:\n  roll: ", "tools:\n" + list + "  - ", "tools/item 10002: has no name", {});
+  // Lists of what is there end.
+  tools.erase(tools.find("  t9000:"));
+  const std::string line = errorOf(
+      changed("tools:\n", tools).replace(changed("tools:\n", tools).find("tool: roll"), 10, "tool: rall"));
+  EXPECT_NE(line.find("did you mean 'roll'?"), std::string::npos) << line;
+  EXPECT_NE(line.find("t39, ... (9001 in all)"), std::string::npos) << line;
+}
+
 TEST(BadDeck, fileThatCannotBeRead) {
   for (const std::string file : {"no/such/deck.yaml", "/"}) {
     try {
@@ -500,119 +580,127 @@ TEST(BadDeck, emptyFiles) {
 }
 
 TEST(BadDeck, textThatIsNoMap) {
-  expectError("hello\n", "line 1, column 1: ", {"expected 'key: value', got 'hello'"});
-  expectError("[1, 2]\n", "line 1, column 1: ", {"not a list"});
-  expectError("- a\n- b\n", "line 1, column 1: ", {"not a list"});
-  expectError(std::string(1000000, 'x'), "line 1, column 1: ", {"got 'xxx", "xxx...'"});
-  expectError("mesh:\n  hello\n", "mesh: expected a map of keys, got the text 'hello'", {"(line 1)"});
-  expectError("a: 1\n---\nb: 2\n", "line 2, column 1: ", {"one YAML document"});
-  expectError("%YAML 2.0\n---\na: 1\n", "line 1, column 1: ", {"version"});
-  expectError("a: 1\n...\nb: 2\n", "line 3, column 1: ", {"one YAML document"});
-  expectError("mesh: 3\n", "mesh: ", {"expected a map of keys, got 3", "(line 1)"});
-  expectError(std::string("CDF\x01\0\0\0\0", 8), "line 1, column 4: ", {"ASCII"});
+  expectError("hello\n", "1:1: ", {"expected 'key: value', got 'hello'"});
+  expectError("[1, 2]\n", "1:1: ", {"not a list"});
+  expectError("- a\n- b\n", "1:1: ", {"not a list"});
+  expectError(std::string(1000000, 'x'), "1:1: ", {"got 'xxx", "xxx...'"});
+  expectError("mesh:\n  hello\n", "mesh: expected a map of keys, got the text 'hello'", {":2:3: "});
+  expectError("a: 1\n---\nb: 2\n", "2:1: ", {"one YAML document"});
+  expectError("%YAML 2.0\n---\na: 1\n", "1:1: ", {"no directives but '%YAML 1.2', of its version"});
+  expectError("a: 1\n...\nb: 2\n", "3:1: ", {"one YAML document"});
+  expectError("mesh: 3\n", "mesh: ", {"expected a map of keys, got 3", ":1:"});
+  expectError(std::string("CDF\x01\0\0\0\0", 8), "1:4: ", {"ASCII"});
 }
 
 TEST(BadDeck, indentation) {
-  expectError("mesh:\n\tfile: a\n", "line 2, column 1: ", {"spaces, not tabs"});
-  expectError("mesh:\n    file: a\n  generate: b\n", "line 3, column 3: ", {"matches no enclosing block"});
-  expectError(" a: 1\nb: 2\n", "line 2, column 1: ", {"matches no enclosing block"});
-  expectError("a:\n  b: 1\n  - 2\n", "line 3, column 3: ", {"must be indented below its key"});
-  expectError("a:\n  - 2\n  b: 1\n", "line 3, column 3: ", {"expected a list item"});
-  expectError("a:\n  - 2\nmesh:\n    file: a\n  block: b\n",
-              "line 5, column 3: ", {"matches no enclosing block"});
-  expectError("title: a\n   mesh: b\n", "line 2, column ", {"indented more"});
+  expectError("mesh:\n\tfile: a\n", "2:1: ", {"spaces, not tabs"});
+  expectError("mesh:\n    file: a\n  generate: b\n", "3:3: ", {"matches no enclosing block"});
+  expectError(" a: 1\nb: 2\n", "2:1: ", {"matches no enclosing block"});
+  expectError("a:\n  b: 1\n  - 2\n", "3:3: ", {"must be indented below its key"});
+  expectError("a:\n  - 2\n  b: 1\n", "3:3: ", {"expected a list item"});
+  expectError("a:\n  - 2\nmesh:\n    file: a\n  block: b\n", "5:3: ", {"matches no enclosing block"});
+  expectError("title: a\n   mesh: b\n", "2:", {"indented more"});
 }
 
 TEST(BadDeck, keysGivenTwice) {
-  expectError("title: a\nmesh: {file: b}\ntitle: c\n",
-              "line 3, column 1: ", {"'title' is given twice, first on line 1"});
+  expectError("title: a\nmesh: {file: b}\ntitle: c\n", "3:1: ", {"'title' is given twice, first on line 1"});
   expectError("tools:\n  roll: {}\n  # once more\n  roll: {}\n",
-              "line 4, column 3: ", {"'tools/roll' is given twice, first on line 2"});
+              "4:3: ", {"'tools/roll' is given twice, first on line 2"});
   expectError("title: a\nmesh: {file: b, file: c}\n",
-              "line 2, column 17: ", {"'mesh/file' is given twice, first on line 2"});
-  expectError("tools: {roll: &r {}, flat: *r, roll: *r}\n",
-              "line 1, column 32: ", {"'tools/roll' is given twice"});
+              "2:17: ", {"'mesh/file' is given twice, first on line 2"});
+  expectError("tools: {roll: &r {}, flat: *r, roll: *r}\n", "1:32: ", {"'tools/roll' is given twice"});
 }
 
 TEST(BadDeck, whatIsNoYaml) {
-  expectError("title: Strip: on a roll\n", "line 1, column 13: ", {"unexpected ':'", "quotes"});
-  expectError("path: {order: 15\n  stop: 3}\n", "line 2, column 7: ", {"unexpected ':'", "','"});
-  expectError("title: \"strip\n", "line 1, column 8: ", {"never closed"});
-  expectError("title: 'it''s\n\nmesh: {file: 'a'}\n", "line 3, column 15: ", {"unexpected 'a'}'"});
-  expectError("title: 'it''s\nmesh: \"a\"\n", "line 1, column 8: ", {"never closed"});
-  expectError("mesh: {file: 'it''s', block: \"a\\\" # b\n} # 'c'\n", "line 1, column 30: ", {"never closed"});
-  expectError("title: \"a\\q\"\n", "line 1, column 10: ", {"unknown escape '\\q'"});
-  expectError("title: \"\\ä\"\n", "line 1, column 9: ", {"unknown escape '\\ä'"});
-  expectError("mesh: {file: \"a\" ä}\n", "line 1, column 18: ", {"unexpected 'ä'"});
-  expectError("mesh: {file: a\n", "line 1, column 7: ", {"'{' is never closed"});
-  expectError("mesh: {file: [a}\n", "line 1, column 16: ", {"'}' closes nothing"});
-  expectError("mesh: [a, b\n", "line 1, column 7: ", {"'[' is never closed"});
-  expectError("mesh: [[1, 2], [3, 4\n", "line 1, column 16: ", {"'[' is never closed"});
-  expectError("mesh: [[1, 2],\n [3, 4]\n", "line 1, column 7: ", {"'[' is never closed"});
-  expectError(", a\n", "line 1, column 1: ", {"unexpected ','"});
-  expectError("mesh: {a: [1]]\n", "line 1, column 14: ", {"']' closes nothing"});
-  expectError("mesh: [\"a\" \"b\"]\n", "line 1, column 12: ", {"expected ',' or ']' for the '[' on line 1"});
-  expectError("mesh: {file: \"a\"}, b\n", "line 1, column 18: ", {"unexpected ', b'", "line of its own"});
-  expectError("mesh: - a\n", "line 1, column 7: ", {"a list item", "a line of its own"});
-  expectError("title: @home\n", "line 1, column 8: ", {"unexpected '@'", "quotes"});
-  expectError("title: ä@\nmesh: {ö: [ü}\n",
-              "line 2, column 13: ", {"closes nothing"});  // characters, not bytes
-  expectError("title: !!str 3\n", "line 1, column 8: ", {"tags"});
-  expectError("[a, b]: 3\n", "line 1, column 1: ", {"a key must be a text"});
-  expectError("mesh: {[a, b]: 3}\n", "line 1, column 8: ", {"a key must be a text"});
-  expectError("mesh: {~: 3}\n", "line 1, column 8: ", {"a key must be a text"});
+  expectError("title: Strip: on a roll\n", "1:13: ", {"unexpected ':'", "quotes"});
+  expectError("path: {order: 15\n  stop: 3}\n", "2:7: ", {"unexpected ':'", "','"});
+  expectError("title: \"strip\n", "1:8: ", {"never closed"});
+  expectError("title: 'it''s\n\nmesh: {file: 'a'}\n", "3:15: ", {"unexpected 'a'}'"});
+  expectError("title: 'it''s\nmesh: \"a\"\n", "1:8: ", {"never closed"});
+  expectError("mesh: {file: 'it''s', block: \"a\\\" # b\n} # 'c'\n", "1:30: ", {"never closed"});
+  expectError("title: \"a\\q\"\n", "1:10: ", {"unknown escape '\\q'"});
+  expectError("title: \"\\ä\"\n", "1:9: ", {"unknown escape '\\ä'"});
+  expectError("mesh: {file: \"a\" ä}\n", "1:18: ", {"unexpected 'ä'"});
+  expectError("mesh: {file: a\n", "1:7: ", {"'{' is never closed"});
+  expectError("mesh: {file: [a}\n", "1:16: ", {"'}' closes nothing"});
+  expectError("mesh: [a, b\n", "1:7: ", {"'[' is never closed"});
+  expectError("mesh: [[1, 2], [3, 4\n", "1:16: ", {"'[' is never closed"});
+  expectError("mesh: [[1, 2],\n [3, 4]\n", "1:7: ", {"'[' is never closed"});
+  expectError(", a\n", "1:1: ", {"unexpected ','"});
+  expectError("mesh: {a: [1]]\n", "1:14: ", {"']' closes nothing"});
+  expectError("mesh: [\"a\" \"b\"]\n", "1:12: ", {"expected ',' or ']' for the '[' on line 1"});
+  expectError("mesh: {file: \"a\"}, b\n", "1:18: ", {"unexpected ', b'", "line of its own"});
+  expectError("mesh: - a\n", "1:7: ", {"a list item", "a line of its own"});
+  expectError("title: @home\n", "1:8: ", {"unexpected '@'", "quotes"});
+  expectError("title: ä@\nmesh: {ö: [ü}\n", "2:13: ", {"closes nothing"});  // characters, not bytes
+  expectError("title: !!str 3\n", "1:8: ", {"tags"});
+  expectError("title: !<a\n", "1:", {"tags are not used in decks"});
+  expectError("title: \"a\\xg0\"\n", "1:", {"the escape is no character", "2 hexadecimal digits"});
+  expectError("title: \"a\\ud800\"\n", "1:", {"the escape is no character"});
+  expectError("%YAML 1.2 3\n---\na: 1\n", "1:1: ", {"no directives but '%YAML 1.2'"});
+  expectError("%YAML 1.2\n%YAML 1.2\n---\na: 1\n", "2:1: ", {"no directives but '%YAML 1.2'"});
+  expectError("%TAG ! !\n%TAG ! !\n---\na: 1\n", "2:1: ", {"no directives but '%YAML 1.2'"});
+  expectError("%YAML x\n---\na: 1\n", "1:1: ", {"no directives but '%YAML 1.2'"});
+  expectError("title: |x\n  a\n", "1:", {"'|' or '>'"});
+  expectError("title: |0\n  a\n", "1:", {"'|' or '>'"});
+  expectError("a: & b\n", "1:", {"a name of letters and digits after '&' or '*'"});
+  expectError("a: *\n", "1:", {"a name of letters and digits after '&' or '*'"});
+  expectError("a: &b &c d\n", "1:", {"one anchor at most"});
+  expectError("[a, b]: 3\n", "1:1: ", {"a key must be a text"});
+  expectError("mesh: {[a, b]: 3}\n", "1:8: ", {"a key must be a text"});
+  expectError("mesh: {~: 3}\n", "1:8: ", {"a key must be a text"});
 }
 
 TEST(BadDeck, entriesWithoutColonOrBlank) {
-  expectError("mesh: {file: a}\nsolver\n", "line 2, column 1: ", {"expected 'key: value', got 'solver'"});
-  expectError("path:\n  order:15\n  stop: {steps: 3}\n",
-              "line 3, column 7: ", {"line 2", "got 'order:15'", "blank"});
-  expectError("mesh: {file:a}\n", "line 1, column 8: ", {"got 'file:a'", "a blank follows the colon"});
-  expectError("poissons_ratio: 0,", "poissons_ratio: 0,3,",
-              "line 7, column 82: ", {"'3'", "with a point: 0.3"});
-  expectError("radius: 50", "\n    radius: 0,5 }\n  other: {radius: 1,",
-              "line 17, column 15: ", {"'5'", "0.3"});
+  expectError("mesh: {file: a}\nsolver\n", "2:1: ", {"expected 'key: value', got 'solver'"});
+  expectError("path:\n  order:15\n  stop: {steps: 3}\n", "3:7: ", {"line 2", "got 'order:15'", "blank"});
+  expectError("mesh: {file:a}\n", "1:8: ", {"got 'file:a'", "a blank follows the colon"});
+  expectError("poissons_ratio: 0,", "poissons_ratio: 0,3,", "7:82: ", {"'3'", "with a point: 0.3"});
+  expectError("radius: 50", "\n    radius: 0,5 }\n  other: {radius: 1,", "17:15: ", {"'5'", "0.3"});
 }
 
 TEST(BadDeck, textThatIsNoUtf8) {
-  expectError("title: Tr\xE4ger\n", "line 1, column 10: ", {"0xe4", "UTF-8"});  // Latin-1
-  expectError("a: 1\ntitle: \xC3", "line 2, column 8: ", {"0xc3", "UTF-8"});    // cut short
-  expectError("title: \xC0\xAF\n", "line 1, column 8: ", {"0xc0"});             // overlong
-  expectError("title: \xED\xA0\x80\n", "line 1, column 8: ", {"0xed"});         // half of a pair
-  expectError("\xFF\xFEt\0i\0", "line 1, column 1: ", {"0xff"});                // UTF-16
-  expectError("a: 1\rtitle: b\n", "line 1, column 5: ", {"control character 0x0d"});
-  expectError("title: a\x04\n", "line 1, column 9: ", {"control character 0x04"});
+  expectError("title: Tr\xE4ger\n", "1:10: ", {"0xe4", "UTF-8"});  // Latin-1
+  expectError("a: 1\ntitle: \xC3", "2:8: ", {"0xc3", "UTF-8"});    // cut short
+  expectError("title: \xC0\xAF\n", "1:8: ", {"0xc0"});             // overlong
+  expectError("title: \xED\xA0\x80\n", "1:8: ", {"0xed"});         // half of a pair
+  expectError("\xFF\xFEt\0i\0", "1:1: ", {"0xff"});                // UTF-16
+  expectError("a: 1\rtitle: b\n", "1:5: ", {"control character U+000D"});
+  expectError("title: a\x04\n", "1:9: ", {"control character U+0004"});
+  expectError("title: ä\x7f\n", "1:9: ", {"control character U+007F"});
+  expectError("title: ä\xC2\x85\n", "1:9: ", {"control character U+0085"});
+  expectError("title: \xE2\x80\xA8\n", "1:8: ", {"control character U+2028"});
 }
 
 TEST(BadDeck, aliases) {
-  expectError("tools: {roll: *r}\n", "line 1, column 15: ", {"no anchor '&r' stands before"});
-  expectError("tools: &t {roll: *t}\n", "line 1, column 18: ", {"stands within what it names"});
-  expectError("tools: &t {roll: {<<: *t}}\n", "line 1, column 23: ", {"stands within what it names"});
-  expectError("a: &x b\ntools: {*x}\n", "line 2, column 9: ", {"'key: *alias'"});
-  expectError("a: &x b\ntools: {<<: *x}\n", "line 2, column 9: ", {"'<<' takes a map"});
-  expectError("tools: {<<: {a: 1}, <<: {b: 1}}\n", "line 1, column 21: ", {"'tools/<<' is given twice"});
+  expectError("tools: {roll: *r}\n", "1:15: ", {"no anchor '&r' stands before"});
+  expectError("tools: &t {roll: *t}\n", "1:18: ", {"stands within what it names"});
+  expectError("tools: &t {roll: {<<: *t}}\n", "1:23: ", {"stands within what it names"});
+  expectError("a: &x b\ntools: {*x}\n", "2:9: ", {"'key: *alias'"});
+  expectError("a: &x b\ntools: {<<: *x}\n", "2:9: ", {"'<<' takes a map"});
+  expectError("tools: {<<: {a: 1}, <<: {b: 1}}\n", "1:21: ", {"'tools/<<' is given twice"});
   // Ten times ten times ...: 10^9 values in 9 lines.
   std::string laughs = "a0: &a0 [x, x, x, x, x, x, x, x, x, x]\n";
   for (int i = 1; i < 9; ++i) {
     laughs += fmt::format(
         "a{0}: &a{0} [*a{1}, *a{1}, *a{1}, *a{1}, *a{1}, *a{1}, *a{1}, *a{1}, *a{1}, *a{1}]\n", i, i - 1);
   }
-  expectError(laughs, "line ", {"the aliases stand for more than 1000000 values"});
+  expectError(laughs, "", {"the aliases stand for more than 1000000 values"});
 }
 
 TEST(BadDeck, nestedDeeply) {
   const std::string brackets(100000, '[');
-  expectError("a: " + brackets, "line 1, column ", {"more than 64 deep"});
-  expectError("a: " + brackets + std::string(100000, ']'), "line 1, column 67: ", {"more than 64 deep"});
+  expectError("a: " + brackets, "1:", {"more than 64 deep"});
+  expectError("a: " + brackets + std::string(100000, ']'), "1:67: ", {"more than 64 deep"});
   std::string text = "a:\n  ";
   for (int i = 0; i < 100000; ++i) text += "- ";
-  expectError(text + "b\n", "line 2, column 129: ", {"more than 64 deep"});
+  expectError(text + "b\n", "2:129: ", {"more than 64 deep"});
   text = "a: ";
   for (int i = 0; i < 100000; ++i) text += "{a: ";
-  expectError(text, "line 1, column ", {"more than 64 deep"});
+  expectError(text, "1:", {"more than 64 deep"});
   text.clear();
   for (int i = 0; i < 100; ++i) text += std::string(static_cast<std::size_t>(i), ' ') + "a:\n";
-  expectError(text, "line 65, column 65: ", {"more than 64 deep"});
+  expectError(text, "65:65: ", {"more than 64 deep"});
 }
 
 TEST(BadDeck, listsThatDoNotFit) {
@@ -634,28 +722,35 @@ TEST(BadDeck, listsThatDoNotFit) {
                 "tools/roll/surfaces/s/points: expected a list of lists of 3 finite numbers", {});
   }
   expectError("loads:\n  tip: ", "loads:\n  - ",
-              "loads/item 1: has no name; expected a map with the key name", {"(line 14)"});
+              "loads/item 1: has no name; expected a map with the key name", {":14:"});
   expectError("loads:\n  tip: ", "loads:\n  - 3\n  - ", "loads/item 1: has no name", {});
   expectError("tip: {", "- {name: tip, type: volume, blocks: strip, force: [0, 0, 1]}\n  - {name: tip, ",
-              "loads/item 2/name: 'tip' is given twice, first on line 14", {"(line 15)"});
+              "loads/item 2/name: 'tip' is given twice, first on line 14", {":15:"});
 }
 
 TEST(BadDeck, textsThatAreNoLine) {
   expectError("title: Strip on a roll", "title: \"a\\tb\"",
               "title: must be one line, without control characters", {});
-  expectError("title: Strip on a roll", "title: |\n  a\n  b", "title: must be one line", {"'>'", "(line 2)"});
+  expectError("title: Strip on a roll", "title: |\n  a\n  b", "title: must be one line", {"'>'", ":2:"});
   expectError("set: z_min", "set: \"z\\0\"", "contact/lower/set: must be one line", {});
+  for (const std::string end : {"\\e[2J", "\\x7f", "\\x85", "\\x9b", "\\u2028", "\\L"}) {
+    SCOPED_TRACE(end);
+    expectError("title: Strip on a roll", "title: \"a" + end + "\"", "title: must be one line", {});
+    expectError("title:", "\"a" + end + "\":", "2:1: a key is at most 200 bytes without control characters",
+                {});
+    expectError("radius: 50", "radius: \"a" + end + "b\"",
+                "tools/roll/radius: expected a finite number, got the text 'a ", {});
+  }
 }
 
 TEST(BadDeck, unknownKeys) {
   expectError("path:", "paths:", "paths: is not a key here",
               {"did you mean 'path'?", "allowed are title, mesh,"});
   expectError("radius: 50", "raduis: 50", "tools/roll/raduis: is not a key here",
-              {"did you mean 'radius'?", "allowed are type, center, axis, radius", "(line 16)"});
+              {"did you mean 'radius'?", "allowed are type, center, axis, radius", ":16:"});
   expectError("order: 15", "zzz: 15", "path/zzz: is not a key here;",
               {"allowed are method, order, accuracy"});
-  expectError("{value: 0.5,", "{valeu: 0.5,", "supports/pull/x/valeu: is not a key",
-              {"'value'", "(line 12)"});
+  expectError("{value: 0.5,", "{valeu: 0.5,", "supports/pull/x/valeu: is not a key", {"'value'", ":12:"});
   expectError("{type: cylinder", "{type: plane", "tools/roll/center: is not a key here", {"point, normal"});
   expectError("lengths:", "length:", "mesh/generate/length: is not a key here", {"did you mean 'lengths'?"});
   expectError("{load_factor:", "{load_facto:", "path/stop/load_facto: ", {"'load_factor'"});
@@ -673,9 +768,8 @@ TEST(BadDeck, missingBlocksAndKeys) {
     } while (text[end] == ' ');
     expectError(text.erase(begin, end - begin), block + ": is missing", {"expected a map"});
   }
-  expectError("  file: strip.exo\n", "", "mesh/file: is missing; expected a file name", {"(line 3)"});
-  expectError(", radius: 50", "", "tools/roll/radius: is missing; expected a number, positive",
-              {"(line 16)"});
+  expectError("  file: strip.exo\n", "", "mesh/file: is missing; expected a file name", {":3:"});
+  expectError(", radius: 50", "", "tools/roll/radius: is missing; expected a number, positive", {":16:"});
   expectError("{type: cylinder, ", "{",
               "tools/roll/type: is missing; expected one of cylinder, plane, sphere", {});
   expectError(", poissons_ratio: 0", "", "materials/steel/poissons_ratio: is missing",
@@ -683,7 +777,7 @@ TEST(BadDeck, missingBlocksAndKeys) {
   expectError("  stop: {load_factor: 0.25}\n", "", "path/stop: is missing", {"load_factor, steps"});
   expectError("{load_factor: 0.25}", "{}", "path/stop: is empty", {"at least one of load_factor"});
   expectError("  roll: {type: cylinder, center: [200, 0, -54.4], axis: [0, 1, 0], radius: 50}\n", "",
-              "tools: is empty; expected a map of named entries", {"(line 15)"});
+              "tools: is empty; expected a map of named entries", {":15:"});
   expectError("path:", "solver: {type: amesos2}\npath:", "solver/name: is missing", {"klu2"});
 }
 
@@ -694,16 +788,16 @@ TEST(BadDeck, wrongTypes) {
               "tools/roll/radius: expected a finite number, got the text '50'", {});
   expectError("radius: 50", "radius: [50]", "tools/roll/radius: expected a finite number, got the list [50]",
               {});
-  expectError("radius: 50", "radius: {}", "tools/roll/radius: expected a finite number, got nothing", {});
+  expectError("radius: 50", "radius: {}", "tools/roll/radius: expected a finite number, got an empty map",
+              {});
   expectError("radius: 50", "radius: true", "tools/roll/radius: expected a finite number, got true", {});
-  expectError("order: 15", "order: 15.0", "path/order: expected a whole number without point and exponent",
-              {"got 15.0"});
-  expectError("order: 15", "order: 3000000000", "path/order: expected a whole number", {"got 3000000000"});
-  expectError("title: Strip on a roll", "title: no", "title: expected a text, got false",
-              {"quotes", "(line 2)"});
+  expectError("order: 15", "order: 15.5", "path/order: expected a whole number, got 15.5", {});
+  expectError("order: 15", "order: 3000000000", "path/order: expected a whole number of at most 2147483647",
+              {"got 3000000000"});
+  expectError("title: Strip on a roll", "title: no", "title: expected a text, got false", {"quotes", ":2:"});
   expectError("title: Strip on a roll", "title: 3", "title: expected a text, got 3", {"quotes"});
   expectError("title: Strip on a roll", "title: ''", "title: must not be empty", {});
-  expectError("title: Strip on a roll", "title:", "title: expected a text, got nothing", {});
+  expectError("title: Strip on a roll", "title:", "title: expected a text, got an empty value", {});
   expectError("axis: [0, 1, 0]", "axis: [0, 1]",
               "tools/roll/axis: expected a list of 3 finite numbers, got the list [0, 1]", {});
   expectError("axis: [0, 1, 0]", "axis: y",
@@ -718,7 +812,7 @@ TEST(BadDeck, wrongTypes) {
   expectError("blocks: [strip]", "blocks: [strip, strip]", "materials/steel/blocks: 'strip' is given twice",
               {});
   expectError("x: {value: 0.5, per_load_factor: 1.5}", "x: free", "supports/pull/x: expected a finite number",
-              {"'free'", "(line 12)"});
+              {"'free'", ":12:"});
   expectError("total: [0, 0, -100]}", "total: [0, 0, -100], constant: 1}",
               "loads/tip/constant: expected true or false, got 1", {});
   expectError("clamp: {set: x_min, x: 0, y: 0, z: 0}", "clamp: 3",
@@ -732,7 +826,7 @@ TEST(BadDeck, numbersThatAreNone) {
         "1:30", "0o7",  "1e",  "e1",   ".",    "+",     "+-1",    "1-2",  "0x1p3", "1 000"}) {
     SCOPED_TRACE(word);
     expectError("radius: 50", "radius: " + word,
-                "tools/roll/radius: expected a finite number, got the text '" + word + "'", {"(line 16)"});
+                "tools/roll/radius: expected a finite number, got the text '" + word + "'", {":16:"});
     expectError("axis: [0, 1, 0]", "axis: [0, " + word + ", 0]",
                 "tools/roll/axis: expected a list of 3 finite numbers, got the list [0, " + word + ", 0]",
                 {});
@@ -742,19 +836,20 @@ TEST(BadDeck, numbersThatAreNone) {
 TEST(BadDeck, nothingWhereANumberIsWanted) {
   for (const std::string word : {"", "~", "null", "Null", "NULL"}) {
     SCOPED_TRACE(word);
-    expectError("radius: 50", "radius: " + word, "tools/roll/radius: expected a finite number, got nothing",
-                {"(line 16)"});
+    expectError("radius: 50", "radius: " + word,
+                "tools/roll/radius: expected a finite number, got an empty value", {":16:"});
   }
   expectError("axis: [0, 1, 0]", "axis: [0, ~, 0]", "tools/roll/axis: expected a list of 3 finite numbers",
               {"got the list [0, null, 0]"});
-  expectError("radius: 50", "radius:", "tools/roll/radius: expected a finite number, got nothing", {});
-  expectError("order: 15", "order: 1,5", "path/order: expected a whole number", {"the text '1,5'"});
+  expectError("radius: 50", "radius:", "tools/roll/radius: expected a finite number, got an empty value", {});
+  expectError("order: 15", "order: 1,5", "path/order: expected a whole number",
+              {"the text '1,5'", "a point: 1.5"});
   expectError("order: 15", "weight: 1,5", "path/weight: expected a finite number, got the text '1,5'",
-              {"0.3"});
+              {"a point: 1.5"});
 }
 
 TEST(BadDeck, valuesOutOfRange) {
-  expectError("radius: 50", "radius: -50", "tools/roll/radius: must be positive, got -50", {"(line 16)"});
+  expectError("radius: 50", "radius: -50", "tools/roll/radius: must be positive, got -50", {":16:"});
   expectError("radius: 50", "radius: 0.0", "tools/roll/radius: must be positive, got 0", {});
   expectError("axis: [0, 1, 0]", "axis: [0, 0.0, 0]", "tools/roll/axis: must not be the zero vector", {});
   expectError("order: 15", "order: 0", "path/order: must be from 1 to 60, got 0", {});
@@ -954,14 +1049,13 @@ TEST(BadDeck, choices) {
 
 TEST(BadDeck, keysThatContradictEachOther) {
   expectError("total: [0, 0, -100]", "total: [0, 0, -100], pressure: 1",
-              "loads/tip: needs exactly one of total, traction, pressure, got total, pressure",
-              {"(line 14)"});
+              "loads/tip: needs exactly one of total, traction, pressure, got total, pressure", {":14:"});
   expectError(", total: [0, 0, -100]", "",
               "loads/tip: needs exactly one of total, traction, pressure, got none", {});
   expectError("type: surface, set: x_max, total: [0, 0, -100]", "type: nodal, set: x_max",
               "loads/tip: needs exactly one of total, per_node, got none", {});
   expectError("clamp: {set: x_min, x: 0, y: 0, z: 0}", "clamp: {set: x_min}",
-              "supports/clamp: holds nothing; expected at least one of x, y, z", {"(line 9)"});
+              "supports/clamp: holds nothing; expected at least one of x, y, z", {":9:"});
   expectError("regularisation: 0.1", "regularisation: 0.1, points: nodes, quadrature_degree: 3",
               "contact/lower/quadrature_degree: has no meaning with points: nodes", {});
   expectError("path:", "solver: {type: mumps, name: klu2}\npath:",
@@ -972,7 +1066,7 @@ TEST(BadDeck, keysThatContradictEachOther) {
 
 TEST(BadDeck, references) {
   expectError("tool: roll", "tool: rol", "contact/lower/tool: no entry 'rol' in tools (did you mean 'roll'?)",
-              {"there are roll", "(line 18)"});
+              {"there are roll", ":18:"});
   expectError("tools:\n  roll: {type: cylinder, center: [200, 0, -54.4], axis: [0, 1, 0], radius: 50}\n", "",
               "contact/lower/tool: no entry 'roll' in tools; there are none", {});
   expectError("{load_factor: 0.25}", "{displacement: {tip_ux: -50}}",
@@ -981,7 +1075,7 @@ TEST(BadDeck, references) {
   expectError("supports:",
               "  other: {law: saint_venant_kirchhoff, youngs_modulus: 1, poissons_ratio: 0, blocks: "
               "[strip]}\nsupports:",
-              "materials/other/blocks: block 'strip' already has the material 'steel'", {"(line 8)"});
+              "materials/other/blocks: block 'strip' already has the material 'steel'", {":8:"});
   const std::string monitor = "{type: displacement, set: x_max, component: z}";
   expectError(monitor, "{type: contact_force, contact: upper}",
               "output/monitors/tip_uz/contact: no entry 'upper' in contact", {"there are lower"});
@@ -998,7 +1092,7 @@ TEST(BadDeck, references) {
   EXPECT_EQ(errorOf(changed(contact, "")), "no error");
   std::string withField = changed(contact, "");
   withField.replace(withField.find("output:"), 7, "output:\n  fields: [contact]");
-  expectError(withField, "output/fields: 'contact' needs the block contact", {"(line 21)"});
+  expectError(withField, "output/fields: 'contact' needs the block contact", {":21:"});
 }
 
 TEST(BadDeck, pathKeys) {
@@ -1032,7 +1126,7 @@ TEST(BadDeck, damagedAnywhere) {
     } catch (const DeckError& error) {
       ++refused;
       const std::string line = error.what();
-      EXPECT_EQ(line.find("d.yaml: "), 0u) << line;
+      EXPECT_EQ(line.find("d.yaml:"), 0u) << line;
       EXPECT_EQ(line.find('\n'), std::string::npos) << line << "\n" << text;
     } catch (const std::exception& error) {
       ADD_FAILURE() << error.what() << "\n" << text;
@@ -1064,7 +1158,7 @@ std::string meshErrorOf(const std::string& from, const std::string& to, const fe
 void expectMeshError(const std::string& from, const std::string& to, const std::string& start,
                      const std::string& words) {
   const std::string error = meshErrorOf(from, to);
-  EXPECT_EQ(error.find(start), 0u) << error;
+  EXPECT_EQ(behindPlace(error).find(start), 0u) << error;
   EXPECT_NE(error.find(words), std::string::npos) << error;
   EXPECT_EQ(error.find('\n'), std::string::npos) << error;
 }
@@ -1075,25 +1169,23 @@ TEST(DeckAgainstMesh, namesThatTheMeshLacks) {
   EXPECT_EQ(meshErrorOf("x_min", "x_min"), "no error");
   EXPECT_EQ(meshErrorOf("set: z_min", "set: 1"), "no error");  // by id
   expectMeshError("set: x_min,", "set: x_mn,",
-                  "solid.yaml: supports/clamp/set: the mesh has no node set or side set 'x_mn'",
-                  "did you mean 'x_min'?");
+                  "supports/clamp/set: the mesh has no node set or side set 'x_mn'", "did you mean 'x_min'?");
   expectMeshError("blocks: [strip]", "blocks: [stripe]",
-                  "solid.yaml: materials/steel/blocks: the mesh has no block 'stripe'",
+                  "materials/steel/blocks: the mesh has no block 'stripe'",
                   "(did you mean 'strip'?); it has the blocks strip");
   // An edge is a node set only.
   expectMeshError("{type: surface, set: x_max,", "{type: surface, set: x_max_z_min,",
-                  "solid.yaml: loads/tip/set: the mesh has no side set 'x_max_z_min'",
+                  "loads/tip/set: the mesh has no side set 'x_max_z_min'",
                   "it has the side sets x_min, x_max, y_min, y_max, z_min, z_max");
   EXPECT_EQ(meshErrorOf("{type: surface, set: x_max,", "{type: nodal, set: x_max_z_min,"), "no error");
-  expectMeshError("set: z_min,", "set: x_max_z_min,",
-                  "solid.yaml: contact/lower/set: the mesh has no side set", "side sets");
+  expectMeshError("set: z_min,", "set: x_max_z_min,", "contact/lower/set: the mesh has no side set",
+                  "side sets");
   EXPECT_EQ(meshErrorOf("set: z_min,", "points: nodes, set: x_max_z_min,"), "no error");
   expectMeshError("{type: displacement, set: x_max,", "{type: displacement, set: tip,",
-                  "solid.yaml: output/monitors/tip_uz/set: the mesh has no node set or side set 'tip'",
-                  "node sets");
+                  "output/monitors/tip_uz/set: the mesh has no node set or side set 'tip'", "node sets");
   expectMeshError("{type: surface, set: x_max, total: [0, 0, -100]}",
                   "{type: volume, blocks: [roof], force: [0, 0, 1]}",
-                  "solid.yaml: loads/tip/blocks: the mesh has no block 'roof'", "blocks strip");
+                  "loads/tip/blocks: the mesh has no block 'roof'", "blocks strip");
 }
 
 TEST(DeckAgainstMesh, everyBlockHasOneMaterial) {
@@ -1103,15 +1195,16 @@ TEST(DeckAgainstMesh, everyBlockHasOneMaterial) {
   mesh.blocks[1].name = "core";
   mesh.blocks[1].id = 5;
   EXPECT_EQ(meshErrorOf("x_min", "x_min", &mesh),
-            "solid.yaml: materials: the mesh's block 'core' has no material");
+            "solid.yaml:6:1: materials: the mesh's block 'core' has no material");
   EXPECT_EQ(meshErrorOf("blocks: [strip]", "blocks: [strip, 5]", &mesh), "no error");
   EXPECT_EQ(meshErrorOf("blocks: [strip]", "blocks: [strip, 5, core]", &mesh),
-            "solid.yaml: materials/steel/blocks: block 'core' already has the material 'steel'");
+            "solid.yaml:7:91: materials/steel/blocks: block 'core' already has the material 'steel'");
   mesh.blocks.pop_back();
   for (auto& set : mesh.sideSets) {
     set.sides.clear();
   }
-  EXPECT_EQ(meshErrorOf("x_min", "x_min", &mesh), "solid.yaml: loads/tip/set: the side set 'x_max' is empty");
+  EXPECT_EQ(meshErrorOf("x_min", "x_min", &mesh),
+            "solid.yaml:14:29: loads/tip/set: the side set 'x_max' is empty");
 }
 
 // ------------------------------------------------------------------------------------------ reference
