@@ -36,12 +36,7 @@ bool isControl(unsigned code) {
   return code < 0x20 || (code >= 0x7F && code < 0xA0) || code == 0x2028 || code == 0x2029;
 }
 
-bool hasControl(const std::string& text) {
-  for (std::size_t i = 0; i < text.size(); i += std::max<std::size_t>(characterSize(text, i), 1)) {
-    if (isControl(codeOf(text, i))) return true;
-  }
-  return false;
-}
+bool hasControl(const std::string& text) { return plainLine(text) != text; }
 
 std::string beginOf(const std::string& text, std::size_t bytes) {
   std::size_t size = std::min(bytes, text.size());
@@ -49,15 +44,18 @@ std::string beginOf(const std::string& text, std::size_t bytes) {
   return text.substr(0, size);
 }
 
+std::string plainLine(const std::string& text) {
+  std::string line;
+  for (std::size_t i = 0, size = 1; i < text.size(); i += std::max<std::size_t>(size, 1)) {
+    size = characterSize(text, i);
+    line += size > 0 && !isControl(codeOf(text, i)) ? text.substr(i, size) : " ";
+  }
+  return line;
+}
+
 std::string shortened(const std::string& text) {
   constexpr std::size_t most = 60;
-  const std::string begin = beginOf(text, most);
-  std::string line;
-  for (std::size_t i = 0, size = 1; i < begin.size(); i += size) {
-    size = std::max<std::size_t>(characterSize(begin, i), 1);
-    line += isControl(codeOf(begin, i)) ? " " : begin.substr(i, size);
-  }
-  return line + (text.size() > most ? "..." : "");
+  return plainLine(beginOf(text, most)) + (text.size() > most ? "..." : "");
 }
 
 }  // namespace atrapos::deck

@@ -22,7 +22,10 @@ bool hasControl(const std::string& text);
 /// The first bytes of a text, so many at most, without a part of a character.
 std::string beginOf(const std::string& text, std::size_t bytes);
 
-/// A text cut to a length that suits a message, with blanks for control characters.
+/// The text with blanks for control characters, and for bytes that are no UTF-8.
+std::string plainLine(const std::string& text);
+
+/// A text cut to a length that suits a message, as plainLine.
 std::string shortened(const std::string& text);
 
 }  // namespace atrapos::deck

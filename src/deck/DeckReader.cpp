@@ -98,7 +98,7 @@ Deck readDeckText(const std::string& text, const std::string& file) {
 
 void failAt(const Deck& deck, const std::string& keys, const std::string& what) {
   if (deck.text.empty()) {
-    throw DeckError(fmt::format("{}: {}: {}", deck.file, keys, what));
+    throw DeckError(plainLine(fmt::format("{}: {}: {}", deck.file, keys, what)));
   }
   Value(readYaml(deck.text, deck.file)).failUnder(keys, what);
 }

@@ -64,9 +64,11 @@ void YamlSource::fail(std::size_t offset, const std::string& what) const {
   const auto column = 1 + std::count_if(before.begin(), before.end(), [](char c) {
                         return (static_cast<unsigned char>(c) & 0xC0) != 0x80;  // begins a character
                       });
-  throw DeckError(fmt::format("{}:{}:{}: {}", file_, line, column, what));
+  throw DeckError(plainLine(fmt::format("{}:{}:{}: {}", file_, line, column, what)));
 }
 
-void YamlSource::fail(const std::string& what) const { throw DeckError(fmt::format("{}: {}", file_, what)); }
+void YamlSource::fail(const std::string& what) const {
+  throw DeckError(plainLine(fmt::format("{}: {}", file_, what)));
+}
 
 }  // namespace atrapos::deck

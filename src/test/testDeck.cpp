@@ -1199,6 +1199,9 @@ TEST(DeckAgainstMesh, everyBlockHasOneMaterial) {
   EXPECT_EQ(meshErrorOf("blocks: [strip]", "blocks: [strip, 5]", &mesh), "no error");
   EXPECT_EQ(meshErrorOf("blocks: [strip]", "blocks: [strip, 5, core]", &mesh),
             "solid.yaml:7:91: materials/steel/blocks: block 'core' already has the material 'steel'");
+  mesh.blocks[1].name = "a\n\x1b[2J\xC2\x85\xE4";  // of strangers
+  EXPECT_EQ(meshErrorOf("x_min", "x_min", &mesh),
+            "solid.yaml:6:1: materials: the mesh's block 'a  [2J  ' has no material");
   mesh.blocks.pop_back();
   for (auto& set : mesh.sideSets) {
     set.sides.clear();
