@@ -2,9 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <stdexcept>
 
+#include "Gnuplot.hpp"
 #include "PathPlot.hpp"
 #include "support/Folder.hpp"
 
@@ -30,8 +30,8 @@ std::string drawnAsSvg(const std::filesystem::path& folder) {
   std::string script = readFile(folder / "path.gp");
   script.replace(0, script.find("set encoding"), "set terminal svg noenhanced\nset output 'path.svg'\n");
   writeFile(folder / "svg.gp", script);
-  const std::string draw = "cd '" + folder.string() + "' && gnuplot -d svg.gp 2>/dev/null";
-  if (std::system(draw.c_str()) != 0) throw std::runtime_error("gnuplot failed");
+  const std::string why = runGnuplot(folder.string(), "svg.gp");
+  if (!why.empty()) throw std::runtime_error(why);
   return readFile(folder / "path.svg");
 }
 
