@@ -143,8 +143,7 @@ std::string joined(const std::vector<std::string>& words) {
 std::string suggestion(const std::string& word, const std::vector<std::string>& candidates) {
   const std::string* nearest = nullptr;
   std::size_t least = std::max<std::size_t>(2, word.size() / 3) + 1;
-  constexpr std::size_t longest =
-      100;  // no word is mistyped beyond; the distance costs the product of lengths
+  constexpr std::size_t longest = 100;  // the distance costs the product of the lengths
   for (const auto& candidate : candidates) {
     if (word.size() > longest || candidate.size() > longest) continue;
     const auto distance = editDistance(word, candidate);
@@ -190,8 +189,9 @@ void Value::failUnder(const std::string& keys, const std::string& what) const {
   for (std::size_t i = 0, end = 0; i < keys.size(); i = end + 1) {
     end = std::min(keys.find('/', i), keys.size());
     const std::string key = keys.substr(i, end - i);
-    if (!deepest.isList() && !deepest.has(key)) break;
-    deepest = deepest.at(key);
+    const Value map = deepest.entries();
+    if (!map.has(key)) break;
+    deepest = map.at(key);
   }
   deepest.fail(deepest.begin(), under(keys), what);
 }
