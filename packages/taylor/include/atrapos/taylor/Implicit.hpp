@@ -62,7 +62,7 @@ KOKKOS_INLINE_FUNCTION bool solveLanes(const G& g, const Sweep<X>* x, const Lane
     if (!good && failures != nullptr) failures->note(l, Operation::Implicit, newton.size);
     for (int j = 0; j < NY; ++j) y[j][l] = good ? y0[j] : std::numeric_limits<double>::quiet_NaN();
     double inverse0[NY * NY];
-    if (good) newton.invert(inverse0);
+    if (good) newton.lu.invert(inverse0);
     for (int j = 0; j < NY * NY; ++j)
       inverse[j][l] = good ? inverse0[j] : std::numeric_limits<double>::quiet_NaN();
   }

@@ -86,16 +86,6 @@ struct LocalNewton {
     return false;
   }
 
-  /// inverse = (dg/dy)^-1 by rows, after solve.
-  KOKKOS_INLINE_FUNCTION void invert(double* inverse) const {
-    for (int j = 0; j < NY; ++j) {
-      double unit[NY], column[NY];
-      for (int i = 0; i < NY; ++i) unit[i] = i == j ? 1 : 0;
-      lu.solve(unit, column);
-      for (int i = 0; i < NY; ++i) inverse[i * NY + j] = column[i];
-    }
-  }
-
  private:
   template <class G>
   KOKKOS_INLINE_FUNCTION void linearize(const G& law, const double* x, const double* data, const double* y) {

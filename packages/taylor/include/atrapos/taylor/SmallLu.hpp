@@ -52,6 +52,16 @@ class SmallLu {
     }
   }
 
+  /// inverse[N][N] = A^-1 by rows.
+  KOKKOS_INLINE_FUNCTION void invert(double* inverse) const {
+    for (int j = 0; j < N; ++j) {
+      double unit[N], column[N];
+      for (int i = 0; i < N; ++i) unit[i] = i == j ? 1 : 0;
+      solve(unit, column);
+      for (int i = 0; i < N; ++i) inverse[i * N + j] = column[i];
+    }
+  }
+
  private:
   template <class S>
   static KOKKOS_FORCEINLINE_FUNCTION void swap(S& a, S& b) {
