@@ -31,6 +31,7 @@ enum class Operation {
   Min,
   Max,
   Implicit,
+  Rate,
   Result
 };
 
@@ -115,6 +116,10 @@ inline std::string describe(Operation operation, double value) {
       return "the local system g(x, y) = 0 has no regular solution here: Newton's method ended with a "
              "relative residual of " +
              number;
+    case Operation::Rate:
+      return "the rate law A z' = B v' gives no unique rates here: its matrix A is singular, a pivot cancels "
+             "to " +
+             number + " of its terms";
     case Operation::None:
     case Operation::Result:
       break;

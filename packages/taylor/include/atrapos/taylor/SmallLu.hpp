@@ -52,6 +52,18 @@ class SmallLu {
     }
   }
 
+  /// After factor(a): the least |pivot| over the size of the terms that it is the sum of. In the order of
+  /// rounding where a is singular, whatever the units of rows and columns.
+  KOKKOS_INLINE_FUNCTION double leastPivot(const double* a) const {
+    double least = 1;
+    for (int k = 0; k < N; ++k) {
+      double size = std::fabs(a[row_[k] * N + k]);
+      for (int i = 0; i < k; ++i) size += std::fabs(lu_[k][i] * lu_[i][k]);
+      if (std::fabs(lu_[k][k]) < least * size) least = std::fabs(lu_[k][k]) / size;
+    }
+    return least;
+  }
+
   /// inverse[N][N] = A^-1 by rows.
   KOKKOS_INLINE_FUNCTION void invert(double* inverse) const {
     for (int j = 0; j < N; ++j) {
