@@ -32,6 +32,7 @@ enum class Operation {
   Max,
   Implicit,
   Rate,
+  Chord,
   Result
 };
 
@@ -120,6 +121,9 @@ inline std::string describe(Operation operation, double value) {
       return "the rate law A z' = B v' gives no unique rates here: its matrix A is singular, a pivot cancels "
              "to " +
              number + " of its terms";
+    case Operation::Chord:
+      return "the rate law cannot be followed to the new inputs: after " + number +
+             " of the way its series end or the sub-steps are used up";
     case Operation::None:
     case Operation::Result:
       break;
