@@ -14,10 +14,11 @@
 namespace atrapos {
 namespace {
 
-/// Series coefficients of the nodal fields on the host: [order][dof].
-std::vector<std::vector<double>> coefficients(const path::Series& series) {
+/// Series coefficients of all nodes' vectors on the host: [order][3 node + component].
+std::vector<std::vector<double>> coefficients(const fem::DofMap& dofs, const path::Series& series) {
   std::vector<std::vector<double>> all;
-  for (int k = 0; k <= series.order(); ++k) all.push_back(fem::FeProblem::values(*series.coefficient(k).u));
+  for (int k = 0; k <= series.order(); ++k)
+    all.push_back(dofs.vectors(fem::FeProblem::values(*series.coefficient(k).u)));
   return all;
 }
 
@@ -52,7 +53,7 @@ std::vector<double> longestWays(const std::vector<std::vector<double>>& u, doubl
 struct Motion {
   const path::Series& series;
   const path::Rational& lambda;
-  const std::vector<std::vector<double>>& u;  ///< [order][dof]
+  const std::vector<std::vector<double>>& u;  ///< [order][3 node + component]
   const std::vector<double>& ways;            ///< longestWays
 };
 
@@ -160,7 +161,7 @@ void ContactEvents::onStep(int branch, int step, double pathLengthStart, double 
   constexpr int samples = 16;
   if (branch != branch_) closed_.clear();
   branch_ = branch;
-  const auto u = coefficients(series);
+  const auto u = coefficients(scene_.problem().model().dofs, series);
   const path::Rational lambda = series.lambdaFunction();
   std::vector<std::vector<double>> factors;  // of the coefficients at the samples
   if (series.form())
@@ -236,7 +237,7 @@ void ContactEvents::onStep(int branch, int step, double pathLengthStart, double 
 
 void ContactEvents::remember(const CaseState& end) {
   const SceneState& state = dynamic_cast<const SceneCaseState&>(end).state();
-  known_ = {state.values(), state.lambda(), {}};
+  known_ = {state.displacements(), state.lambda(), {}};
   for (const ContactPoints& contact : scene_.contacts()) {
     std::vector<double>& gaps = known_.gaps.emplace_back();
     // Hard contact closes where the gap is zero, which is rounding: its gaps are all found in the same way.
@@ -256,7 +257,7 @@ void ContactEvents::findCorners(std::size_t c, const path::Series& series, doubl
   const fem::FeProblem& problem = scene_.problem();
   path::Vector state(problem.map());
   const double lambda = series.evaluate(length, state);
-  const auto u = fem::FeProblem::values(state);
+  const auto u = problem.model().dofs.vectors(fem::FeProblem::values(state));
   const std::vector<int> active = problem.conditions();
   int number = 0;  // of the term's first corner
   for (std::size_t t = 0; t < contact.terms.size(); ++t) {

@@ -25,6 +25,8 @@ struct Maker {
   }
 
   Terms operator()(const deck::SurfaceLoad& load) const {
+    if (mesh.dimension == 2)
+      throw std::invalid_argument("a pressure that follows the body is for faces of solids and shells");
     const std::size_t blocks = shells.elements.size();
     // Pressure > 0 pushes on the body: against the normal of a top side, along it on a bottom side.
     std::vector<std::vector<int>> loaded(2 * blocks);

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "atrapos/fem/StructuredMesh.hpp"
+#include "atrapos/fem/StructuredPlane.hpp"
 #include "atrapos/fem/StructuredShell.hpp"
 #include "deck/DeckValue.hpp"
 
@@ -20,6 +21,7 @@ struct Builder {
   fem::Mesh operator()(const fem::ShellCylinderOptions& o) const { return fem::shellCylinderMesh(o); }
   fem::Mesh operator()(const fem::ShellAnnulusOptions& o) const { return fem::shellAnnulusMesh(o); }
   fem::Mesh operator()(const fem::ShellSphereOptions& o) const { return fem::shellSphereMesh(o); }
+  fem::Mesh operator()(const fem::RectangleOptions& o) const { return fem::rectangleMesh(o); }
 };
 
 }  // namespace

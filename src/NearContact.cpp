@@ -35,6 +35,7 @@ fem::PointSet NearContact::pointsOf(const std::vector<int>& entities) const {
   part.nodesPerEntity = points_.nodesPerEntity;
   part.pointsPerEntity = points_.pointsPerEntity;
   part.shapeComponents = points_.shapeComponents;
+  part.components = points_.components;
   part.nodes = fem::rowsOf(points_.nodes, entities, N);
   part.shape = fem::rowsOf(points_.shape, entities, Q * N);
   part.weights = fem::rowsOf(points_.weights, entities, Q);
@@ -43,8 +44,9 @@ fem::PointSet NearContact::pointsOf(const std::vector<int>& entities) const {
   return part;
 }
 
-void NearContact::setPositions(const std::vector<int>& positions) {
-  all_->setPositions(positions);
+void NearContact::connect(const fem::DofMap& dofs, const std::vector<int>& positions) {
+  all_->connect(dofs, positions);
+  dofs_ = dofs;
   positions_ = positions;
   make();
 }
@@ -60,10 +62,10 @@ void NearContact::make() {
   if (carried.empty()) return;
   carriedPoints_ = fem::pointsOf(carried, points_.pointsPerEntity);
   near_ = tool_.term(pressure_, pointsOf(carried), fem::rowsOf(referenceGaps_, carried, Q));
-  if (!positions_.empty()) near_->setPositions(fem::rowsOf(positions_, carried, N * N));
+  if (!positions_.empty()) near_->connect(dofs_, fem::rowsOf(positions_, carried, N * N));
 }
 
-bool NearContact::search(const fem::ConstField& u, double lambda, std::vector<char>* joining) const {
+bool NearContact::search(const fem::ConstDofView& u, double lambda, std::vector<char>* joining) const {
   const auto host = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), u);
   const int N = points_.nodesPerEntity, Q = points_.pointsPerEntity;
   bool found = false;
@@ -73,10 +75,10 @@ bool NearContact::search(const fem::ConstField& u, double lambda, std::vector<ch
       const std::size_t p = e * Q + q;
       double place[4] = {points_.positions[3 * p], points_.positions[3 * p + 1], points_.positions[3 * p + 2],
                          lambda};
-      for (int n = 0; n < N; ++n)
-        for (int i = 0; i < 3; ++i)
-          place[i] +=
-              points_.shape[p * N + n] * host(3 * static_cast<std::size_t>(points_.nodes[e * N + n]) + i);
+      for (int n = 0; n < N; ++n) {
+        const int first = dofs_.firstDof(points_.nodes[e * N + n]);
+        for (int i = 0; i < points_.components; ++i) place[i] += points_.shape[p * N + n] * host(first + i);
+      }
       const ToolProjection over = tool_.project(place);
       // Over no part of the tool the distance tells how soon it may be; also where it is not a number.
       const double distance = over.gap < 0 ? over.gap : over.distance;
@@ -90,7 +92,7 @@ bool NearContact::search(const fem::ConstField& u, double lambda, std::vector<ch
   return found;
 }
 
-void NearContact::grow(const fem::ConstField& u, double lambda) {
+void NearContact::grow(const fem::ConstDofView& u, double lambda) {
   std::vector<char> joining = carried_;
   if (!search(u, lambda, &joining)) return;
   carried_ = joining;
@@ -102,23 +104,23 @@ void NearContact::lendPieces() const {
   if (all_->pieces()) all_->pieces()->lend(carriedPoints_, *near_->pieces());
 }
 
-std::vector<double> NearContact::places(const fem::ConstField& u, double lambda) const {
+std::vector<double> NearContact::places(const fem::ConstDofView& u, double lambda) const {
   return all_->places(u, lambda);
 }
 
-double NearContact::addResidual(const fem::ConstField& u, double lambda, const fem::Field& f) const {
+double NearContact::addResidual(const fem::ConstDofView& u, double lambda, const fem::DofView& f) const {
   if (!near_) return 0;
   lendPieces();
   return near_->addResidual(u, lambda, f);
 }
 
-void NearContact::addTangent(const fem::ConstField& u, double lambda, const fem::TangentSink& sink) const {
+void NearContact::addTangent(const fem::ConstDofView& u, double lambda, const fem::TangentSink& sink) const {
   if (!near_) return;
   lendPieces();
   near_->addTangent(u, lambda, sink);
 }
 
-void NearContact::beginSeries(const fem::ConstField& u, double lambda, int maxOrder) {
+void NearContact::beginSeries(const fem::ConstDofView& u, double lambda, int maxOrder) {
   if (near_) {
     lendPieces();
     near_->beginSeries(u, lambda, maxOrder);
@@ -126,11 +128,11 @@ void NearContact::beginSeries(const fem::ConstField& u, double lambda, int maxOr
   if (pieces()) pieces()->beginSeriesOf(carriedPoints_, near_ ? near_->pieces() : nullptr);
 }
 
-void NearContact::addOrder(int k, const fem::ConstField& last, double lastLambda, const fem::Field& f) {
+void NearContact::addOrder(int k, const fem::ConstDofView& last, double lastLambda, const fem::DofView& f) {
   if (near_) near_->addOrder(k, last, lastLambda, f);
 }
 
-fem::PointValues NearContact::observe(const fem::ConstField& u, double lambda) const {
+fem::PointValues NearContact::observe(const fem::ConstDofView& u, double lambda) const {
   return all_->observe(u, lambda);
 }
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "RigidTool.hpp"
+#include "atrapos/fem/DofMap.hpp"
 #include "atrapos/fem/Term.hpp"
 
 namespace atrapos {
@@ -24,9 +25,9 @@ class NearContact final : public fem::Term {
   int numCarried() const;
 
   /// Whether an entity that carries no law is near in the state (u, lambda).
-  bool othersAreNear(const fem::ConstField& u, double lambda) const { return search(u, lambda, nullptr); }
+  bool othersAreNear(const fem::ConstDofView& u, double lambda) const { return search(u, lambda, nullptr); }
   /// Those that are near there join. Not while a series is under way.
-  void grow(const fem::ConstField& u, double lambda);
+  void grow(const fem::ConstDofView& u, double lambda);
 
   int numEntities() const override { return all_->numEntities(); }
   int nodesPerEntity() const override { return all_->nodesPerEntity(); }
@@ -34,20 +35,20 @@ class NearContact final : public fem::Term {
   bool symmetric() const override { return all_->symmetric(); }
   bool seesLoadFactor() const override { return all_->seesLoadFactor(); }
   void keep(const fem::TermPart& part) override;
-  void setPositions(const std::vector<int>& positions) override;
-  double addResidual(const fem::ConstField& u, double lambda, const fem::Field& f) const override;
-  void addTangent(const fem::ConstField& u, double lambda, const fem::TangentSink& sink) const override;
-  void beginSeries(const fem::ConstField& u, double lambda, int maxOrder) override;
-  void addOrder(int k, const fem::ConstField& last, double lastLambda, const fem::Field& f) override;
+  void connect(const fem::DofMap& dofs, const std::vector<int>& positions) override;
+  double addResidual(const fem::ConstDofView& u, double lambda, const fem::DofView& f) const override;
+  void addTangent(const fem::ConstDofView& u, double lambda, const fem::TangentSink& sink) const override;
+  void beginSeries(const fem::ConstDofView& u, double lambda, int maxOrder) override;
+  void addOrder(int k, const fem::ConstDofView& last, double lastLambda, const fem::DofView& f) override;
   /// Of all points; those that carry no law are on no piece of a series.
   fem::PointPieces* pieces() override { return all_->pieces(); }
-  std::vector<double> places(const fem::ConstField& u, double lambda) const override;
+  std::vector<double> places(const fem::ConstDofView& u, double lambda) const override;
   /// Of all points, with the law's pressure also where it is not carried.
-  fem::PointValues observe(const fem::ConstField& u, double lambda) const override;
+  fem::PointValues observe(const fem::ConstDofView& u, double lambda) const override;
   std::size_t historyBytes(int maxOrder) const override;
 
  private:
-  bool search(const fem::ConstField& u, double lambda, std::vector<char>* joining) const;
+  bool search(const fem::ConstDofView& u, double lambda, std::vector<char>* joining) const;
   void make();
   void lendPieces() const;
   fem::PointSet pointsOf(const std::vector<int>& entities) const;
@@ -57,6 +58,7 @@ class NearContact final : public fem::Term {
   fem::PointSet points_;
   std::vector<double> referenceGaps_;
   std::unique_ptr<fem::Term> all_;
+  fem::DofMap dofs_;
   std::vector<int> positions_;
   std::vector<char> carried_;        ///< [entity]
   std::vector<int> carriedPoints_;   ///< numbers of the points of near_, in its order

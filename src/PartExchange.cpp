@@ -106,7 +106,7 @@ void passPart(Archive& a, exodus::MeshPart& p) {
   passAll(a, p.part, p.parts, p.borders);
   passAll(a, p.whole.nodes, p.whole.elements, p.whole.blocks, p.whole.nodeSets, p.whole.nodeSetFactors,
           p.whole.sideSets);
-  passAll(a, m.title, m.coordinates, m.blocks, m.nodeSets, m.sideSets, m.nodeIds, m.elementIds);
+  passAll(a, m.title, m.dimension, m.coordinates, m.blocks, m.nodeSets, m.sideSets, m.nodeIds, m.elementIds);
 }
 
 }  // namespace

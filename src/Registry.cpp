@@ -16,10 +16,13 @@ solid::SaintVenantKirchhoff law(const deck::SaintVenantKirchhoff& m) {
 
 }  // namespace
 
-std::unique_ptr<fem::Term> materialTerm(const deck::Material& material, const fem::PointSet& points) {
+std::unique_ptr<fem::Term> materialTerm(const deck::Material& material, const fem::PointSet& points,
+                                        const std::optional<solid::PlaneSection>& plane) {
   return std::visit(
       [&](const auto& entry) -> std::unique_ptr<fem::Term> {
-        return fem::lawTerm(fem::pointLaw(law(entry)), points);
+        auto inSpace = fem::pointLaw(law(entry));
+        return fem::lawTerm(plane ? solid::planeLaw(std::move(inSpace), plane->kind) : std::move(inSpace),
+                            points);
       },
       material.law);
 }

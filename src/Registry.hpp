@@ -1,17 +1,20 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include "atrapos/fem/PointSet.hpp"
 #include "atrapos/fem/Term.hpp"
+#include "atrapos/solid/PlaneBody.hpp"
 #include "atrapos/solid/ShellPoints.hpp"
 #include "deck/Deck.hpp"
 
 /// The materials that decks can name. A new one is one struct in its package and one line in Registry.cpp.
 namespace atrapos::registry {
 
-/// The term of a material at volume points.
-std::unique_ptr<fem::Term> materialTerm(const deck::Material& material, const fem::PointSet& points);
+/// The term of a material at volume points, or at those of a plane body.
+std::unique_ptr<fem::Term> materialTerm(const deck::Material& material, const fem::PointSet& points,
+                                        const std::optional<solid::PlaneSection>& plane);
 
 /// The term of a material in shells. Throws std::runtime_error where an element cannot be
 /// (solid::shellPoints).

@@ -24,7 +24,8 @@ struct ToolProjection {
   double distance = 0;                                   ///< to the nearest point of the tool, >= 0
 };
 
-/// A tool of a deck. Places are (x, y, z, load factor).
+/// A tool of a deck. Places are (x, y, z, load factor). Points may be those of a plane body (x, y): the tool
+/// is then met in z = 0, and its forces along z are none of the body's.
 class RigidTool {
  public:
   virtual ~RigidTool() = default;

@@ -17,17 +17,34 @@
 #include "atrapos/solid/ShellResults.hpp"
 
 namespace atrapos {
+namespace {
+
+solid::PlaneSection planeSection(const deck::Plane& plane) {
+  using Kind = solid::PlaneSection::Kind;
+  switch (plane.kind) {
+    case deck::Plane::Kind::Strain:
+      return {Kind::strain, plane.thickness.value_or(1)};
+    case deck::Plane::Kind::Stress:
+      return {Kind::stress, plane.thickness.value_or(1)};
+    case deck::Plane::Kind::Axisymmetric:
+      return {Kind::axisymmetric, 1};
+  }
+  throw std::logic_error("planeSection: not a kind of plane bodies");
+}
+
+}  // namespace
 
 Scene::Scene(const deck::Deck& deck, DeckMesh mesh)
     : deck_(deck), mesh_(std::move(mesh.mesh)), givenRanks_(std::move(mesh.ranks)) {
   deck::checkAgainstMesh(deck_, mesh_);
   shells_ = sceneShells(deck_, mesh_);
+  if (deck_.plane) plane_ = planeSection(*deck_.plane);
   if (deck_.output.shells == deck::Output::Shells::Body) {
     if (shells_.empty()) fail("output/shells", "the mesh has no shells, which alone have a body to write");
     body_ = fem::shellBody(mesh_, shells_.geometry);
   }
   fem::FeModel model = makeModel();
-  requireSupport(model.supports);
+  requireSupport(model);
   requireEffect(model);
   problem_ = std::make_unique<fem::FeProblem>(std::move(model));
   addMonitors();
@@ -38,18 +55,16 @@ fem::FeModel Scene::makeModel() {
   contacts_.clear();
   fem::FeModel model;
   model.comm = Teuchos::rcp(new Teuchos::MpiComm<int>(ranks::communicator()));
-  model.numNodes = shells_.geometry.numNodes();
-  for (const deck::Coupling& coupling : deck_.couplings)
-    if (coupling.kind == deck::Coupling::Kind::Rigid) model.numNodes += fem::RigidBody::numNodes;
+  model.dofs = fem::DofMap::displacements(mesh_.numNodes(), mesh_.dimension);
+  model.dofs.addNodes(shells_.geometry.numDirectors(), fem::directorField());
   addMaterials(model);
   giveRanks(model);
-  model.supports = fem::Supports(model.numNodes);
   addSupports(model);
   addCouplings(model);
   addLoads(model);
   addFollowers(model);
   addContacts(model);
-  model.dofName = [this](int dof) { return dofName(dof); };
+  model.dofName = [this, dofs = model.dofs](int dof) { return dofName(dofs, dof); };
   return model;
 }
 
@@ -57,26 +72,14 @@ void Scene::fail(const std::string& key, const std::string& problem) const {
   deck::failAt(deck_, key, problem);
 }
 
-std::string Scene::dofName(int dof) const {
+std::string Scene::dofName(const fem::DofMap& dofs, int dof) const {
   const fem::ShellGeometry& g = shells_.geometry;
-  const int node = dof / 3;
-  const char component = "xyz"[dof % 3];
-  const auto inFile = [&](int n) {
-    return mesh_.nodeIds.empty() ? static_cast<long long>(n) + 1 : mesh_.nodeIds[n];
-  };
-  if (node < g.numMeshNodes) return fmt::format("displacement {} of node {}", component, inFile(node));
-  if (node < g.numNodes())
-    return fmt::format("director's change {} at node {}", component,
-                       inFile(g.meshNode[node - g.numMeshNodes]));
-  // Rigid bodies in the order of the deck, as addCouplings takes them.
-  int first = g.numNodes();
-  for (const deck::Coupling& coupling : deck_.couplings) {
-    if (coupling.kind != deck::Coupling::Kind::Rigid) continue;
-    if (node < first + fem::RigidBody::numNodes)
-      return fmt::format("unknown {} of the rigid body {}", dof - 3 * first, coupling.name);
-    first += fem::RigidBody::numNodes;
-  }
-  return fmt::format("unknown {}", dof);
+  const fem::DofMap::Address at = dofs.addressOf(dof);
+  if (at.node >= g.numNodes()) return dofs.nameOf(dof);  // of rigid bodies and contact points
+  const int node = at.node < g.numMeshNodes ? at.node : g.meshNode[at.node - g.numMeshNodes];
+  const fem::Field& field = dofs.fields()[at.field];
+  return fmt::format("{} {} of node {}", field.name, field.components[at.component],
+                     mesh_.nodeIds.empty() ? static_cast<long long>(node) + 1 : mesh_.nodeIds[node]);
 }
 
 std::vector<int> Scene::nodesOf(const std::string& set) const { return atrapos::nodesOf(mesh_, set); }
@@ -113,13 +116,16 @@ void Scene::addMaterials(fem::FeModel& model) {
           continue;
         }
         const auto cell = fem::tabulate(block.topology);
-        const auto points = fem::volumePoints(mesh_, block, cell);
         bodies_[b] = {static_cast<int>(model.terms.size()), -1, fem::extrapolation(block.topology, cell)};
-        model.terms.push_back(registry::materialTerm(material, points));
+        model.terms.push_back(registry::materialTerm(material, materialPoints(block, cell), plane_));
       } catch (const std::runtime_error& e) {
         fail("mesh/file", e.what());
       }
     }
+}
+
+fem::PointSet Scene::materialPoints(const fem::Block& block, const fem::Tabulation& cell) const {
+  return plane_ ? solid::planePoints(mesh_, block, cell, *plane_) : fem::volumePoints(mesh_, block, cell);
 }
 
 BodyBlock Scene::addShell(const deck::Material& material, int shells, fem::FeModel& model) const {
@@ -132,11 +138,11 @@ void Scene::addSupports(fem::FeModel& model) const {
   for (const deck::Support& support : deck_.supports)
     for (int node : nodesOf(support.set))
       for (int i = 0; i < 3; ++i) try {
-          if (const auto& p = support.components[i])
-            model.supports.prescribe(node, i, p->value, p->perLoadFactor);
+          if (const auto& p = support.components[i]; p && i < mesh_.dimension)
+            model.prescribe(node, i, p->value, p->perLoadFactor);
           if (const auto& p = support.director[i])
             for (int director : shells_.geometry.directorNodes(node))
-              model.supports.prescribe(director, i, p->value, p->perLoadFactor);
+              model.prescribe(director, i, p->value, p->perLoadFactor);
         } catch (const std::invalid_argument&) {
           fail("supports/" + support.name,
                fmt::format("displacement {0} of node {1}, or of its director, is prescribed twice with "
@@ -145,8 +151,10 @@ void Scene::addSupports(fem::FeModel& model) const {
         }
 }
 
-void Scene::requireSupport(const fem::Supports& supports) const {
+void Scene::requireSupport(const fem::FeModel& model) const {
   std::vector<fem::HeldDirection> held;
+  if (plane_ && plane_->kind == solid::PlaneSection::Kind::axisymmetric)  // rings resist whatever is radial
+    for (int n = 0; n < mesh_.numNodes(); ++n) held.push_back({n, {1, 0, 0}});
   for (const ContactPoints& contact : contacts_)
     for (std::size_t t = 0; t < contact.points.size(); ++t) {
       const fem::PointSet& points = contact.points[t];
@@ -165,7 +173,8 @@ void Scene::requireSupport(const fem::Supports& supports) const {
         if (std::isfinite(over.gap)) held.push_back({n, {over.normal[0], over.normal[1], over.normal[2]}});
       }
     }
-  for (const fem::FreeBody& body : fem::freeBodies(mesh_, supports, held, &shells_.geometry, joinedNodes()))
+  for (const fem::FreeBody& body :
+       fem::freeBodies(mesh_, model.dofs, model.supports, held, &shells_.geometry, joinedNodes()))
     fail("supports",
          fmt::format("the body with block '{}' can still move freely in {} rigid motion{}: prescribe more "
                      "displacements",

@@ -20,6 +20,7 @@
 #include "atrapos/fem/ShellBody.hpp"
 #include "atrapos/path/Monitor.hpp"
 #include "atrapos/path/Stops.hpp"
+#include "atrapos/solid/PlaneBody.hpp"
 #include "deck/Deck.hpp"
 
 namespace atrapos {
@@ -79,7 +80,7 @@ class Scene {
   const fem::FeProblem& problem() const { return *problem_; }
   const std::vector<ContactPoints>& contacts() const { return contacts_; }
   int numContactPoints() const;
-  /// Of the problem, supported ones included: three for each node of the mesh and each director.
+  /// Of the problem, supported ones included.
   int numUnknowns() const;
 
   /// Whether there are contacts whose points get their law along the path.
@@ -129,9 +130,10 @@ class Scene {
   /// The whole model, on every rank; bodies, tools and contacts are those of its terms from then on.
   fem::FeModel makeModel();
   /// What messages call an unknown of the problem.
-  std::string dofName(int dof) const;
+  std::string dofName(const fem::DofMap& dofs, int dof) const;
   std::vector<int> nodesOf(const std::string& set) const;
   std::vector<fem::PointSet> pointsOf(const deck::Contact& contact) const;
+  fem::PointSet materialPoints(const fem::Block& block, const fem::Tabulation& cell) const;
   void addMaterials(fem::FeModel& model);
   /// Those of the mesh's parts, to the materials' terms.
   void giveRanks(fem::FeModel& model) const;
@@ -154,7 +156,7 @@ class Scene {
   BodySize bodySize() const;
   void measureGaps(const deck::Contact& contact, ContactPoints& entry) const;
   void choosePressure(const deck::Contact& contact, BodySize body, ContactPoints& entry) const;
-  void requireSupport(const fem::Supports& supports) const;
+  void requireSupport(const fem::FeModel& model) const;
   void requireEffect(const fem::FeModel& model) const;
   [[noreturn]] void fail(const std::string& key, const std::string& problem) const;
   bool writes(deck::OutputField field) const;
@@ -169,7 +171,8 @@ class Scene {
   fem::Mesh mesh_;
   std::vector<int> givenRanks_;
   SceneShells shells_;
-  std::optional<fem::ShellBody> body_;  ///< where the results are on the bodies of shells
+  std::optional<solid::PlaneSection> plane_;  ///< what plane cells stand for
+  std::optional<fem::ShellBody> body_;        ///< where the results are on the bodies of shells
   std::unique_ptr<fem::FeProblem> problem_;
   /// Of a scene that sharpens: the problem before, which those who followed its path still refer to.
   std::unique_ptr<fem::FeProblem> loaded_;

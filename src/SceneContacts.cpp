@@ -26,6 +26,7 @@ std::vector<fem::PointSet> Scene::pointsOf(const deck::Contact& contact) const {
       return {std::move(points)};
     }
     const auto& set = mesh_.sideSets.at(fem::findSideSet(mesh_, contact.set));
+    if (plane_) return solid::planeEdgePoints(mesh_, set, *plane_, contact.quadratureDegree);
     return zeta == 0 ? fem::facePoints(mesh_, set, contact.quadratureDegree)
                      : fem::shellFacePoints(mesh_, shells_.geometry, set, zeta, contact.quadratureDegree);
   } catch (const std::runtime_error& e) {
@@ -46,7 +47,7 @@ void Scene::addContacts(fem::FeModel& model) {
   const BodySize body = bodySize();
   // A body that only its contacts hold needs the law of far points too.
   const bool heldByContacts =
-      !fem::freeBodies(mesh_, model.supports, {}, &shells_.geometry, joinedNodes()).empty();
+      !fem::freeBodies(mesh_, model.dofs, model.supports, {}, &shells_.geometry, joinedNodes()).empty();
   for (const deck::Contact& contact : deck_.contacts) {
     const auto position = std::find_if(deck_.tools.begin(), deck_.tools.end(),
                                        [&](const deck::Tool& tool) { return tool.name == contact.tool; });
@@ -102,6 +103,11 @@ void Scene::measureGaps(const deck::Contact& contact, ContactPoints& entry) cons
         fail("contact/" + contact.name,
              fmt::format("the point ({:.6g}, {:.6g}, {:.6g}) has no unique projection on tool '{}'{}{}", x[0],
                          x[1], x[2], contact.tool, ambiguity.empty() ? "" : ": it ", ambiguity));
+      if (plane_ && std::abs(over.normal[2]) > 1e-9)  // far above the rounding of unit vectors
+        fail("contact/" + contact.name,
+             fmt::format("the normal of tool '{}' leaves the plane z = 0 at ({:.6g}, {:.6g}): a plane body "
+                         "needs tools that go on along z",
+                         contact.tool, x[0], x[1]));
       // Rounding of coordinates as large as the scene; anything deeper is meant.
       const double rounding = 1e-12 * (1 + std::abs(x[0]) + std::abs(x[1]) + std::abs(x[2]));
       if (over.gap < -rounding)
@@ -190,10 +196,13 @@ BodySize Scene::bodySize() const {
       continue;
     }
     element += count;
-    const auto points = fem::volumePoints(mesh_, block, fem::tabulate(block.topology));
+    const auto points = materialPoints(block, fem::tabulate(block.topology));
     volume += std::accumulate(points.weights.begin(), points.weights.end(), 0.0);
   }
   double extent[3] = {high[0] - low[0], high[1] - low[1], high[2] - low[2]};
+  if (plane_)
+    extent[2] = plane_->kind == solid::PlaneSection::Kind::axisymmetric ? 2 * std::acos(-1.0) * high[0]
+                                                                        : plane_->thickness;
   std::sort(extent, extent + 3);
   body.length = extent[2];
   body.areaPerPoint = extent[1] * extent[2];  // of all points together so far
@@ -212,7 +221,7 @@ bool Scene::contactsGrow() const {
 }
 
 bool Scene::othersAreNear(const path::Vector& u, double lambda) const {
-  const fem::ConstField state = problem_->onRank(u);
+  const fem::ConstDofView state = problem_->onRank(u);
   bool near = false;
   for (const ContactPoints& contact : contacts_)
     for (const NearContact* term : contact.near) near = near || term->othersAreNear(state, lambda);
@@ -220,7 +229,7 @@ bool Scene::othersAreNear(const path::Vector& u, double lambda) const {
 }
 
 void Scene::grow(const path::Vector& u, double lambda) {
-  const fem::ConstField state = problem_->onRank(u);
+  const fem::ConstDofView state = problem_->onRank(u);
   for (const ContactPoints& contact : contacts_)
     for (NearContact* term : contact.near) term->grow(state, lambda);
 }

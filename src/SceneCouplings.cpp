@@ -16,24 +16,25 @@ using Kind = deck::Coupling::Kind;
 
 /// v . n of all nodes is that of the first, and directors stay in the plane: w . n = 0.
 void addPlane(const deck::Vector3& normal, const std::vector<int>& nodes, const fem::ShellGeometry& shells,
-              fem::Couplings& couplings) {
-  fem::couplePlane(couplings, nodes, normal);
+              fem::FeModel& model) {
+  fem::couplePlane(model.couplings, model.dofs, nodes, normal);
   int pivot = 0;
   for (int i = 1; i < 3; ++i)
     if (std::abs(normal[i]) > std::abs(normal[pivot])) pivot = i;
   for (int node : nodes)
     for (int director : shells.directorNodes(node)) {
       fem::Coupling c;
-      c.dof = 3 * director + pivot;
+      const int first = model.dofs.firstDof(director);
+      c.dof = first + pivot;
       for (int i = 0; i < 3; ++i)
-        if (i != pivot && normal[i] != 0) c.masters.push_back({3 * director + i, -normal[i] / normal[pivot]});
-      couplings.add(std::move(c));
+        if (i != pivot && normal[i] != 0) c.masters.push_back({first + i, -normal[i] / normal[pivot]});
+      model.couplings.add(std::move(c));
     }
 }
 
 /// The nodes and their directors on one rigid body about their centre.
 void addRigid(const fem::Mesh& mesh, const std::vector<int>& nodes, const fem::ShellGeometry& shells,
-              int firstNode, double youngsModulus, fem::FeModel& model) {
+              double youngsModulus, fem::FeModel& model) {
   std::array<double, 3> centre{};
   const auto X = [&](int node) { return &mesh.coordinates[3 * static_cast<std::size_t>(node)]; };
   for (int node : nodes)
@@ -49,15 +50,15 @@ void addRigid(const fem::Mesh& mesh, const std::vector<int>& nodes, const fem::S
       size = std::max(size, std::hypot(D[0], D[1], D[2]));
     }
   }
-  const fem::RigidBody body(firstNode, centre, size > 0 ? size : 1.0);
+  const double arms = size > 0 ? size : 1.0;
+  const fem::RigidBody body(model, centre, arms, youngsModulus * arms);
   for (int node : nodes) {
-    body.attach(model.couplings, node, {X(node)[0], X(node)[1], X(node)[2]});
+    body.attach(model, node, {X(node)[0], X(node)[1], X(node)[2]});
     for (int director : shells.directorNodes(node)) {
       const double* D = directorOf(director);
-      body.attachDirector(model.couplings, director, {D[0], D[1], D[2]});
+      body.attachDirector(model, director, {D[0], D[1], D[2]});
     }
   }
-  body.addTo(model, youngsModulus * (size > 0 ? size : 1.0));
 }
 
 }  // namespace
@@ -99,32 +100,31 @@ Scene::SolidSide Scene::solidNodesAt(const deck::Coupling& coupling, int directo
 
 void Scene::addCouplings(fem::FeModel& model) const {
   const fem::ShellGeometry& g = shells_.geometry;
-  int nextRigid = g.numNodes();
   for (const deck::Coupling& coupling : deck_.couplings) try {
       const std::vector<int> nodes = nodesOf(coupling.set);
       switch (coupling.kind) {
         case Kind::Equal:
-          fem::coupleEqual(model.couplings, nodes);
+          fem::coupleEqual(model.couplings, model.dofs, nodes);
           break;
         case Kind::Plane:
-          addPlane(*coupling.normal, nodes, g, model.couplings);
+          addPlane(*coupling.normal, nodes, g, model);
           break;
         case Kind::Rigid:
-          addRigid(mesh_, nodes, g, nextRigid, deck::largestYoungsModulus(deck_), model);
-          nextRigid += fem::RigidBody::numNodes;
+          addRigid(mesh_, nodes, g, deck::largestYoungsModulus(deck_), model);
           break;
         case Kind::ShellOnSolid:
           for (int node : nodes)
             for (int director : g.directorNodes(node)) {
               const SolidSide side = solidNodesAt(coupling, director);
-              fem::coupleShellToSolid(model.couplings, node, director, side.top, side.bottom);
+              fem::coupleShellToSolid(model.couplings, model.dofs, node, director, side.top, side.bottom);
               for (const auto& [between, zeta] : side.between)
-                fem::coupleNode(model.couplings, between,
+                fem::coupleNode(model.couplings, model.dofs, between,
                                 {{side.top, 0.5 * (1 + zeta)}, {side.bottom, 0.5 * (1 - zeta)}});
             }
           break;
       }
-      model.couplings.resolved(model.supports);  // each entry by itself, so that its name is known
+      model.couplings.resolved(model.dofs,
+                               model.supports);  // each entry by itself, so that its name is known
     } catch (const std::invalid_argument& e) {
       fail("couplings/" + coupling.name, e.what());
     }

@@ -57,11 +57,14 @@ bool Scene::writes(deck::OutputField field) const {
 
 std::vector<std::string> Scene::nodalNames() const {
   std::vector<std::string> names;
+  const auto appendVector = [&](const std::string& prefix) {
+    for (int i = 0; i < mesh_.dimension; ++i) names.push_back(prefix + "xyz"[i]);
+  };
   if (writes(deck::OutputField::Displacement)) {
-    append({"displ_x", "displ_y", "displ_z"}, names);
+    appendVector("displ_");
     if (!shells_.empty()) append({"director_x", "director_y", "director_z", "thickness_change"}, names);
   }
-  if (writes(deck::OutputField::Reaction)) append({"reaction_x", "reaction_y", "reaction_z"}, names);
+  if (writes(deck::OutputField::Reaction)) appendVector("reaction_");
   if (writes(deck::OutputField::Contact) && !contacts_.empty())
     append({"contact_gap", "contact_pressure"}, names);
   if (writes(deck::OutputField::NodalStress)) {
@@ -93,13 +96,13 @@ std::vector<double> Scene::onResultNodes(std::vector<double> ofMesh) const {
 std::vector<std::vector<double>> Scene::nodalValues(const SceneState& state) const {
   Fields result;
   const auto split = [&](const std::vector<double>& field) {
-    for (int i = 0; i < 3; ++i) {
+    for (int i = 0; i < mesh_.dimension; ++i) {
       std::vector<double> component(resultMesh().numNodes());
       for (std::size_t n = 0; n < component.size(); ++n) component[n] = field[3 * n + i];
       result.push_back(std::move(component));
     }
   };
-  const std::vector<double>& values = state.values();
+  const std::vector<double>& values = state.displacements();
   if (writes(deck::OutputField::Displacement)) {
     split(body_ ? body_->displacements(shells_.geometry, values) : values);
     if (!shells_.empty())
@@ -193,7 +196,7 @@ std::vector<std::vector<double>> Scene::elementValues(const SceneState& state) c
       add(0, meanSurfaceStress(observed, solid::midSurface), 6);
       add(6, meanSurfaceStress(observed, solid::topSurface), 6);
       add(12, meanSurfaceStress(observed, solid::bottomSurface), 6);
-      add(18, meanResultants(shells_.elements[body.shells], observed, state.values()), 8);
+      add(18, meanResultants(shells_.elements[body.shells], observed, state.displacements()), 8);
       continue;
     }
     const auto means = meansOverPoints(observed.values, observed.values.size() / 6 / elements, 6);

@@ -2,6 +2,7 @@
 #include "Scene.hpp"
 #include "Sets.hpp"
 #include "atrapos/fem/Loads.hpp"
+#include "atrapos/fem/ReferenceCell.hpp"
 #include "atrapos/fem/ShellFaces.hpp"
 #include "atrapos/solid/ShellLoads.hpp"
 
@@ -13,6 +14,7 @@ namespace {
 struct DeadLoads {
   const fem::Mesh& mesh;
   const SceneShells& shells;
+  const std::optional<solid::PlaneSection>& plane;
   std::vector<double>& force;
 
   const fem::SideSet& sides(const std::string& set) const {
@@ -30,8 +32,9 @@ struct DeadLoads {
   void operator()(const deck::SurfaceLoad& load) const {
     const double zeta = zetaOf(load.at);
     const auto faces =
-        zeta == 0 ? fem::facePoints(mesh, sides(load.set), fem::loadDegree)
-                  : fem::shellFacePoints(mesh, shells.geometry, sides(load.set), zeta, fem::loadDegree);
+        plane       ? solid::planeEdgePoints(mesh, sides(load.set), *plane, fem::loadDegree)
+        : zeta == 0 ? fem::facePoints(mesh, sides(load.set), fem::loadDegree)
+                    : fem::shellFacePoints(mesh, shells.geometry, sides(load.set), zeta, fem::loadDegree);
     deck::Vector3 perArea = load.vector;
     switch (load.kind) {
       case deck::SurfaceLoad::Kind::Total:
@@ -54,7 +57,12 @@ struct DeadLoads {
   void operator()(const deck::VolumeLoad& load) const {
     for (const std::string& name : load.blocks) {
       const int block = fem::findBlock(mesh, name), i = shells.find(block);
-      if (i >= 0)
+      if (plane)
+        fem::addTraction(
+            {solid::planeValuePoints(mesh, mesh.blocks[block],
+                                     fem::tabulate(mesh.blocks[block].topology, fem::loadDegree), *plane)},
+            load.force, force);
+      else if (i >= 0)
         solid::addShellBodyForce(shells.elements[i], load.force, force);
       else
         fem::addBodyForce(mesh, mesh.blocks[block], load.force, force);
@@ -65,18 +73,19 @@ struct DeadLoads {
 }  // namespace
 
 void Scene::addLoads(fem::FeModel& model) const {
-  const std::size_t dofs = 3 * static_cast<std::size_t>(model.numNodes);
-  model.load.assign(dofs, 0.0);
-  model.constantLoad.assign(dofs, 0.0);
+  const std::size_t size = 3 * static_cast<std::size_t>(model.dofs.numNodes());
+  std::vector<double> growing(size, 0.0), constant(size, 0.0);  // [3 node + component]
   for (const deck::Load& load : deck_.loads) {
     if (followers::isFollower(load)) continue;
-    std::vector<double>& force = load.constant ? model.constantLoad : model.load;
+    std::vector<double>& force = load.constant ? constant : growing;
     try {
-      std::visit(DeadLoads{mesh_, shells_, force}, load.load);
+      std::visit(DeadLoads{mesh_, shells_, plane_, force}, load.load);
     } catch (const std::runtime_error& e) {
       fail("loads/" + load.name, e.what());
     }
   }
+  model.load = model.dofs.fromVectors(growing);
+  model.constantLoad = model.dofs.fromVectors(constant);
 }
 
 void Scene::addFollowers(fem::FeModel& model) const {

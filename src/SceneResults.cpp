@@ -73,8 +73,9 @@ void Scene::addMonitors() {
       auto nodes = nodesOf(m->set);
       if (m->near) nodes = {nearestNode(mesh_, nodes, *m->near)};
       const double each = m->reduce == deck::DisplacementMonitor::Reduce::Mean ? 1.0 / nodes.size() : 1.0;
+      const fem::DofMap& dofs = problem_->model().dofs;
       for (int n : nodes) {
-        const linear::GlobalIndex dof = 3LL * n + componentIndex(m->component);
+        const linear::GlobalIndex dof = dofs.firstDof(n) + componentIndex(m->component);
         if (problem_->map()->isNodeGlobalElement(dof)) weights->sumIntoGlobalValue(dof, each);
       }
     }

@@ -18,14 +18,16 @@ class SceneState {
   const path::Vector& u() const { return u_; }
   double lambda() const { return lambda_; }
 
-  /// FeProblem::values
-  const std::vector<double>& values() const {
-    if (!values_) values_ = fem::FeProblem::values(u_);
-    return *values_;
+  // Vectors in space of all nodes (DofMap::vectors), [3 node + component]:
+
+  /// displacements, and changes of directors,
+  const std::vector<double>& displacements() const {
+    if (!displacements_) displacements_ = vectors(fem::FeProblem::values(u_));
+    return *displacements_;
   }
   /// FeProblem::reactions
   const std::vector<double>& reactions() const {
-    if (!reactions_) reactions_ = problem_.reactions(u_, lambda_);
+    if (!reactions_) reactions_ = vectors(problem_.reactions(u_, lambda_));
     return *reactions_;
   }
   /// FeProblem::observe
@@ -34,18 +36,22 @@ class SceneState {
     if (found != observed_.end()) return found->second;
     return observed_[term] = problem_.observe(term, u_, lambda_);
   }
-  /// FeProblem::forces of a term.
+  /// and FeProblem::forces of a term.
   const std::vector<double>& forces(int term) const {
     const auto found = forces_.find(term);
     if (found != forces_.end()) return found->second;
-    return forces_[term] = problem_.forces(problem_.term(term), u_, lambda_);
+    return forces_[term] = vectors(problem_.forces(problem_.term(term), u_, lambda_));
   }
 
  private:
+  std::vector<double> vectors(const std::vector<double>& dofs) const {
+    return problem_.model().dofs.vectors(dofs);
+  }
+
   const fem::FeProblem& problem_;
   const path::Vector& u_;
   double lambda_;
-  mutable std::optional<std::vector<double>> values_, reactions_;
+  mutable std::optional<std::vector<double>> displacements_, reactions_;
   mutable std::map<int, fem::PointValues> observed_;
   mutable std::map<int, std::vector<double>> forces_;
 };

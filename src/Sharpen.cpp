@@ -26,22 +26,24 @@ class TermAtLoadFactor final : public fem::Term {
   bool symmetric() const override { return term_.symmetric(); }
   bool seesLoadFactor() const override { return false; }
   void keep(const fem::TermPart& part) override { term_.keep(part); }
-  void setPositions(const std::vector<int>& positions) override { term_.setPositions(positions); }
-  double addResidual(const fem::ConstField& u, double, const fem::Field& f) const override {
+  void connect(const fem::DofMap& dofs, const std::vector<int>& positions) override {
+    term_.connect(dofs, positions);
+  }
+  double addResidual(const fem::ConstDofView& u, double, const fem::DofView& f) const override {
     return term_.addResidual(u, loadFactor_, f);
   }
-  void addTangent(const fem::ConstField& u, double, const fem::TangentSink& sink) const override {
+  void addTangent(const fem::ConstDofView& u, double, const fem::TangentSink& sink) const override {
     fem::TangentSink own = sink;
-    own.loadDirection = fem::Field("unused", sink.loadDirection.size());
+    own.loadDirection = fem::DofView("unused", sink.loadDirection.size());
     term_.addTangent(u, loadFactor_, own);
   }
-  void beginSeries(const fem::ConstField& u, double, int maxOrder) override {
+  void beginSeries(const fem::ConstDofView& u, double, int maxOrder) override {
     term_.beginSeries(u, loadFactor_, maxOrder);
   }
-  void addOrder(int k, const fem::ConstField& last, double, const fem::Field& f) override {
+  void addOrder(int k, const fem::ConstDofView& last, double, const fem::DofView& f) override {
     term_.addOrder(k, last, 0, f);
   }
-  fem::PointValues observe(const fem::ConstField& u, double) const override {
+  fem::PointValues observe(const fem::ConstDofView& u, double) const override {
     return term_.observe(u, loadFactor_);
   }
   std::size_t historyBytes(int maxOrder) const override { return term_.historyBytes(maxOrder); }
@@ -97,15 +99,13 @@ void Scene::sharpen(double loadFactor) {
   fem::FeModel from = makeModel();
   fem::FeModel model;
   model.comm = from.comm;
-  model.numNodes = from.numNodes;
-  model.supports = fem::Supports(from.numNodes);
+  model.dofs = from.dofs;
   for (fem::Coupling coupling : from.couplings.all()) {
     coupling.value += loadFactor * coupling.perLoadFactor;
     coupling.perLoadFactor = 0;
     model.couplings.add(std::move(coupling));
   }
-  model.numMultipliers = from.numMultipliers;
-  const std::size_t numDofs = 3 * static_cast<std::size_t>(from.numNodes);
+  const std::size_t numDofs = from.dofs.numDofs();
   from.load.resize(numDofs, 0.0);
   from.constantLoad.resize(numDofs, 0.0);
   model.dofName = from.dofName;
@@ -114,8 +114,8 @@ void Scene::sharpen(double loadFactor) {
     model.constantLoad[d] += loadFactor * from.load[d];
     const int dof = static_cast<int>(d);
     if (from.supports.fixed(dof))
-      model.supports.prescribe(dof / 3, dof % 3,
-                               from.supports.value(dof) + loadFactor * from.supports.perLoadFactor(dof), 0);
+      model.supports.prescribe(dof, from.supports.value(dof) + loadFactor * from.supports.perLoadFactor(dof),
+                               0);
   }
   for (auto& term : from.terms)
     model.terms.push_back(std::make_unique<TermAtLoadFactor>(std::move(term), loadFactor));

@@ -8,6 +8,7 @@
 #include "atrapos/contact/CurveContact.hpp"
 #include "atrapos/contact/PatchSearch.hpp"
 #include "atrapos/fem/LawTerm.hpp"
+#include "atrapos/fem/ReducedLaw.hpp"
 #include "atrapos/fem/UnilateralTerm.hpp"
 
 namespace atrapos {
@@ -32,6 +33,19 @@ ToolProjection projection(const std::optional<contact::Motion>& motion, const do
   return result;
 }
 
+/// The law at these points: of (x, y, z, ...) with outputs (f_x, f_y, f_z, ...), for points of a plane body
+/// without z.
+std::unique_ptr<fem::PointLaw> forPoints(std::unique_ptr<fem::PointLaw> law, const fem::PointSet& points) {
+  if (points.components == 3) return law;
+  const fem::LawShape shape = law->shape();
+  fem::Reduction plane;
+  for (int i = 0; i < shape.inputs; ++i) plane.inputs.push_back(i < 2 ? i : i == 2 ? -1 : i - 1);
+  for (int o = 0; o < shape.outputs; ++o)
+    if (o != 2) plane.outputs.push_back(o);
+  plane.numInputs = shape.inputs - 1;
+  return fem::reducedLaw(std::move(law), plane);
+}
+
 /// What does not depend on the kind of the tool: laws of its stages, at points whose data a search keeps up
 /// to date where the tool has pieces.
 class StagedTool : public RigidTool {
@@ -45,49 +59,42 @@ class StagedTool : public RigidTool {
 
   std::unique_ptr<fem::Term> term(const contact::AnyPressure& pressure, const fem::PointSet& points,
                                   const std::vector<double>& referenceGaps) const override {
-    return onPieces(contact::stagedContact(stages_, pressure), points, withTool(referenceGaps, 1), pieces(1));
+    return onPieces(forPoints(contact::stagedContact(stages_, pressure), points), points,
+                    withTool(referenceGaps, 1), pieces(points, 1, points.components));
   }
 
   void addHard(fem::FeModel& model, const fem::PointSet& points) const override {
-    const fem::PointSet own = fem::withMultipliers(model, points);
-    model.terms.push_back(fem::unilateralTerm(contact::stagedHardContact(stages_), own,
-                                              withTool(std::vector<double>(), own.numPoints(), 0),
-                                              pieces(0)));
+    const fem::UnilateralPoints own = fem::withMultipliers(model, points);
+    addUnilateral(model, own);
   }
 
   void addHardFaces(fem::FeModel& model, const fem::PointSet& faces) const override {
     const fem::UnilateralPoints own = fem::withCornerMultipliers(model, faces);
-    model.terms.push_back(fem::unilateralTerm(contact::stagedHardContact(stages_), own,
-                                              withTool(std::vector<double>(), own.points.numPoints(), 0),
-                                              pieces(0)));
+    addUnilateral(model, own);
   }
 
   void addCurve(fem::FeModel& model, const contact::RegularisedPressure& pressure,
                 const fem::PointSet& points, const std::vector<double>& referenceGaps) const override {
-    constexpr int before = 4;  // Delta, X
-    const contact::CurvePoints curves = contact::withCurves(model, points, pressure, referenceGaps);
-    const bool moving = moves();
-    const auto placeOf = [moving](const double* in, const double* own, double* x) {
-      for (int i = 0; i < 3; ++i) x[i] = in[2 * i] + own[1 + i];
-      if (moving) x[3] = in[6];
-    };
-    model.terms.push_back(onPieces(contact::stagedCurveContact(stages_, pressure),
-                                   fem::withUnknowns(curves.points), withTool(curves.data, before),
-                                   pieces(moving ? 7 : 6, before, placeOf)));
+    const fem::PointSet curves = contact::withCurves(model, points, pressure, referenceGaps);
+    // The load factor stands behind the place on the curve.
+    model.terms.push_back(onPieces(forPoints(contact::stagedCurveContact(stages_, pressure), points), curves,
+                                   withTool(referenceGaps, 1), pieces(points, 1, points.components + 1)));
   }
 
   std::unique_ptr<fem::Term> sharpened(const contact::RegularisedPressure& pressure,
                                        const fem::PointSet& points, const std::vector<double>& referenceGaps,
                                        double loadFactor) const override {
-    auto law = contact::stagedSharpenedContact(stages_, pressure, loadFactor);
+    auto law = forPoints(contact::stagedSharpenedContact(stages_, pressure, loadFactor), points);
     const auto data = withTool(referenceGaps, 1);
-    const fem::PieceSearch search = pieces(1);
+    const int D = points.components;
+    const fem::PieceSearch search = pieces(points, 1, D);
     if (!search.update) return fem::lawTerm(std::move(law), points, data);
     // Places have the load factor where the tool moves; the law's last input is how sharp it is.
-    const auto update = [search, loadFactor, moving = moves()](int numPoints, const double* in, double* own) {
+    const auto update = [search, loadFactor, D, moving = moves()](int numPoints, const double* in,
+                                                                  double* own) {
       std::vector<double> places;
       for (int p = 0; p < numPoints; ++p) {
-        places.insert(places.end(), in + 4 * p, in + 4 * p + 3);
+        places.insert(places.end(), in + (D + 1) * p, in + (D + 1) * p + D);
         if (moving) places.push_back(loadFactor);
       }
       const std::vector<int> none(numPoints, fem::PointPieces::any);
@@ -103,15 +110,27 @@ class StagedTool : public RigidTool {
   /// the tool has no pieces.
   virtual fem::PieceSearch pieces(int numInputs, int before, const PlaceOf& placeOf) const = 0;
 
-  fem::PieceSearch pieces(int before) const {
-    const int numPlace = moves() ? 4 : 3;
-    return pieces(numPlace, before,
-                  [numPlace](const double* in, const double*, double* x) { std::copy_n(in, numPlace, x); });
+  /// The same for inputs that begin with the place of these points and have the load factor, where the tool
+  /// moves, at `loadFactor`.
+  fem::PieceSearch pieces(const fem::PointSet& points, int before, int loadFactor) const {
+    const int D = points.components;
+    const bool moving = moves();
+    return pieces(loadFactor + (moving ? 1 : 0), before,
+                  [D, loadFactor, moving](const double* in, const double*, double* x) {
+                    for (int i = 0; i < 3; ++i) x[i] = i < D ? in[i] : 0;
+                    if (moving) x[3] = in[loadFactor];
+                  });
   }
 
   const std::optional<contact::Motion>& motion() const { return motion_; }
 
  private:
+  void addUnilateral(fem::FeModel& model, const fem::UnilateralPoints& own) const {
+    model.terms.push_back(fem::unilateralTerm(forPoints(contact::stagedHardContact(stages_), own.points), own,
+                                              withTool(std::vector<double>(), own.points.numPoints(), 0),
+                                              pieces(own.points, 0, own.points.components)));
+  }
+
   static std::unique_ptr<fem::Term> onPieces(std::unique_ptr<fem::PointLaw> law, const fem::PointSet& points,
                                              const std::vector<double>& data, fem::PieceSearch search) {
     if (!search.update) return fem::lawTerm(std::move(law), points, data);

@@ -101,9 +101,30 @@ class MeshCheck {
     }
   }
 
+  /// A plane mesh, and what is said of it.
+  void plane() const {
+    if (mesh_.dimension == 2 && !deck_.plane) {
+      fail("plane",
+           "missing; the mesh is a plane one, so the deck says what it stands for: kind: strain, stress or "
+           "axisymmetric");
+    }
+    if (mesh_.dimension == 3 && deck_.plane) {
+      fail("plane", "the mesh has three dimensions; expected one with QUAD or TRI in two");
+    }
+  }
+
+  /// Whether something along z, or out of the plane, is asked for where there is none.
+  void inPlane(const std::string& path, bool leaves) const {
+    if (mesh_.dimension == 2 && leaves) {
+      fail(path, "a plane body has no z");
+    }
+  }
+
   void support(const Support& support) const {
     const std::string path = "supports/" + support.name;
     nodes(path + "/set", support.set);
+    inPlane(path + "/z", support.components[2] && !holds(support.condition, 2, false));
+    inPlane(path + "/condition", support.condition == Support::Condition::SymmetryZ);
     for (std::size_t axis = 0; axis < 3; ++axis) {
       if (support.director[axis] && !holds(support.condition, axis, true) && !hasShells(support.set)) {
         fail(fmt::format("{}/director_{}", path, "xyz"[axis]),
@@ -185,12 +206,15 @@ class MeshCheck {
   void load(const Load& load) const {
     const std::string path = "loads/" + load.name;
     if (const auto* nodal = std::get_if<NodalLoad>(&load.load)) {
+      inPlane(path, nodal->force[2] != 0);
       nodes(path + "/set", nodal->set);
     } else if (const auto* surface = std::get_if<SurfaceLoad>(&load.load)) {
+      inPlane(path, surface->vector[2] != 0);
       faces(path, surface->set, surface->at);
     } else if (const auto* edge = std::get_if<EdgeLoad>(&load.load)) {
       edges(path + "/set", edge->set);
     } else {
+      inPlane(path, std::get<VolumeLoad>(load.load).force[2] != 0);
       for (const auto& name : std::get<VolumeLoad>(load.load).blocks) {
         block(path + "/blocks", name);
       }
@@ -236,6 +260,7 @@ class MeshCheck {
 
 void checkAgainstMesh(const Deck& deck, const fem::Mesh& mesh) {
   const MeshCheck check(deck, mesh);
+  check.plane();
   check.materials();
   check.sections();
   for (const auto& support : deck.supports) {
@@ -253,6 +278,7 @@ void checkAgainstMesh(const Deck& deck, const fem::Mesh& mesh) {
   for (const auto& monitor : deck.output.monitors) {
     if (const auto* displacement = std::get_if<DisplacementMonitor>(&monitor.quantity)) {
       check.nodes("output/monitors/" + monitor.name + "/set", displacement->set);
+      check.inPlane("output/monitors/" + monitor.name, displacement->component == Component::Z);
     }
   }
 }

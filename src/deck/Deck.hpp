@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "atrapos/fem/StructuredMesh.hpp"
+#include "atrapos/fem/StructuredPlane.hpp"
 #include "atrapos/fem/StructuredShell.hpp"
 #include "atrapos/path/Branches.hpp"
 
@@ -31,7 +32,7 @@ using Vector3 = std::array<double, 3>;
 /// How `atrapos mesh` makes the mesh file.
 using Generate = std::variant<fem::BoxOptions, fem::StripOptions, fem::CylinderPanelOptions,
                               fem::SpherePanelOptions, fem::ShellPlateOptions, fem::ShellCylinderOptions,
-                              fem::ShellAnnulusOptions, fem::ShellSphereOptions>;
+                              fem::ShellAnnulusOptions, fem::ShellSphereOptions, fem::RectangleOptions>;
 
 struct MeshInput {
   std::string file;         ///< as written in the deck
@@ -51,6 +52,13 @@ struct Material {
   std::string name;
   std::variant<SaintVenantKirchhoff> law;
   std::vector<std::string> blocks;  ///< names or ids
+};
+
+/// The body that a plane mesh (x, y) stands for.
+struct Plane {
+  enum class Kind { Strain, Stress, Axisymmetric };
+  Kind kind = Kind::Strain;
+  std::optional<double> thickness;  ///< length, > 0; empty = 1; not with axisymmetry
 };
 
 /// The transverse shear strains of shells.
@@ -447,6 +455,7 @@ struct Deck {
   std::optional<ModelProblem> problem;  ///< then of what follows only path, solver, output/points_per_step
   MeshInput mesh;
   std::vector<Material> materials;  ///< all entries in the deck's order
+  std::optional<Plane> plane;
   Shells shells;
   std::vector<Support> supports;
   std::vector<Coupling> couplings;

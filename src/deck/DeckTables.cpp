@@ -125,6 +125,7 @@ const Table<Deck>& deckTable() {
         block("mesh", required, &Deck::mesh, meshTable(), "the body's mesh"),
         entries("materials", required, &Deck::materials, materialVariants(), "each with law, blocks, ...",
                 "what the blocks are made of"),
+        planeField(),
         shells,
         supports,
         couplings,

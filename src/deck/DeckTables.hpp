@@ -15,6 +15,8 @@ struct GenerateInput {
 const Variants<GenerateInput, Generate>& generateVariants();
 const Variants<Material, decltype(Material::law)>& materialVariants();
 const Table<Shells>& shellsTable();
+/// The block `plane`, which a deck may not have.
+Field<Deck> planeField();
 const Table<ShellSection>& shellSectionTable();
 const Table<Support>& supportTable();
 const Table<Coupling>& couplingTable();

@@ -13,6 +13,16 @@ const Choices<fem::Topology>& cells() {
   return choices;
 }
 
+const Choices<fem::Topology>& planeCells() {
+  using fem::Topology;
+  static const Choices<Topology> choices{{"QUAD4", Topology::Quad4},
+                                         {"QUAD8", Topology::Quad8},
+                                         {"QUAD9", Topology::Quad9},
+                                         {"TRI3", Topology::Tri3},
+                                         {"TRI6", Topology::Tri6}};
+  return choices;
+}
+
 const Choices<fem::Topology>& shellCells() {
   using fem::Topology;
   static const Choices<Topology> choices{
@@ -33,6 +43,27 @@ Field<S> divisions(std::string meaning) {
           },
           [](const S& s) {
             return Node{yamlList(s.divisions), {}};
+          }};
+}
+
+template <class S>
+Field<S> pair(std::string key, Need need, std::array<double, 2> S::*member, const Check& check,
+              std::string meaning) {
+  return {std::move(key),
+          need == required,
+          fmt::format("a list of 2 {} numbers", check.words),
+          std::move(meaning),
+          [=, &check](const Value& v, S& s) {
+            const auto x = v.reals(2);
+            for (const double number : x) {
+              if (!check.holds(number)) {
+                v.fail(fmt::format("each must be {}, got {}", check.words, v.shown()));
+              }
+            }
+            s.*member = {x[0], x[1]};
+          },
+          [=](const S& s) {
+            return Node{yamlList(s.*member), {}};
           }};
 }
 
@@ -240,6 +271,15 @@ const Variants<GenerateInput, Generate>& generateVariants() {
                           "longitude, latitude, thickness"),
         thinnerThanRadius<Sphere>()));
     addShells(v);
+    using Rectangle = fem::RectangleOptions;
+    v.alternatives.push_back(alternative<Generate, Rectangle>(
+        "rectangle",
+        withCells<Rectangle>(
+            {pair("lengths", required, &Rectangle::lengths, check::positive, "edges along x, y"),
+             pair("origin", optional, &Rectangle::origin, check::any, "corner with the least x, y"),
+             real("grading", optional, &Rectangle::grading, check::count,
+                  "power with which elements grow from the edges inwards")},
+            "x, y", planeCells())));
     return v;
   }();
   return variants;

@@ -120,7 +120,7 @@ static int press() {
   box.divisions = {4, 4, 2};
   const fem::Mesh mesh = fem::boxMesh(box);
   fem::FeModel model;
-  model.numNodes = mesh.numNodes();
+  model.dofs = fem::DofMap::displacements(mesh.numNodes());
   model.terms.push_back(
       fem::lawTerm(fem::pointLaw(NeoHooke{}),
                    fem::volumePoints(mesh, mesh.blocks[0], fem::tabulate(mesh.blocks[0].topology))));
@@ -139,11 +139,10 @@ static int press() {
   }
   model.terms.push_back(
       fem::lawTerm(fem::pointLaw(Contact{tool, contact::RegularisedPressure{1e-2, 1e-3}}), points, gaps));
-  model.supports = fem::Supports(mesh.numNodes());
   for (const int node : mesh.nodeSets[fem::findNodeSet(mesh, "z_max")].nodes) {
-    model.supports.prescribe(node, 0, 0, 0);
-    model.supports.prescribe(node, 1, 0, 0);
-    model.supports.prescribe(node, 2, 0, -1);  // 1 mm down at load factor 1
+    model.prescribe(node, 0, 0, 0);
+    model.prescribe(node, 1, 0, 0);
+    model.prescribe(node, 2, 0, -1);  // 1 mm down at load factor 1
   }
   fem::FeProblem problem(std::move(model));
   const auto solver = linear::makeTangentSolver({});

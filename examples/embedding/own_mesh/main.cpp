@@ -104,13 +104,12 @@ struct Silent : path::Observer {
 static double deflection(const fem::Mesh& mesh, const std::vector<int>& held, const fem::SideSet& loaded) {
   const auto law = solid::SaintVenantKirchhoff::fromYoung(1000, 0);
   fem::FeModel model;
-  model.numNodes = mesh.numNodes();
+  model.dofs = fem::DofMap::displacements(mesh.numNodes());
   for (const auto& block : mesh.blocks)
     model.terms.push_back(
         fem::lawTerm(fem::pointLaw(law), fem::volumePoints(mesh, block, fem::tabulate(block.topology))));
-  model.supports = fem::Supports(mesh.numNodes());
   for (const int n : held)
-    for (int i = 0; i < 3; ++i) model.supports.prescribe(n, i, 0, 0);
+    for (int i = 0; i < 3; ++i) model.prescribe(n, i, 0, 0);
   model.load.assign(3 * mesh.numNodes(), 0.0);
   fem::addSurfaceForce(mesh, loaded, {0, 0, -1}, model.load);
   fem::FeProblem problem(std::move(model));

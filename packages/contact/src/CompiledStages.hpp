@@ -14,7 +14,6 @@ ATRAPOS_DECLARE_POINT_LAW(atrapos::contact::ProjectionStage<atrapos::contact::Ta
 ATRAPOS_DECLARE_POINT_LAW(atrapos::contact::ProjectionStage<atrapos::contact::CrownedRoll>)
 ATRAPOS_DECLARE_POINT_LAW(atrapos::contact::ProjectionStage<atrapos::contact::TabulatedRoll>)
 ATRAPOS_DECLARE_POINT_LAW(atrapos::contact::ProjectionStage<atrapos::contact::PatchTool>)
-ATRAPOS_DECLARE_POINT_LAW(atrapos::contact::PlaceStage)
 ATRAPOS_DECLARE_POINT_LAW(atrapos::contact::PullStage)
 ATRAPOS_DECLARE_POINT_LAW(atrapos::contact::TurnStage)
 ATRAPOS_DECLARE_POINT_LAW(atrapos::contact::PressureStage<atrapos::contact::RegularisedPressure>)

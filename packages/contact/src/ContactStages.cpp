@@ -137,13 +137,12 @@ std::unique_ptr<fem::PointLaw> stagedHardContact(const ToolStages& tool) {
 
 std::unique_ptr<fem::PointLaw> stagedCurveContact(const ToolStages& tool,
                                                   const RegularisedPressure& pressure) {
-  constexpr int t = 1, firstX = 1, firstPatch = 4;
-  Chain chain(tool.motion ? 7 : 6, firstPatch + (tool.patches ? patchData : 0), tool.symmetric);
-  const auto x = chain.add(fem::pointLaw(PlaceStage{}), {0, 2, 4}, {firstX, firstX + 1, firstX + 2});
-  const auto hn = chain.project(tool, x, 6, tool.motion, 0, firstPatch);
+  constexpr int t = 3, firstPatch = 1;
+  Chain chain(tool.motion ? 5 : 4, firstPatch + (tool.patches ? patchData : 0), tool.symmetric);
+  const auto hn = chain.project(tool, {0, 1, 2}, 4, tool.motion, 0, firstPatch);
   const auto f = chain.add(fem::pointLaw(CurveStage{pressure}), {hn[0], hn[1], hn[2], hn[3], t}, {0});
-  chain.show(hn[0], f[6]);
-  return chain.law({f.begin(), f.begin() + 6});
+  chain.show(hn[0], f[4]);
+  return chain.law({f.begin(), f.begin() + 4});
 }
 
 }  // namespace atrapos::contact

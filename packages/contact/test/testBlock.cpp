@@ -13,9 +13,9 @@ namespace {
 
 void press(fem::FeModel& model, const fem::Mesh& mesh, const std::string& set) {
   for (int n : fem::test::nodesOfSet(mesh, set)) {
-    model.supports.prescribe(n, 0, 0, 0);
-    model.supports.prescribe(n, 1, 0, 0);
-    model.supports.prescribe(n, 2, 0, -1);  // down by the load factor
+    model.prescribe(n, 0, 0, 0);
+    model.prescribe(n, 1, 0, 0);
+    model.prescribe(n, 2, 0, -1);  // down by the load factor
   }
 }
 
@@ -59,9 +59,9 @@ TEST(Block, SupportsCarryTheContactForce) {
 Numbers flatPressures(fem::Topology cell, Where where) {
   auto mesh = fem::test::box(cell, {3, 2, 2}, {1.5, 1, 1}, {0, 0, 0.1});
   fem::FeModel model = solidModel(mesh, 10, 0.3);
-  for (int n : fem::test::nodesOfSet(mesh, "x_min")) model.supports.prescribe(n, 0, 0, 0);
-  for (int n : fem::test::nodesOfSet(mesh, "y_min")) model.supports.prescribe(n, 1, 0, 0);
-  for (int n : fem::test::nodesOfSet(mesh, "z_max")) model.supports.prescribe(n, 2, 0, -1);
+  for (int n : fem::test::nodesOfSet(mesh, "x_min")) model.prescribe(n, 0, 0, 0);
+  for (int n : fem::test::nodesOfSet(mesh, "y_min")) model.prescribe(n, 1, 0, 0);
+  for (int n : fem::test::nodesOfSet(mesh, "z_max")) model.prescribe(n, 2, 0, -1);
   addContact(model, contactPoints(mesh, "z_min", where), Plane{}, {1e-2, 1e-2}, 0);
   fem::FeProblem problem(std::move(model));
   const auto outcome = follow(problem, {problem.initialState(0), 0.0}, 0.2);
@@ -98,8 +98,8 @@ TEST(Block, HeldByContactOnly) {
   for (const RegularisedPressure& law : {RegularisedPressure{1e-3, 0.1}, RegularisedPressure{0, 0.1}}) {
     const auto mesh = fem::test::box(fem::Topology::Hex8, {2, 1, 2}, {2, 1, 1}, {0, 0, Delta});
     fem::FeModel model = solidModel(mesh, E, 0);
-    for (int n : fem::test::nodesOfSet(mesh, "x_min")) model.supports.prescribe(n, 0, 0, 0);
-    for (int n : fem::test::nodesOfSet(mesh, "y_min")) model.supports.prescribe(n, 1, 0, 0);
+    for (int n : fem::test::nodesOfSet(mesh, "x_min")) model.prescribe(n, 0, 0, 0);
+    for (int n : fem::test::nodesOfSet(mesh, "y_min")) model.prescribe(n, 1, 0, 0);
     fem::addSurfaceForce(mesh, fem::test::sideSet(mesh, "z_max"), {0, 0, -area * E}, model.load);
     addContact(model, contactPoints(mesh, "z_min", Where::Quadrature), Plane{}, law, 0);
     fem::FeProblem problem(std::move(model));

@@ -64,7 +64,7 @@ TEST(BlockDerivatives, ResidualOfASeriesFallsWithItsOrder) {
   const auto mesh = fem::test::box(fem::Topology::Hex20, {2, 2, 2}, {1, 1, 1});
   fem::FeModel model = squeezed(mesh);
   for (int n : fem::test::nodesOfSet(mesh, "x_min"))
-    for (int i = 0; i < 3; ++i) model.supports.prescribe(n, i, 0, i == 2 ? 1.0 : 0.3);
+    for (int i = 0; i < 3; ++i) model.prescribe(n, i, 0, i == 2 ? 1.0 : 0.3);
   fem::FeProblem problem(std::move(model));
   const auto start = follow(problem, {problem.initialState(0), 0.0}, -0.03, tightOptions(1e-9));
   // To rounding: what the start leaves must not hide the series' own residual.

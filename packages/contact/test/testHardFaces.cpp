@@ -31,9 +31,9 @@ struct Flat {
 
   explicit Flat(const fem::Mesh& mesh) {
     fem::FeModel model = solidModel(mesh, E, 0);
-    for (int n : fem::test::nodesOfSet(mesh, "x_min")) model.supports.prescribe(n, 0, 0, 0);
-    for (int n : fem::test::nodesOfSet(mesh, "y_min")) model.supports.prescribe(n, 1, 0, 0);
-    for (int n : fem::test::nodesOfSet(mesh, "z_max")) model.supports.prescribe(n, 2, 0, -way);
+    for (int n : fem::test::nodesOfSet(mesh, "x_min")) model.prescribe(n, 0, 0, 0);
+    for (int n : fem::test::nodesOfSet(mesh, "y_min")) model.prescribe(n, 1, 0, 0);
+    for (int n : fem::test::nodesOfSet(mesh, "z_max")) model.prescribe(n, 2, 0, -way);
     addHardFaceContact(model, contactPoints(mesh, "z_min", Where::Quadrature), Plane{});
     fem::FeProblem problem(std::move(model));
     outcome = follow(problem, {problem.initialState(0), 0.0}, 1.0, tightOptions(1e-8));
@@ -74,23 +74,22 @@ TEST(HardFaces, SeriesAndEventFunctions) {
   tool.motion.shift[1][2] = 0.3;
   tool.motion.angle[1] = 0.2;
   fem::FeModel copy;
-  copy.numNodes = mesh.numNodes();
-  copy.supports = fem::Supports(mesh.numNodes());
+  copy.dofs = fem::DofMap::displacements(mesh.numNodes());
   const auto faces = fem::withCornerMultipliers(copy, points);
   addHardFaceContact(model, points, tool);
   for (int n : fem::test::nodesOfSet(mesh, "z_max"))
-    for (int i = 0; i < 3; ++i) model.supports.prescribe(n, i, 0, i == 2 ? -1.0 : 0.3);
+    for (int i = 0; i < 3; ++i) model.prescribe(n, i, 0, i == 2 ? -1.0 : 0.3);
   fem::FeProblem problem(std::move(model));
   auto start = follow(problem, {problem.initialState(0), 0.0}, 0.06, tightOptions(1e-9));
   EXPECT_GE(activeOf(problem), 2);
   EXPECT_LT(activeOf(problem), problem.eventCount());
   const Numbers u = fem::test::equilibrium(problem, 0.06, fem::FeProblem::values(*start.final.u), 1e-12).u;
   expectEventFunctions(problem, u, 0.06, mesh.coordinates.size(), [&](const fem::PointValues& shown) {
-    const int Q = points.pointsPerEntity, M = faces.conditions, N = faces.points.nodesPerEntity;
+    const int Q = points.pointsPerEntity, M = faces.conditions;
     Numbers gaps(problem.eventCount(), 0.0), area(problem.eventCount(), 0.0);
     for (int p = 0; p < points.numPoints(); ++p)
       for (int m = 0; m < M; ++m) {
-        const int c = faces.points.nodes[p / Q * N + N - M + m] - mesh.numNodes();
+        const int c = faces.multipliers[p / Q * M + m] - mesh.numNodes();
         area[c] += points.weights[p] * faces.functions[p * M + m];
         gaps[c] += points.weights[p] * faces.functions[p * M + m] * shown.values[2 * p];
       }
@@ -145,11 +144,11 @@ struct Hertz {
         const double approach = a * a / R;
         for (int i = 0; i < 3; ++i) {
           const bool symmetry = i < 2 && mesh.coordinates[3 * p + i] == 0;
-          model.supports.prescribe(p, i, 0, symmetry ? 0 : u[i] + (i == 2 ? approach : 0));
+          model.prescribe(p, i, 0, symmetry ? 0 : u[i] + (i == 2 ? approach : 0));
         }
       }
-    for (int p : fem::test::nodesOfSet(mesh, "x_min")) model.supports.prescribe(p, 0, 0, 0);
-    for (int p : fem::test::nodesOfSet(mesh, "y_min")) model.supports.prescribe(p, 1, 0, 0);
+    for (int p : fem::test::nodesOfSet(mesh, "x_min")) model.prescribe(p, 0, 0, 0);
+    for (int p : fem::test::nodesOfSet(mesh, "y_min")) model.prescribe(p, 1, 0, 0);
     const Sphere sphere{{0, 0, R}, R};
     const auto points = contactPoints(mesh, "z_max", Where::Quadrature, 6);
     addHardFaceContact(model, points, sphere);

@@ -21,7 +21,7 @@ namespace {
 fem::FeModel pushed(const fem::Mesh& mesh, const Vector3& way) {
   fem::FeModel model = solidModel(mesh, 10, 0.3);
   for (int n : fem::test::nodesOfSet(mesh, "z_max"))
-    for (int i = 0; i < 3; ++i) model.supports.prescribe(n, i, 0, way[i]);
+    for (int i = 0; i < 3; ++i) model.prescribe(n, i, 0, way[i]);
   return model;
 }
 
@@ -239,13 +239,11 @@ TEST_F(OverAnEdge, FacesBeyondHaveNoPart) {
 // The residual along series, and event functions: multipliers, and means over what is above the plate.
 TEST_F(OverAnEdge, SeriesAndEventFunctions) {
   fem::FeModel copy;
-  copy.numNodes = mesh.numNodes();
-  copy.supports = fem::Supports(mesh.numNodes());
+  copy.dofs = fem::DofMap::displacements(mesh.numNodes());
   const auto own = fem::withCornerMultipliers(copy, faces);
   fem::FeModel model = solidModel(mesh, 10, 0.3);
   for (int n : fem::test::nodesOfSet(mesh, "z_max"))  // tilted, so that some corners stay free
-    for (int i = 0; i < 3; ++i)
-      model.supports.prescribe(n, i, 0, i == 2 ? mesh.coordinates[3 * n + 1] - 1 : 0);
+    for (int i = 0; i < 3; ++i) model.prescribe(n, i, 0, i == 2 ? mesh.coordinates[3 * n + 1] - 1 : 0);
   addHardFaceContact(model, faces, searchOf({plate(-1, 0.65)}));
   fem::FeProblem problem(std::move(model));
   const auto end = follow(problem, {problem.initialState(0), 0.0}, 0.09, tightOptions(1e-9));
@@ -255,7 +253,7 @@ TEST_F(OverAnEdge, SeriesAndEventFunctions) {
   EXPECT_LE(active, 7);  // of nine corners that touch the plate
   const Numbers u = fem::test::equilibrium(problem, 0.09, fem::FeProblem::values(*end.final.u), 1e-12).u;
   expectEventFunctions(problem, u, 0.09, mesh.coordinates.size(), [&](const fem::PointValues& shown) {
-    const int Q = faces.pointsPerEntity, M = own.conditions, N = own.points.nodesPerEntity;
+    const int Q = faces.pointsPerEntity, M = own.conditions;
     Numbers gaps(problem.eventCount(), 0.0), area(problem.eventCount(), 0.0);
     int beyond = 0;
     for (int p = 0; p < faces.numPoints(); ++p) {
@@ -264,7 +262,7 @@ TEST_F(OverAnEdge, SeriesAndEventFunctions) {
         continue;
       }
       for (int m = 0; m < M; ++m) {
-        const int c = own.points.nodes[p / Q * N + N - M + m] - mesh.numNodes();
+        const int c = own.multipliers[p / Q * M + m] - mesh.numNodes();
         area[c] += faces.weights[p] * own.functions[p * M + m];
         gaps[c] += faces.weights[p] * own.functions[p * M + m] * shown.values[2 * p];
       }

@@ -67,7 +67,7 @@ fem::FeModel block(Kind kind, bool alone) {
       addPatchContact(model, faces, plateAndArc(0.95), {1e-3, 1e-2}, 1e-3);  // points at 0.93 do
   }
   for (int n : fem::test::nodesOfSet(body, "z_max"))
-    for (int i = 0; i < 3; ++i) model.supports.prescribe(n, i, 0, i == 2 ? -1.0 : 0.3);
+    for (int i = 0; i < 3; ++i) model.prescribe(n, i, 0, i == 2 ? -1.0 : 0.3);
   if (alone) model.comm = linear::rcp(new Teuchos::MpiComm<int>(MPI_COMM_SELF));
   return model;
 }

@@ -14,9 +14,9 @@ namespace {
 std::unique_ptr<fem::FeProblem> risingPlane(const Column& column) {
   const fem::Mesh& mesh = column.mesh;
   fem::FeModel model = solidModel(mesh, column.E, 0);
-  for (int n : fem::test::nodesOfSet(mesh, "x_min")) model.supports.prescribe(n, 0, 0, 0);
-  for (int n : fem::test::nodesOfSet(mesh, "y_min")) model.supports.prescribe(n, 1, 0, 0);
-  for (int n : fem::test::nodesOfSet(mesh, "z_max")) model.supports.prescribe(n, 2, 0, 0);
+  for (int n : fem::test::nodesOfSet(mesh, "x_min")) model.prescribe(n, 0, 0, 0);
+  for (int n : fem::test::nodesOfSet(mesh, "y_min")) model.prescribe(n, 1, 0, 0);
+  for (int n : fem::test::nodesOfSet(mesh, "z_max")) model.prescribe(n, 2, 0, 0);
   MovingTool<Plane> tool;
   tool.motion.shift[1][2] = 1;
   using Law = ContactLaw<MovingTool<Plane>>;

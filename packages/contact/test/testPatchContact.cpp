@@ -29,7 +29,7 @@ fem::Mesh block() {
 fem::FeModel pushed(const fem::Mesh& mesh) {
   fem::FeModel model = solidModel(mesh, 10, 0.3);
   for (int n : fem::test::nodesOfSet(mesh, "z_max"))
-    for (int i = 0; i < 3; ++i) model.supports.prescribe(n, i, 0, i == 2 ? -drive : 0);
+    for (int i = 0; i < 3; ++i) model.prescribe(n, i, 0, i == 2 ? -drive : 0);
   return model;
 }
 
@@ -141,7 +141,7 @@ fem::FeModel slid(const fem::Mesh& mesh) {
   fem::FeModel model = solidModel(mesh, 10, 0.3);
   const double way[3] = {0.5, 0, -0.1};
   for (int n : fem::test::nodesOfSet(mesh, "z_max"))
-    for (int i = 0; i < 3; ++i) model.supports.prescribe(n, i, 0, way[i]);
+    for (int i = 0; i < 3; ++i) model.prescribe(n, i, 0, way[i]);
   return model;
 }
 

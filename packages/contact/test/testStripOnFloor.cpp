@@ -60,7 +60,7 @@ struct Strip {
     const auto cell = fem::tabulate(fem::Topology::Hex20, 5);
     fem::FeModel model = solidModel(mesh, E, 0, &cell);
     for (int n : fem::test::nodesOfSet(mesh, "x_min"))
-      for (int i = 0; i < 3; ++i) model.supports.prescribe(n, i, 0, 0);
+      for (int i = 0; i < 3; ++i) model.prescribe(n, i, 0, 0);
     fem::addTraction(mesh, fem::test::sideSet(mesh, "top"), {0, 0, -loadAtOne / width},
                      model.load);  // lambda = Q
     // Rigid, at nodes. Each free node carries about eta, each loaded one a gap of eta Delta/R: with eta a

@@ -25,6 +25,7 @@ class Checker {
     require(mesh_.title.size() <= maxTitle, "the title has more than 80 characters");
     require(mesh_.coordinates.size() % 3 == 0, "the number of coordinates is not a multiple of three");
     require(isPart_ || mesh_.numNodes() > 0, "the mesh has no nodes");
+    require(mesh_.dimension == 2 || mesh_.dimension == 3, "the mesh has neither two nor three dimensions");
     require(std::all_of(mesh_.coordinates.begin(), mesh_.coordinates.end(),
                         [](double x) { return std::isfinite(x); }),
             "a node has a coordinate that is not a finite number");
@@ -62,6 +63,9 @@ class Checker {
 
   void checkBlock(const fem::Block& block) {
     const std::string owner = describe("block", block);
+    require(block.nodes.empty() || fem::isPlane(block.topology) == (mesh_.dimension == 2),
+            owner + " has " + fem::topologyName(block.topology) + " in a mesh of " +
+                std::to_string(mesh_.dimension) + " dimensions");
     const std::size_t perElement = fem::nodesPerElement(block.topology);
     require(block.nodes.size() % perElement == 0,
             owner + " has a node list that is not a multiple of " + std::to_string(perElement) + " long");

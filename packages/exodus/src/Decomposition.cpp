@@ -97,6 +97,7 @@ MeshPart Decomposition::part(int p) const {
   part.whole = whole_;
   fem::Mesh& own = part.mesh;
   own.title = mesh_.title;
+  own.dimension = mesh_.dimension;
   for (const int n : nodes) {
     const double* x = &mesh_.coordinates[3 * static_cast<std::size_t>(n)];
     own.coordinates.insert(own.coordinates.end(), x, x + 3);

@@ -15,7 +15,7 @@ std::string upperCase(std::string text) {
 
 }  // namespace
 
-std::optional<fem::Topology> topologyOf(const std::string& elementType, int nodesPerElement) {
+std::optional<fem::Topology> topologyOf(const std::string& elementType, int nodesPerElement, int dimensions) {
   using fem::Topology;
   const std::string type = upperCase(elementType);
   const auto begins = [&](const char* prefix) { return type.rfind(prefix, 0) == 0; };
@@ -29,7 +29,14 @@ std::optional<fem::Topology> topologyOf(const std::string& elementType, int node
   } else if (begins("WEDGE") || begins("PENTA")) {
     if (nodesPerElement == 6) return Topology::Wedge6;
     if (nodesPerElement == 15) return Topology::Wedge15;
-  } else if (begins("SHELL") || begins("QUAD")) {
+  } else if (dimensions == 2 && begins("QUAD")) {
+    if (nodesPerElement == 4) return Topology::Quad4;
+    if (nodesPerElement == 8) return Topology::Quad8;
+    if (nodesPerElement == 9) return Topology::Quad9;
+  } else if (dimensions == 2 && begins("TRI")) {
+    if (nodesPerElement == 3) return Topology::Tri3;
+    if (nodesPerElement == 6) return Topology::Tri6;
+  } else if (dimensions == 3 && (begins("SHELL") || begins("QUAD"))) {
     if (nodesPerElement == 4) return Topology::Shell4;
     if (nodesPerElement == 8) return Topology::Shell8;
     if (nodesPerElement == 9) return Topology::Shell9;
@@ -37,9 +44,12 @@ std::optional<fem::Topology> topologyOf(const std::string& elementType, int node
   return std::nullopt;
 }
 
-int firstSide(const std::string& elementType) { return upperCase(elementType).rfind("QUAD", 0) == 0 ? 2 : 0; }
+int firstSide(const std::string& elementType, int dimensions) {
+  return dimensions == 3 && upperCase(elementType).rfind("QUAD", 0) == 0 ? 2 : 0;
+}
 
-const char* acceptedElementTypes() {
+const char* acceptedElementTypes(int dimensions) {
+  if (dimensions == 2) return "QUAD with 4, 8 or 9 nodes, TRI with 3 or 6";
   return "HEX with 8, 20 or 27 nodes, TET with 4 or 10, WEDGE or PENTA with 6 or 15, SHELL or QUAD "
          "with 4, 8 or 9";
 }
@@ -59,7 +69,13 @@ int numSides(fem::Topology topology) {
       return 5;
     case Topology::Tet4:
     case Topology::Tet10:
+    case Topology::Quad4:
+    case Topology::Quad8:
+    case Topology::Quad9:
       return 4;
+    case Topology::Tri3:
+    case Topology::Tri6:
+      return 3;
   }
   return 0;
 }

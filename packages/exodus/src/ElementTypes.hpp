@@ -9,14 +9,14 @@ namespace atrapos::exodus {
 
 /// The topology that an Exodus element type means, judged by the beginning of its name and its node count;
 /// nothing where it is not supported. In three dimensions QUAD is a shell.
-std::optional<fem::Topology> topologyOf(const std::string& elementType, int nodesPerElement);
+std::optional<fem::Topology> topologyOf(const std::string& elementType, int nodesPerElement, int dimensions);
 
-/// Position of an element type's first side among those of its topology: 2 for QUAD, whose sides are the four
-/// edges, where those of SHELL are two faces and four edges; 0 for all others.
-int firstSide(const std::string& elementType);
+/// Position of an element type's first side among those of its topology: 2 for QUAD in three dimensions,
+/// whose sides are the four edges, where those of SHELL are two faces and four edges; 0 for all others.
+int firstSide(const std::string& elementType, int dimensions);
 
 /// The element types that topologyOf knows, for messages.
-const char* acceptedElementTypes();
+const char* acceptedElementTypes(int dimensions);
 
 /// Number of sides of an element; of a shell two faces and four edges.
 int numSides(fem::Topology topology);

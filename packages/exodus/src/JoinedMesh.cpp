@@ -67,6 +67,8 @@ class Joiner {
       checkIds(first.mesh.blocks, p.mesh.blocks, p.part, "blocks");
       checkIds(first.mesh.nodeSets, p.mesh.nodeSets, p.part, "node sets");
       checkIds(first.mesh.sideSets, p.mesh.sideSets, p.part, "side sets");
+      require(p.mesh.dimension == first.mesh.dimension,
+              partText(p.part) + " has another number of dimensions than part 0");
       require(p.whole.nodes == first.whole.nodes && p.whole.elements == first.whole.elements,
               partText(p.part) + " is of a mesh with " + std::to_string(p.whole.nodes) + " nodes and " +
                   std::to_string(p.whole.elements) + " elements, part 0 of one with " +
@@ -82,6 +84,7 @@ class Joiner {
     }
     std::sort(entries.begin(), entries.end());
     fem::Mesh& mesh = joined_.mesh;
+    mesh.dimension = parts_.front().mesh.dimension;
     for (std::size_t i = 0; i < entries.size(); ++i) {
       const Entry& e = entries[i];
       const double* x = &parts_[e.part].mesh.coordinates[3 * static_cast<std::size_t>(e.local)];

@@ -44,8 +44,9 @@ class MeshReader {
  private:
   void read() {
     file_.check(ex_get_init_ext(file_.id(), &init_), "reading the sizes");
-    require(init_.num_dim == 3,
-            "the mesh has " + std::to_string(init_.num_dim) + " dimensions; three are needed");
+    require(init_.num_dim == 2 || init_.num_dim == 3,
+            "the mesh has " + std::to_string(init_.num_dim) + " dimensions; two or three are needed");
+    mesh_.dimension = static_cast<int>(init_.num_dim);
     if (extent_ == Extent::whole) {
       require(init_.num_nodes > 0, "the mesh has no nodes");
       require(init_.num_elem > 0, "the mesh has no elements");
@@ -69,8 +70,9 @@ class MeshReader {
   void readCoordinates() {
     const auto n = static_cast<std::size_t>(init_.num_nodes);
     if (n == 0) return;
-    std::vector<double> x(n), y(n), z(n);
-    file_.check(ex_get_coord(file_.id(), x.data(), y.data(), z.data()), "reading the coordinates");
+    std::vector<double> x(n), y(n), z(n, 0.0);
+    file_.check(ex_get_coord(file_.id(), x.data(), y.data(), mesh_.dimension == 3 ? z.data() : nullptr),
+                "reading the coordinates");
     mesh_.coordinates.resize(3 * n);
     for (std::size_t i = 0; i < n; ++i) {
       mesh_.coordinates[3 * i] = x[i];
@@ -107,12 +109,18 @@ class MeshReader {
         empty.id = id;
         continue;
       }
-      const auto topology = topologyOf(param.topology, static_cast<int>(param.num_nodes_per_entry));
+      const auto topology =
+          topologyOf(param.topology, static_cast<int>(param.num_nodes_per_entry), mesh_.dimension);
       require(topology.has_value(), owner + ": element type '" + param.topology + "' with " +
                                         std::to_string(param.num_nodes_per_entry) +
-                                        " nodes is not supported; accepted are " + acceptedElementTypes());
+                                        " nodes is not supported; accepted are " +
+                                        acceptedElementTypes(mesh_.dimension));
       require(param.num_entry > 0 && param.num_entry <= init_.num_elem,
               owner + " has more elements than the mesh");
+      require(fem::isPlane(*topology) == (mesh_.dimension == 2),
+              owner + ": element type '" + param.topology + "' in a mesh of " +
+                  std::to_string(mesh_.dimension) + " dimensions; accepted are " +
+                  acceptedElementTypes(mesh_.dimension));
       fem::Block block;
       block.name = name;
       block.id = id;
@@ -120,7 +128,7 @@ class MeshReader {
       block.nodes = readConnectivity(param, owner);
       readAttributes(param, owner, block);
       firstSide_.insert(firstSide_.end(), static_cast<std::size_t>(param.num_entry),
-                        firstSide(param.topology));
+                        firstSide(param.topology, mesh_.dimension));
       mesh_.blocks.push_back(std::move(block));
     }
   }

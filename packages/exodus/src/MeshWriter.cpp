@@ -36,7 +36,7 @@ class MeshWriter {
     setNameLength();
     ex_init_params init{};
     std::copy(mesh_.title.begin(), mesh_.title.end(), init.title);
-    init.num_dim = 3;
+    init.num_dim = mesh_.dimension;
     init.num_nodes = mesh_.numNodes();
     init.num_elem = mesh_.numElements();
     init.num_elem_blk = static_cast<int64_t>(mesh_.blocks.size());
@@ -100,8 +100,10 @@ class MeshWriter {
       x[d].resize(n);
       for (std::size_t i = 0; i < n; ++i) x[d][i] = mesh_.coordinates[3 * i + d];
     }
-    file_.check(ex_put_coord(file_.id(), x[0].data(), x[1].data(), x[2].data()), "writing the coordinates");
-    Strings names({"x", "y", "z"});
+    const bool plane = mesh_.dimension == 2;
+    file_.check(ex_put_coord(file_.id(), x[0].data(), x[1].data(), plane ? nullptr : x[2].data()),
+                "writing the coordinates");
+    Strings names(plane ? std::vector<std::string>{"x", "y"} : std::vector<std::string>{"x", "y", "z"});
     file_.check(ex_put_coord_names(file_.id(), names.data()), "writing the names of the coordinates");
   }
 

@@ -145,6 +145,40 @@ TEST(ExodusMesh, elementTypesByPrefixAndNodeCount) {
   }
 }
 
+TEST(ExodusMesh, planeMeshesHaveTwoDimensions) {
+  const TempFile file, again;
+  const std::vector<std::pair<std::string, Topology>> types = {{"QUAD", Topology::Quad4},
+                                                               {"quad8", Topology::Quad8},
+                                                               {"QUAD9", Topology::Quad9},
+                                                               {"TRI3", Topology::Tri3},
+                                                               {"TRIANGLE", Topology::Tri6}};
+  for (const auto& [type, topology] : types) {
+    SCOPED_TRACE(type);
+    Raw raw;
+    raw.dimensions = 2;
+    raw.type = type;
+    raw.nodesPerElement = raw.numNodes = fem::nodesPerElement(topology);
+    raw.nodes.clear();
+    for (int i = 1; i <= raw.numNodes; ++i) raw.nodes.push_back(i);
+    raw.setNode = 1;
+    raw.side = {1, 3};
+    raw.write(file());
+    const Mesh mesh = exodus::readMesh(file());
+    EXPECT_EQ(mesh.dimension, 2);
+    EXPECT_EQ(mesh.blocks[0].topology, topology);
+    EXPECT_EQ(mesh.sideSets[0].sides[0].side, 2);  // the edges are the sides
+    for (int n = 0; n < mesh.numNodes(); ++n) EXPECT_EQ(mesh.coordinates[3 * n + 2], 0.0);
+    exodus::writeMesh(mesh, again());
+    const Mesh back = exodus::readMesh(again());
+    EXPECT_EQ(back.dimension, 2);
+    EXPECT_EQ(back.coordinates, mesh.coordinates);
+    EXPECT_EQ(back.blocks[0].nodes, mesh.blocks[0].nodes);
+  }
+  Mesh mixed = exodus::readMesh(again());
+  mixed.dimension = 3;
+  EXPECT_THROW(exodus::writeMesh(mixed, again()), exodus::Error);
+}
+
 TEST(ExodusMesh, otherFileFormatsAreRead) {
   for (int mode : {EX_NORMAL_MODEL, EX_LARGE_MODEL, EX_NETCDF4, EX_NETCDF4 | EX_ALL_INT64_DB}) {
     SCOPED_TRACE(mode);
@@ -187,10 +221,11 @@ TEST(ExodusMesh, whatIsNotSupportedIsNamed) {
 
   raw = {};
   raw.dimensions = 2;
-  raw.type = "QUAD4";
-  raw.nodesPerElement = 4;
+  raw.type = "HEX8";
   raw.write(file());
-  expectMessage(read(), "the mesh has 2 dimensions; three are needed");
+  expectMessage(read(),
+                "block '' (id 10): element type 'HEX8' in a mesh of 2 dimensions; accepted are QUAD with "
+                "4, 8 or 9 nodes, TRI with 3 or 6");
 
   raw = {};
   raw.numNodes = 0;

@@ -48,7 +48,7 @@ CoupledSystem::CoupledSystem(std::vector<Coupling> resolved) : couplings_(std::m
 
 // Couplings are few and may share masters: one thread runs through them, in their order, in each kernel.
 
-void CoupledSystem::gatherForces(const Field& f) const {
+void CoupledSystem::gatherForces(const DofView& f) const {
   if (empty()) return;
   const Rows r = rows_;
   Kokkos::parallel_for(
@@ -61,7 +61,7 @@ void CoupledSystem::gatherForces(const Field& f) const {
       });
 }
 
-void CoupledSystem::addGaps(const ConstField& u, double lambda, double s, const Field& f) const {
+void CoupledSystem::addGaps(const ConstDofView& u, double lambda, double s, const DofView& f) const {
   if (empty()) return;
   const Rows r = rows_;
   Kokkos::parallel_for(
@@ -76,7 +76,7 @@ void CoupledSystem::addGaps(const ConstField& u, double lambda, double s, const 
 }
 
 void CoupledSystem::transform(const View<std::size_t*>& rowStart, const View<int*>& columns,
-                              const View<double*>& values, double s, const Field& F) const {
+                              const View<double*>& values, double s, const DofView& F) const {
   if (empty()) return;
   const Rows r = rows_;
   int missing = 0;

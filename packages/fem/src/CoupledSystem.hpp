@@ -19,16 +19,16 @@ class CoupledSystem {
   const std::vector<Coupling>& couplings() const { return couplings_; }
 
   /// f = T^T f: a slave's force goes to its masters, its own entry becomes 0.
-  void gatherForces(const Field& f) const;
+  void gatherForces(const DofView& f) const;
 
   /// Adds the rows of the couplings at a state whose forces are gathered: g_s = s (u_s - c.u - value - lambda
   /// rate) at the slave, -c g_s at its masters.
-  void addGaps(const ConstField& u, double lambda, double s, const Field& f) const;
+  void addGaps(const ConstDofView& u, double lambda, double s, const DofView& f) const;
 
   /// Turns the assembled tangent and load direction F into those of the coupled system. Rows have ascending
   /// columns; throws std::logic_error where the graph lacks an entry.
   void transform(const View<std::size_t*>& rowStart, const View<int*>& columns, const View<double*>& values,
-                 double s, const Field& F) const;
+                 double s, const DofView& F) const;
 
  private:
   /// The couplings as the kernels read them.

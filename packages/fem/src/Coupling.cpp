@@ -9,41 +9,32 @@
 
 namespace atrapos::fem {
 
-namespace {
-
-std::string nameOf(int dof) { return fmt::format("displacement {} of node {}", "xyz"[dof % 3], dof / 3 + 1); }
-
-}  // namespace
-
-void Couplings::add(Coupling coupling) {
-  for (const Coupling& other : couplings_)
-    if (other.dof == coupling.dof)
-      throw std::invalid_argument(fmt::format("{} is coupled twice", nameOf(coupling.dof)));
-  for (const CoupledDof& m : coupling.masters)
-    if (m.dof == coupling.dof)
-      throw std::invalid_argument(fmt::format("{} is coupled to itself", nameOf(coupling.dof)));
-  couplings_.push_back(std::move(coupling));
-}
-
 bool Couplings::driven() const {
   return std::any_of(couplings_.begin(), couplings_.end(),
                      [](const Coupling& c) { return c.perLoadFactor != 0; });
 }
 
-std::vector<Coupling> Couplings::resolved(const Supports& supports) const {
-  const int numDofs = 3 * supports.numNodes();
+std::vector<Coupling> Couplings::resolved(const DofMap& dofs, const Supports& supports) const {
+  const auto nameOf = [&](int dof) { return dofs.nameOf(dof); };
   std::map<int, std::size_t> slaves;
   for (std::size_t c = 0; c < couplings_.size(); ++c) {
     const Coupling& coupling = couplings_[c];
-    const auto inModel = [&](int dof) { return dof >= 0 && dof < numDofs; };
-    if (!inModel(coupling.dof) || !std::all_of(coupling.masters.begin(), coupling.masters.end(),
-                                               [&](const CoupledDof& m) { return inModel(m.dof); }))
+    const auto inModel = [&](int dof) { return dof >= 0 && dof < dofs.numDofs(); };
+    if (!inModel(coupling.dof))
       throw std::invalid_argument(
-          fmt::format("a coupling of {} names a node that the model does not have", nameOf(coupling.dof)));
+          fmt::format("a coupling is of unknown {}, which the model does not have", coupling.dof));
+    for (const CoupledDof& m : coupling.masters) {
+      if (!inModel(m.dof))
+        throw std::invalid_argument(fmt::format(
+            "a coupling of {} names an unknown that the model does not have", nameOf(coupling.dof)));
+      if (m.dof == coupling.dof)
+        throw std::invalid_argument(fmt::format("{} is coupled to itself", nameOf(coupling.dof)));
+    }
     if (supports.fixed(coupling.dof))
       throw std::invalid_argument(
           fmt::format("{} is both supported and coupled: support its masters", nameOf(coupling.dof)));
-    slaves[coupling.dof] = c;
+    if (!slaves.insert({coupling.dof, c}).second)
+      throw std::invalid_argument(fmt::format("{} is coupled twice", nameOf(coupling.dof)));
   }
   std::vector<Coupling> result;
   for (const Coupling& coupling : couplings_) {
@@ -75,20 +66,21 @@ std::vector<Coupling> Couplings::resolved(const Supports& supports) const {
   return result;
 }
 
-void coupleNode(Couplings& couplings, int node, const std::vector<CoupledNode>& masters) {
-  for (int i = 0; i < 3; ++i) {
+void coupleNode(Couplings& couplings, const DofMap& dofs, int node, const std::vector<CoupledNode>& masters) {
+  for (int i = 0; i < dofs.firstFieldSize(node); ++i) {
     Coupling c;
-    c.dof = 3 * node + i;
-    for (const CoupledNode& m : masters) c.masters.push_back({3 * m.node + i, m.factor});
+    c.dof = dofs.firstDof(node) + i;
+    for (const CoupledNode& m : masters) c.masters.push_back({dofs.firstDof(m.node) + i, m.factor});
     couplings.add(std::move(c));
   }
 }
 
-void coupleEqual(Couplings& couplings, const std::vector<int>& nodes) {
-  for (std::size_t n = 1; n < nodes.size(); ++n) coupleNode(couplings, nodes[n], {{nodes[0], 1}});
+void coupleEqual(Couplings& couplings, const DofMap& dofs, const std::vector<int>& nodes) {
+  for (std::size_t n = 1; n < nodes.size(); ++n) coupleNode(couplings, dofs, nodes[n], {{nodes[0], 1}});
 }
 
-void couplePlane(Couplings& couplings, const std::vector<int>& nodes, const std::array<double, 3>& normal) {
+void couplePlane(Couplings& couplings, const DofMap& dofs, const std::vector<int>& nodes,
+                 const std::array<double, 3>& normal) {
   // The slave is the component that the normal has most of: factors of at most 1.
   int pivot = 0;
   for (int i = 1; i < 3; ++i)
@@ -96,22 +88,23 @@ void couplePlane(Couplings& couplings, const std::vector<int>& nodes, const std:
   if (!(std::abs(normal[pivot]) > 0) || !std::isfinite(normal[0] + normal[1] + normal[2]))
     throw std::invalid_argument("a coupled plane needs a normal of finite length");
   for (std::size_t n = 1; n < nodes.size(); ++n) {
+    const int own = dofs.firstDof(nodes[n]), first = dofs.firstDof(nodes[0]);
     Coupling c;
-    c.dof = 3 * nodes[n] + pivot;
-    for (int i = 0; i < 3; ++i) {
+    c.dof = own + pivot;
+    for (int i = 0; i < dofs.firstFieldSize(nodes[n]); ++i) {
       const double factor = normal[i] / normal[pivot];
       if (factor == 0) continue;
-      c.masters.push_back({3 * nodes[0] + i, factor});
-      if (i != pivot) c.masters.push_back({3 * nodes[n] + i, -factor});
+      c.masters.push_back({first + i, factor});
+      if (i != pivot) c.masters.push_back({own + i, -factor});
     }
     couplings.add(std::move(c));
   }
 }
 
-void coupleShellToSolid(Couplings& couplings, int shellNode, int directorNode, int top, int bottom,
-                        bool joinMidsurface) {
-  if (joinMidsurface) coupleNode(couplings, shellNode, {{top, 0.5}, {bottom, 0.5}});
-  coupleNode(couplings, directorNode, {{top, 0.5}, {bottom, -0.5}});
+void coupleShellToSolid(Couplings& couplings, const DofMap& dofs, int shellNode, int directorNode, int top,
+                        int bottom, bool joinMidsurface) {
+  if (joinMidsurface) coupleNode(couplings, dofs, shellNode, {{top, 0.5}, {bottom, 0.5}});
+  coupleNode(couplings, dofs, directorNode, {{top, 0.5}, {bottom, -0.5}});
 }
 
 }  // namespace atrapos::fem

@@ -44,12 +44,13 @@ Distribution::Distribution(const FeModel& model, const std::vector<Coupling>& co
     : comm_(std::move(comm)) {
   if (alone()) {
     for (const auto& term : model.terms) ranksOf_.emplace_back(term->numEntities(), 0);
-    numOwned_ = numLocal_ = model.numNodes;
-    nodes_.resize(model.numNodes);
+    numOwned_ = numLocal_ = model.dofs.numNodes();
+    dofs_ = model.dofs;
+    nodes_.resize(numOwned_);
     std::iota(nodes_.begin(), nodes_.end(), 0);
     localOf_ = nodes_;
     couplings_ = couplings;
-    rows_ = nodeGraph(model, couplings, std::vector<Rows>(model.numNodes, Rows::all), {});
+    rows_ = nodeGraph(model, couplings, std::vector<Rows>(numOwned_, Rows::all), {});
     return;
   }
   Partition p;
@@ -59,7 +60,8 @@ Distribution::Distribution(const FeModel& model, const std::vector<Coupling>& co
 }
 
 void Distribution::cutRows(const FeModel& model, const std::vector<Coupling>& couplings, const Partition& p) {
-  std::vector<std::vector<int>> ranksAt(model.numNodes);
+  const int numNodes = model.dofs.numNodes();
+  std::vector<std::vector<int>> ranksAt(numNodes);
   Share share;
   share.ofTerm.resize(model.terms.size());
   entities_.resize(model.terms.size());
@@ -76,24 +78,24 @@ void Distribution::cutRows(const FeModel& model, const std::vector<Coupling>& co
     }
   }
   for (std::size_t c = 0; c < couplings.size(); ++c) {
-    note(ranksAt[couplings[c].dof / 3], p.couplings[c]);
-    for (const CoupledDof& m : couplings[c].masters) note(ranksAt[m.dof / 3], p.couplings[c]);
+    note(ranksAt[model.dofs.nodeOf(couplings[c].dof)], p.couplings[c]);
+    for (const CoupledDof& m : couplings[c].masters) note(ranksAt[model.dofs.nodeOf(m.dof)], p.couplings[c]);
     share.ofCouplings.push_back(p.couplings[c] == rank());
   }
 
-  std::vector<Rows> wanted(model.numNodes, Rows::none);
-  localOf_.assign(model.numNodes, -1);
+  std::vector<Rows> wanted(numNodes, Rows::none);
+  localOf_.assign(numNodes, -1);
   const auto add = [&](int node) {
     localOf_[node] = static_cast<int>(nodes_.size());
     nodes_.push_back(node);
   };
-  for (int n = 0; n < model.numNodes; ++n)
+  for (int n = 0; n < numNodes; ++n)
     if (p.nodes[n] == rank()) {
       wanted[n] = Rows::all;
       add(n);
     }
   numOwned_ = static_cast<int>(nodes_.size());
-  for (int n = 0; n < model.numNodes; ++n)
+  for (int n = 0; n < numNodes; ++n)
     if (wanted[n] == Rows::none &&
         std::find(ranksAt[n].begin(), ranksAt[n].end(), rank()) != ranksAt[n].end()) {
       wanted[n] = Rows::share;
@@ -109,13 +111,17 @@ void Distribution::cutRows(const FeModel& model, const std::vector<Coupling>& co
   std::sort(beyond.begin(), beyond.end());
   beyond.erase(std::unique(beyond.begin(), beyond.end()), beyond.end());
   for (const int n : beyond) add(n);
+  dofs_ = model.dofs.part(nodes_);
   for (int l = 0; l < numLocal_; ++l) {
     rows_.push_back(std::move(rows[nodes_[l]]));
     for (int& column : rows_.back()) column = localOf_[column];
     std::sort(rows_.back().begin(), rows_.back().end());
   }
 
-  const auto local = [&](int dof) { return 3 * localOf_[dof / 3] + dof % 3; };
+  const auto local = [&](int dof) {
+    const int node = model.dofs.nodeOf(dof);
+    return dofs_.firstDof(localOf_[node]) + dof - model.dofs.firstDof(node);
+  };
   for (std::size_t c = 0; c < couplings.size(); ++c) {
     if (p.couplings[c] != rank()) continue;
     Coupling own = couplings[c];
@@ -140,6 +146,21 @@ void Distribution::findNeighbours(const std::vector<std::vector<int>>& ranksAt, 
   }
 }
 
+int Distribution::rowLength(int node) const {
+  int length = 0;
+  for (const int column : rows_[node]) length += dofs_.numDofs(column);
+  return length;
+}
+
+int Distribution::positionInRow(int node, int column) const {
+  int position = 0;
+  for (const int other : rows_[node]) {
+    if (other == column) return position;
+    position += dofs_.numDofs(other);
+  }
+  throw std::logic_error("Distribution: a row lacks an entry");
+}
+
 /// Where the entries of the neighbours' rows belong in ours.
 void Distribution::matchRows() {
   const std::size_t count = neighbours_.size();
@@ -151,8 +172,8 @@ void Distribution::matchRows() {
     for (const int l : n.theirs) {
       lengths[i].push_back(static_cast<int>(rows_[l].size()));
       for (const int column : rows_[l]) columns[i].push_back(nodes_[column]);
+      n.sent += static_cast<std::size_t>(dofs_.numDofs(l)) * rowLength(l);
     }
-    n.sent = 9 * columns[i].size();
     theirLengths[i].resize(n.ours.size());
   }
   exchange(*comm_, ranks, lengths, theirLengths);
@@ -171,7 +192,9 @@ void Distribution::matchRows() {
           const auto place = std::lower_bound(row.begin(), row.end(), column);
           if (column < 0 || place == row.end() || *place != column)
             throw std::logic_error("Distribution: a row lacks an entry that another rank has");
-          n.columns.push_back(static_cast<int>(place - row.begin()));
+          n.columns.push_back(positionInRow(n.ours[r], column));
+          n.columnSizes.push_back(dofs_.numDofs(column));
+          n.received += static_cast<std::size_t>(dofs_.numDofs(n.ours[r])) * dofs_.numDofs(column);
         }
         n.columnStart.push_back(static_cast<int>(n.columns.size()));
       }
@@ -190,7 +213,7 @@ auto onHost(const V& view) {
 }  // namespace
 
 template <class Put>
-void Distribution::trade(const Field& f, Nodes given, Nodes taken, const Put& put) const {
+void Distribution::trade(const DofView& f, Nodes given, Nodes taken, const Put& put) const {
   if (alone()) return;
   const auto host = onHost(f);
   std::vector<int> ranks;
@@ -199,23 +222,25 @@ void Distribution::trade(const Field& f, Nodes given, Nodes taken, const Put& pu
     ranks.push_back(n.rank);
     send.emplace_back();
     for (const int l : n.*given)
-      for (int i = 0; i < 3; ++i) send.back().push_back(host(3 * l + i));
-    receive.emplace_back(3 * (n.*taken).size());
+      for (int d = dofs_.firstDof(l); d < dofs_.firstDof(l + 1); ++d) send.back().push_back(host(d));
+    std::size_t count = 0;
+    for (const int l : n.*taken) count += dofs_.numDofs(l);
+    receive.emplace_back(count);
   }
   exchange(*comm_, ranks, send, receive);
   for (std::size_t k = 0; k < neighbours_.size(); ++k) {
-    const std::vector<int>& nodes = neighbours_[k].*taken;
-    for (std::size_t r = 0; r < nodes.size(); ++r)
-      for (int i = 0; i < 3; ++i) put(host(3 * nodes[r] + i), receive[k][3 * r + i]);
+    const double* from = receive[k].data();
+    for (const int l : neighbours_[k].*taken)
+      for (int d = dofs_.firstDof(l); d < dofs_.firstDof(l + 1); ++d) put(host(d), *from++);
   }
   Kokkos::deep_copy(f, host);
 }
 
-void Distribution::fetch(const Field& f) const {
+void Distribution::fetch(const DofView& f) const {
   trade(f, &Neighbour::ours, &Neighbour::theirs, [](double& own, double owners) { own = owners; });
 }
 
-void Distribution::collect(const Field& f) const {
+void Distribution::collect(const DofView& f) const {
   trade(f, &Neighbour::theirs, &Neighbour::ours, [](double& own, double part) { own += part; });
 }
 
@@ -230,19 +255,18 @@ void Distribution::collectRows(const View<std::size_t*>& rowStart, const View<do
     send.emplace_back();
     send.back().reserve(n.sent);
     for (const int l : n.theirs)
-      for (int i = 0; i < 3; ++i)
-        send.back().insert(send.back().end(), &host(start(3 * l + i)),
-                           &host(start(3 * l + i)) + 3 * rows_[l].size());
-    receive.emplace_back(9 * n.columns.size());
+      for (int d = dofs_.firstDof(l); d < dofs_.firstDof(l + 1); ++d)
+        send.back().insert(send.back().end(), &host(start(d)), &host(start(d)) + (start(d + 1) - start(d)));
+    receive.emplace_back(n.received);
   }
   exchange(*comm_, ranks, send, receive);
   for (std::size_t k = 0; k < neighbours_.size(); ++k) {
     const Neighbour& n = neighbours_[k];
     const double* from = receive[k].data();
     for (std::size_t r = 0; r < n.ours.size(); ++r)
-      for (int i = 0; i < 3; ++i)
+      for (int d = dofs_.firstDof(n.ours[r]); d < dofs_.firstDof(n.ours[r] + 1); ++d)
         for (int c = n.columnStart[r]; c < n.columnStart[r + 1]; ++c)
-          for (int j = 0; j < 3; ++j) host(start(3 * n.ours[r] + i) + 3 * n.columns[c] + j) += *from++;
+          for (int j = 0; j < n.columnSizes[c]; ++j) host(start(d) + n.columns[c] + j) += *from++;
   }
   Kokkos::deep_copy(values, host);
 }

@@ -5,44 +5,35 @@
 
 #include "atrapos/fem/KernelChoice.hpp"
 
-// Shape components: values; values with multipliers; gradients; four vectors of a shell; five of a rigid
-// body.
+// (components of a field, of its shape functions). In space: values; the six multipliers of a rigid body;
+// gradients; four vectors of a shell. In a plane: values, gradients, gradients and u_r/r. Scalars: values,
+// gradients.
+#define ATRAPOS_ELEMENT_KERNELS(X) \
+  X(3, 1) X(3, 2) X(3, 3) X(3, 4) X(2, 1) X(2, 2) X(2, 3) X(1, 1) X(1, 2) X(1, 3)
+
 #ifdef ATRAPOS_KERNEL_LEVEL  // compiled for every instruction set, as laws are (ATRAPOS_POINT_LAW)
 namespace atrapos::fem::detail {
-template ElementKernels ElementKernelsOf<1, taylor::nativeLanes>::table();
-template ElementKernels ElementKernelsOf<2, taylor::nativeLanes>::table();
-template ElementKernels ElementKernelsOf<3, taylor::nativeLanes>::table();
-template ElementKernels ElementKernelsOf<4, taylor::nativeLanes>::table();
-template ElementKernels ElementKernelsOf<5, taylor::nativeLanes>::table();
+#define ATRAPOS_COMPILE(D, C) template ElementKernels ElementKernelsOf<D, C, taylor::nativeLanes>::table();
+ATRAPOS_ELEMENT_KERNELS(ATRAPOS_COMPILE)
 }  // namespace atrapos::fem::detail
 #else
 namespace atrapos::fem {
 namespace {
 
-template <int C>
+template <int D, int C>
 ElementKernels kernelsHere() {
   return detail::chosenKernels(
-      [](auto lanes) { return detail::ElementKernelsOf<C, decltype(lanes)::value>::table(); });
+      [](auto lanes) { return detail::ElementKernelsOf<D, C, decltype(lanes)::value>::table(); });
 }
 
 }  // namespace
 
-ElementKernels elementKernels(int components) {
-  switch (components) {
-    case 1:
-      return kernelsHere<1>();
-    case 2:
-      return kernelsHere<2>();
-    case 3:
-      return kernelsHere<3>();
-    case 4:
-      return kernelsHere<4>();
-    case 5:
-      return kernelsHere<5>();
-    default:
-      throw std::logic_error("shape functions with " + std::to_string(components) +
-                             " components at a point: the loops take 1 to 5");
-  }
+ElementKernels elementKernels(int components, int shapeComponents) {
+#define ATRAPOS_CHOOSE(D, C) \
+  if (components == D && shapeComponents == C) return kernelsHere<D, C>();
+  ATRAPOS_ELEMENT_KERNELS(ATRAPOS_CHOOSE)
+  throw std::logic_error("no element loops for fields with " + std::to_string(components) +
+                         " components and shape functions with " + std::to_string(shapeComponents));
 }
 
 }  // namespace atrapos::fem

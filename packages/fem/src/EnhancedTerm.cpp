@@ -18,49 +18,51 @@ class EnhancedTerm final : public Term {
  public:
   EnhancedTerm(std::unique_ptr<PointLaw> law, const EnhancedPoints& p)
       : a_(std::move(law), p.points, p.data), I_(a_.elements.inputs()), M_(p.numParameters), modes_(p.modes) {
-    const std::size_t Q = view().Q, J = I_ + 1;
+    const std::size_t Q = numPoints(), J = I_ + 1;
     if (a_.shape.inputs != I_ + 1 || a_.shape.outputs != I_ + 1)
       throw std::logic_error("enhancedTerm: the law's inputs and outputs are vectors and one strain");
     if (M_ < 1 || M_ > kMaxParameters || modes_.size() != Q * M_ ||
         p.strain.size() != static_cast<std::size_t>(p.points.numPoints()))
       throw std::logic_error("enhancedTerm: wrong number of parameters, modes or strains");
     strain_ = a_.elements.packed(p.strain, Q);
-    const std::size_t dofs = 3 * view().N * kLanes, rank = M_;
+    if (a_.elements.numFields() > 1) throw std::logic_error("enhancedTerm: points of one field only");
+    const std::size_t dofs = localDofs() * kLanes, rank = M_;
     a_.allocateScratch(dofs * (1 + 2 * rank) + a_.perBatch(3 * J + J * J) + 3 * rank * rank * kLanes);
     makeWorkspace();
   }
 
-  int numEntities() const override { return view().numEntities; }
-  int nodesPerEntity() const override { return view().N; }
+  int numEntities() const override { return a_.elements.numEntities(); }
+  int nodesPerEntity() const override { return a_.elements.nodesPerEntity(); }
   const std::vector<int>& nodes() const override { return a_.elements.nodes(); }
   bool symmetric() const override { return a_.shape.symmetric; }
   bool seesLoadFactor() const override { return false; }
   std::size_t historyBytes(int maxOrder) const override { return a_.historyBytes(maxOrder); }
 
   void keep(const TermPart& part) override {
-    strain_ = ElementArrays::packedOf(part, strain_.data(), view().Q);
+    strain_ = ElementArrays::packedOf(part, strain_.data(), numPoints());
     a_.keep(part);
     makeWorkspace();
   }
 
-  void setPositions(const std::vector<int>& positions) override { a_.elements.setPositions(positions); }
+  void connect(const DofMap& dofs, const std::vector<int>& positions) override {
+    a_.elements.connect(dofs, positions, nodesPerEntity());
+  }
 
-  double addResidual(const ConstField& u, double, const Field& f) const override {
+  double addResidual(const ConstDofView& u, double, const DofView& f) const override {
     std::vector<double> squares(batches().count);
     forEachBatch("residual", batches(), [&](int b) {
       const ThreadMemory::Held held(a_.memory());
       const Scratch s(*this, held);
       inputs(b, u, held, s);
       a_.law->value(a_.batch(b, a_.data(), held.data()), s.in, s.out);
-      kernels().forces(view(), b, s.out, I_ + 1, true, zero(s.force, 3 * view().N));
-      kernels().scatter(view(), b, s.force, f.data());
-      squares[b] = a_.elements.squares(b, 3 * view().N, s.force);
+      a_.elements.addForces(b, s.out, I_ + 1, true, zero(s.force, localDofs()));
+      a_.elements.scatter(b, s.force, f.data());
+      squares[b] = a_.elements.squares(b, localDofs(), s.force);
     });
     return sumOf(squares);
   }
 
-  void addTangent(const ConstField& u, double, const TangentSink& sink) const override {
-    const BlockSink blocks{sink.rowStart.data(), sink.values.data()};
+  void addTangent(const ConstDofView& u, double, const TangentSink& sink) const override {
     forEachBatch("tangent", batches(), [&](int b) {
       const ThreadMemory::Held held(a_.memory());
       const Scratch s(*this, held);
@@ -69,24 +71,24 @@ class EnhancedTerm final : public Term {
       double* byh = s.in;   // the same, once the inputs were read
       linearize(b, held, s, byE, byh, s.inverse);
       // K_ub and -K_bb^-1 K_bu by dof, [dof][parameter].
-      const int N3 = 3 * view().N;
-      zero(s.left, N3 * M_);
-      zero(s.right, N3 * M_);
+      const int dofs = localDofs();
+      zero(s.left, dofs * M_);
+      zero(s.right, dofs * M_);
       for (int j = 0; j < M_; ++j) {
-        kernels().forces(view(), b, scaled(byE, j, s.product), I_ + 1, false, zero(s.force, N3));
-        for (int n = 0; n < N3; ++n) copy(s.force + n * kLanes, s.left + (n * M_ + j) * kLanes);
-        kernels().forces(view(), b, scaled(byh, j, s.product), I_ + 1, false, zero(s.force, N3));
-        for (int n = 0; n < N3; ++n)
+        a_.elements.addForces(b, scaled(byE, j, s.product), I_ + 1, false, zero(s.force, dofs));
+        for (int n = 0; n < dofs; ++n) copy(s.force + n * kLanes, s.left + (n * M_ + j) * kLanes);
+        a_.elements.addForces(b, scaled(byh, j, s.product), I_ + 1, false, zero(s.force, dofs));
+        for (int n = 0; n < dofs; ++n)
           for (int k = 0; k < M_; ++k)
             subtractProduct(s.inverse + (k * M_ + j) * kLanes, s.force + n * kLanes,
                             s.right + (n * M_ + k) * kLanes);
       }
-      kernels().moduli(view(), b, s.jacobian, I_ + 1, I_ + 1, s.jacobian);
-      kernels().blocks(view(), b, s.jacobian, a_.shape.symmetric, {M_, s.left, s.right, nullptr}, blocks);
+      a_.elements.addBlocks(b, s.jacobian, I_ + 1, I_ + 1, a_.shape.symmetric, {M_, s.left, s.right}, sink,
+                            s.jacobian);
     });
   }
 
-  void beginSeries(const ConstField& u, double, int maxOrder) override {
+  void beginSeries(const ConstDofView& u, double, int maxOrder) override {
     a_.reserveHistory(maxOrder);
     std::vector<PointFailure> failures(batches().count);
     forEachBatch("beginSeries", batches(), [&](int b) {
@@ -106,7 +108,7 @@ class EnhancedTerm final : public Term {
   }
 
   // f_k - K_ub K_bb^-1 g_k, after the histories of order k - 1 became those of the true (U, beta).
-  void addOrder(int k, const ConstField& last, double, const Field& f) override {
+  void addOrder(int k, const ConstDofView& last, double, const DofView& f) override {
     const SeriesOrder order = seriesOrder(k, a_.maxOrder());
     forEachBatch("addOrder", batches(), [&](int b) {
       const ThreadMemory::Held held(a_.memory());
@@ -115,17 +117,17 @@ class EnhancedTerm final : public Term {
       if (k > 1) trueInputs(b, last, g, s);
       a_.law->order(a_.seriesBatch(b, a_.data()), order, s.in, s.out);
       zero(g, M_);
-      for (int q = 0; q < view().Q; ++q) {
+      for (int q = 0; q < numPoints(); ++q) {
         double ofStrain[kLanes];
         product(a_.elements.weights(b) + q * kLanes, s.out + (q * (I_ + 1) + I_) * kLanes, ofStrain);
         for (int j = 0; j < M_; ++j) addTimes(mode(q, j), ofStrain, g + j * kLanes);
       }
-      kernels().forces(view(), b, s.out, I_ + 1, true, zero(s.force, 3 * view().N));
+      a_.elements.addForces(b, s.out, I_ + 1, true, zero(s.force, localDofs()));
       // What the parameters of this order do to the forces.
       double beta[kMaxParameters * kLanes];
       solve(b, g, beta);
       const double* byE = &dfde_[b * a_.perBatch(I_ + 1)];
-      for (int q = 0; q < view().Q; ++q) {
+      for (int q = 0; q < numPoints(); ++q) {
         double minusE[kLanes] = {};
         for (int j = 0; j < M_; ++j) addTimes(-mode(q, j), beta + j * kLanes, minusE);
         for (int m = 0; m < I_; ++m) {
@@ -133,12 +135,12 @@ class EnhancedTerm final : public Term {
           product(byE + at, minusE, s.product + at);
         }
       }
-      kernels().forces(view(), b, s.product, I_ + 1, false, s.force);
-      kernels().scatter(view(), b, s.force, f.data());
+      a_.elements.addForces(b, s.product, I_ + 1, false, s.force);
+      a_.elements.scatter(b, s.force, f.data());
     });
   }
 
-  PointValues observe(const ConstField& u, double) const override {
+  PointValues observe(const ConstDofView& u, double) const override {
     return a_.observe(a_.data(), [&](int b, const ThreadMemory::Held& held) {
       const Scratch s(*this, held);
       inputs(b, u, held, s);
@@ -150,7 +152,7 @@ class EnhancedTerm final : public Term {
   /// A batch's numbers in a thread's memory.
   struct Scratch {
     Scratch(const EnhancedTerm& t, const ThreadMemory::Held& held) {
-      const std::size_t dofs = 3 * t.view().N * kLanes, J = t.I_ + 1, rank = t.M_;
+      const std::size_t dofs = t.localDofs() * kLanes, J = t.I_ + 1, rank = t.M_;
       force = t.a_.scratchOf(held);
       left = force + dofs;
       right = left + dofs * rank;
@@ -182,13 +184,13 @@ class EnhancedTerm final : public Term {
   double mode(int q, int j) const { return modes_[q * M_ + j]; }
 
   /// in[q] = (h, e) with the beta that belongs to the displacements.
-  void inputs(int b, const ConstField& u, const ThreadMemory::Held& held, const Scratch& s) const {
-    kernels().inputs(view(), b, u.data(), I_ + 1, s.in);
+  void inputs(int b, const ConstDofView& u, const ThreadMemory::Held& held, const Scratch& s) const {
+    a_.elements.gather(b, u.data(), I_ + 1, s.in);
     EnhancedFailure failure[kLanes];
     solveEnhanced(*a_.law, a_.batch(b, a_.data(), held.data()),
                   {M_, modes_.data(), a_.elements.weights(b), &strain_[b * a_.perBatch(1)]}, s.in, s.out,
                   s.jacobian, failure);
-    for (int lane = 0; lane < view().lanesIn(b); ++lane)
+    for (int lane = 0; lane < a_.elements.lanesIn(b); ++lane)
       failed_[static_cast<std::size_t>(b) * kLanes + lane] = failure[lane];
   }
 
@@ -200,7 +202,7 @@ class EnhancedTerm final : public Term {
     double K[kMaxParameters * kMaxParameters * kLanes];
     zero(K, M_ * M_);
     a_.law->tangent(a_.batch(b, a_.data(), held.data()), s.in, s.out, s.jacobian);
-    for (int q = 0; q < view().Q; ++q) {
+    for (int q = 0; q < numPoints(); ++q) {
       const double* w = a_.elements.weights(b) + q * kLanes;
       const double* jacobian = s.jacobian + static_cast<std::size_t>(q) * J * J * kLanes;
       for (int m = 0; m < I_; ++m) {
@@ -212,7 +214,7 @@ class EnhancedTerm final : public Term {
       for (int j = 0; j < M_; ++j)
         for (int k = 0; k < M_; ++k) addTimes(mode(q, j) * mode(q, k), dsde, K + (j * M_ + k) * kLanes);
     }
-    for (int lane = view().lanesIn(b); lane < kLanes; ++lane)
+    for (int lane = a_.elements.lanesIn(b); lane < kLanes; ++lane)
       for (int j = 0; j < M_; ++j) K[(j * M_ + j) * kLanes + lane] = 1;  // padding: no weight, no stiffness
     invertInLanes(M_, K, inverse);
   }
@@ -220,7 +222,7 @@ class EnhancedTerm final : public Term {
   /// product[q][m] = mode_j of the point times a[q][m].
   double* scaled(const double* a, int j, double* to) const {
     const int J = I_ + 1;
-    for (int q = 0; q < view().Q; ++q)
+    for (int q = 0; q < numPoints(); ++q)
       for (int m = 0; m < I_ * kLanes; ++m) to[q * J * kLanes + m] = a[q * J * kLanes + m] * mode(q, j);
     return to;
   }
@@ -238,13 +240,13 @@ class EnhancedTerm final : public Term {
 
   /// in[q] = (h_k, e_k) of U_k, with beta_k = -K_bb^-1 (g_k + K_bu U_k) and the g_k that the sweep of order
   /// k left.
-  void trueInputs(int b, const ConstField& Uk, const double* g, const Scratch& s) const {
+  void trueInputs(int b, const ConstDofView& Uk, const double* g, const Scratch& s) const {
     const int J = I_ + 1;
     double sum[kMaxParameters * kLanes], minusBeta[kMaxParameters * kLanes];
     std::copy_n(g, M_ * kLanes, sum);
-    kernels().inputs(view(), b, Uk.data(), J, s.in);
+    a_.elements.gather(b, Uk.data(), J, s.in);
     const double* byh = &dsdh_[b * a_.perBatch(J)];
-    for (int q = 0; q < view().Q; ++q) {
+    for (int q = 0; q < numPoints(); ++q) {
       double stress[kLanes] = {};
       for (int m = 0; m < I_; ++m)
         for (int l = 0; l < kLanes; ++l)
@@ -252,7 +254,7 @@ class EnhancedTerm final : public Term {
       for (int j = 0; j < M_; ++j) addTimes(mode(q, j), stress, sum + j * kLanes);
     }
     solve(b, sum, minusBeta);
-    for (int q = 0; q < view().Q; ++q) {
+    for (int q = 0; q < numPoints(); ++q) {
       double* e = zero(s.in + (q * J + I_) * kLanes, 1);
       for (int j = 0; j < M_; ++j) addTimes(-mode(q, j), minusBeta + j * kLanes, e);
     }
@@ -261,7 +263,7 @@ class EnhancedTerm final : public Term {
   /// The first element without enhanced parameters in the last loop over states, and why; empty where all
   /// have theirs.
   std::string failure() const {
-    for (int e = 0; e < view().numEntities; ++e)
+    for (int e = 0; e < numEntities(); ++e)
       if (failed_[e] != EnhancedFailure::none)
         return "element " + std::to_string(a_.elements.numberInTerm(e) + 1) + ": " + describe(failed_[e]);
     return {};
@@ -276,8 +278,8 @@ class EnhancedTerm final : public Term {
     failed_.assign(count * kLanes, EnhancedFailure::none);
   }
 
-  const ElementView& view() const { return a_.elements.view(); }
-  const ElementKernels& kernels() const { return a_.elements.kernels(); }
+  int numPoints() const { return a_.elements.numPoints(); }
+  int localDofs() const { return a_.elements.localDofs(); }
   const Batches& batches() const { return a_.elements.batches(); }
 
   LawArrays a_;

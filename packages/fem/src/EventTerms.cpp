@@ -52,7 +52,7 @@ std::vector<T> EventTerms::own(const Entry& entry, const std::vector<T>& all) co
   return result;
 }
 
-std::vector<double> EventTerms::order(int k, const ConstField& Uk, double lambdaK) {
+std::vector<double> EventTerms::order(int k, const ConstDofView& Uk, double lambdaK) {
   auto g = list(0, [&](const EventTerm& term) { return term.eventOrder(k, Uk, lambdaK); });
   ranks_.sum(g);
   if (!inPieces_) return g;
@@ -65,7 +65,7 @@ std::vector<double> EventTerms::order(int k, const ConstField& Uk, double lambda
   return g;
 }
 
-std::vector<double> EventTerms::gapsAt(const ConstField& u, double lambda) const {
+std::vector<double> EventTerms::gapsAt(const ConstDofView& u, double lambda) const {
   std::vector<double> gaps(count(), 0.0), covered(count(), 0.0);
   ranks_.together([&] {
     for (const Entry& entry : entries_) {
@@ -80,7 +80,7 @@ std::vector<double> EventTerms::gapsAt(const ConstField& u, double lambda) const
   return gaps;
 }
 
-bool EventTerms::astray(const ConstField& u, double lambda, const std::vector<int>& indices) const {
+bool EventTerms::astray(const ConstDofView& u, double lambda, const std::vector<int>& indices) const {
   auto moved = list(0, [&](const EventTerm& term) { return term.moved(u, lambda); });
   ranks_.sum(moved);
   if (std::all_of(moved.begin(), moved.end(), [](double m) { return m == 0; })) return false;
@@ -97,7 +97,7 @@ bool EventTerms::astray(const ConstField& u, double lambda, const std::vector<in
   return false;
 }
 
-std::vector<int> EventTerms::at(const ConstField& u, double lambda) const {
+std::vector<int> EventTerms::at(const ConstDofView& u, double lambda) const {
   const auto gaps = gapsAt(u, lambda);
   std::vector<int> found;
   for (const Entry& entry : entries_) {

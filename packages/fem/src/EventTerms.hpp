@@ -23,11 +23,11 @@ class EventTerms {
   int count() const { return static_cast<int>(conditions_.size()); }
   /// Number of the first condition of this term, or of the next one that has some.
   int first(int term) const;
-  std::vector<double> order(int k, const ConstField& Uk, double lambdaK);
+  std::vector<double> order(int k, const ConstDofView& Uk, double lambdaK);
   /// Free conditions that touch at a state. Throws std::invalid_argument where one is below zero.
-  std::vector<int> at(const ConstField& u, double lambda) const;
+  std::vector<int> at(const ConstDofView& u, double lambda) const;
   /// path::Pieces::eventsAstray.
-  bool astray(const ConstField& u, double lambda, const std::vector<int>& indices) const;
+  bool astray(const ConstDofView& u, double lambda, const std::vector<int>& indices) const;
   void apply(const std::vector<int>& indices);  ///< the same ones on every rank
   const std::vector<int>& conditions() const { return conditions_; }
   void setConditions(const std::vector<int>& conditions);  ///< the same ones on every rank
@@ -45,7 +45,7 @@ class EventTerms {
   std::vector<double> list(double none, const Of& ofTerm) const;
   static void put(const Entry& entry, const std::vector<double>& told, std::vector<double>& all);
   /// The mean gaps at a state; infinity of conditions that are not free or have nothing to touch.
-  std::vector<double> gapsAt(const ConstField& u, double lambda) const;
+  std::vector<double> gapsAt(const ConstDofView& u, double lambda) const;
   /// The numbers that a term's own conditions have in a list of all.
   template <class T>
   std::vector<T> own(const Entry& entry, const std::vector<T>& all) const;

@@ -29,45 +29,59 @@ using linear::Vector;
 
 namespace {
 
-Field writable(Vector& u) {
+DofView writable(Vector& u) {
   auto view = u.getLocalViewDevice(Tpetra::Access::ReadWrite);
   return Kokkos::subview(view, Kokkos::ALL(), 0);
 }
 
-Field toDevice(const std::vector<double>& host) {
-  Field f(Kokkos::view_alloc("field", Kokkos::WithoutInitializing), host.size());
+DofView toDevice(const std::vector<double>& host) {
+  DofView f(Kokkos::view_alloc("field", Kokkos::WithoutInitializing), host.size());
   auto mirror = Kokkos::create_mirror_view(f);
   std::copy(host.begin(), host.end(), mirror.data());
   Kokkos::deep_copy(f, mirror);
   return f;
 }
 
-std::vector<double> toHost(const ConstField& f) {
+std::vector<double> toHost(const ConstDofView& f) {
   auto mirror = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), f);
   return {mirror.data(), mirror.data() + mirror.size()};
 }
 
 /// Sum of squares of the first `count` entries, in one order: the number is the same for any number of
 /// threads.
-double squares(const ConstField& f, std::size_t count) {
+double squares(const ConstDofView& f, std::size_t count) {
   auto mirror = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), f);
   double sum = 0;
   for (std::size_t i = 0; i < count; ++i) sum += mirror(i) * mirror(i);
   return sum;
 }
 
-/// Entries of the nodes of a rank, from those of the whole model.
+/// Entries of the first `count` nodes of a rank, from those of the whole model.
 template <class T>
-std::vector<T> ofNodes(const std::vector<T>& whole, const std::vector<int>& nodes) {
+std::vector<T> ofNodes(const std::vector<T>& whole, const DofMap& dofs, const std::vector<int>& nodes,
+                       int count) {
   std::vector<T> part;
-  part.reserve(3 * nodes.size());
-  for (int n : nodes) part.insert(part.end(), whole.begin() + 3 * n, whole.begin() + 3 * n + 3);
+  for (int l = 0; l < count; ++l)
+    part.insert(part.end(), whole.begin() + dofs.firstDof(nodes[l]),
+                whole.begin() + dofs.firstDof(nodes[l]) + dofs.numDofs(nodes[l]));
   return part;
 }
 
 }  // namespace
 
-ConstField field(const Vector& u) {
+void FeModel::prescribe(int node, int component, double value, double perLoadFactor,
+                        const std::string& field) {
+  const int number = field.empty() ? -1 : dofs.find(field);
+  const bool there = field.empty() ? component < dofs.firstFieldSize(node)
+                                   : number >= 0 && dofs.dof(number, node, component) >= 0;
+  if (!there || component < 0)
+    throw std::invalid_argument("node " + std::to_string(node + 1) + " has no component " +
+                                std::to_string(component + 1) + " of a field to prescribe");
+  supports.prescribe(field.empty() ? dofs.firstDof(node) + component : dofs.dof(number, node, component),
+                     value, perLoadFactor);
+}
+
+ConstDofView field(const Vector& u) {
   auto view = u.getLocalViewDevice(Tpetra::Access::ReadOnly);
   return Kokkos::subview(view, Kokkos::ALL(), 0);
 }
@@ -85,32 +99,36 @@ struct FeProblem::Impl {
   View<int*> columns;
   View<char*> fixed;
   detail::CoupledSystem coupled;
-  Field value, rate, load, constantLoad;
-  Field shared;                  // state of the last call with the values at shared nodes (several ranks)
-  Field sum;                     // work
-  Field last;                    // U of the order completed last
+  DofView value, rate, load, constantLoad;
+  DofView shared;                // state of the last call with the values at shared nodes (several ranks)
+  DofView sum;                   // work
+  DofView last;                  // U of the order completed last
   double lastLambda = 0;         // and its lambda
   double diagonal = 0;           // s of the prescribed rows
   std::vector<int> parameters;   // dofs of this rank that are parameters of laws
   std::vector<int> wholeCounts;  // [term] entities on all ranks (several ranks)
-  double parameterInner = 1;     // factor of a parameter's square in inner()
+  int numParameters = 0, numMultipliers = 0;  // of the whole model
+  double parameterInner = 1;                  // factor of a parameter's square in inner()
   double scaleFloor = 0;
   int numFree = 0;
 
   explicit Impl(FeModel m) : model(std::move(m)) {
     const auto comm = model.comm.is_null() ? Tpetra::getDefaultComm() : model.comm;
-    const int numDofs = 3 * model.numNodes;
-    if (model.supports.numNodes() != model.numNodes)
-      throw std::logic_error("FeModel: supports of another mesh");
+    const int numDofs = model.dofs.numDofs();
+    if (model.supports.last() >= numDofs) throw std::logic_error("FeModel: supports of another mesh");
+    if (static_cast<int>(std::max(model.load.size(), model.constantLoad.size())) > numDofs)
+      throw std::logic_error("FeModel: loads of another mesh");
     model.load.resize(numDofs, 0.0);
     model.constantLoad.resize(numDofs, 0.0);
+    numParameters = static_cast<int>(model.dofs.dofsWith(Role::parameter).size());
+    numMultipliers = static_cast<int>(model.dofs.dofsWith(Role::multiplier).size());
     std::vector<Coupling> couplings;
-    if (!model.couplings.empty()) couplings = model.couplings.resolved(model.supports);
+    if (!model.couplings.empty()) couplings = model.couplings.resolved(model.dofs, model.supports);
     ranks = std::make_unique<detail::Distribution>(model, couplings, comm);
     map = mapOf(ranks->nodes(), ranks->numOwned());
-    sum = Field("sum", 3 * ranks->numLocal());
-    last = Field("last", 3 * ranks->numLocal());
-    if (!ranks->alone()) shared = Field("shared", 3 * ranks->numLocal());
+    sum = DofView("sum", numLocal());
+    last = DofView("last", numLocal());
+    if (!ranks->alone()) shared = DofView("shared", numLocal());
     coupled = detail::CoupledSystem(ranks->couplings());
     uploadConditions(couplings);
     share();
@@ -121,10 +139,11 @@ struct FeProblem::Impl {
 
   /// The map of the first nodes of the rank.
   RCP<const Map> mapOf(const std::vector<int>& nodes, int count) const {
-    if (ranks->alone()) return rcp(new Map(3 * model.numNodes, 0, ranks->comm()));
+    if (ranks->alone()) return rcp(new Map(model.dofs.numDofs(), 0, ranks->comm()));
     std::vector<linear::GlobalIndex> dofs;
     for (int l = 0; l < count; ++l)
-      for (int i = 0; i < 3; ++i) dofs.push_back(3LL * nodes[l] + i);
+      for (int i = 0; i < model.dofs.numDofs(nodes[l]); ++i)
+        dofs.push_back(model.dofs.firstDof(nodes[l]) + i);
     return rcp(new Map(Teuchos::OrdinalTraits<Tpetra::global_size_t>::invalid(),
                        Teuchos::arrayViewFromVector(dofs), 0, ranks->comm()));
   }
@@ -146,53 +165,52 @@ struct FeProblem::Impl {
     });
   }
 
-  std::size_t numOwned() const { return 3 * static_cast<std::size_t>(ranks->numOwned()); }
+  std::size_t numOwned() const { return ranks->dofs().firstDof(ranks->numOwned()); }
+  std::size_t numLocal() const { return ranks->dofs().firstDof(ranks->numLocal()); }
 
   /// Norm over all ranks of their own entries.
-  double norm(const ConstField& f) const { return std::sqrt(ranks->sum(squares(f, numOwned()))); }
+  double norm(const ConstDofView& f) const { return std::sqrt(ranks->sum(squares(f, numOwned()))); }
 
   /// A state as the terms read it, in `to` where there are several ranks.
-  ConstField local(const Vector& u, const Field& to) const {
+  ConstDofView local(const Vector& u, const DofView& to) const {
     if (ranks->alone()) return field(u);
     copyOwned(field(u), to);
     ranks->fetch(to);
     return to;
   }
-  ConstField local(const Vector& u) const { return local(u, shared); }
+  ConstDofView local(const Vector& u) const { return local(u, shared); }
 
   /// This rank's own entries of a field, with those of all others.
-  std::vector<double> onAllRanks(const Field& f) const {
+  std::vector<double> onAllRanks(const DofView& f) const {
     return linear::onAllRanks(*map, toHost(Kokkos::subview(f, std::make_pair(std::size_t{0}, numOwned()))));
   }
 
-  void copyOwned(const ConstField& from, const Field& to) const {
+  void copyOwned(const ConstDofView& from, const DofView& to) const {
     const auto range = std::make_pair(std::size_t{0}, numOwned());
     Kokkos::deep_copy(Kokkos::subview(to, range), Kokkos::subview(from, range));
   }
 
   void makeMatrix() {
     const auto& rows = ranks->rows();
-    const auto count = [&](int nodes) {
-      std::size_t entries = 0;
-      for (int l = 0; l < nodes; ++l) entries += 9 * rows[l].size();
-      return entries;
-    };
-    const int numLocal = ranks->numLocal();
+    const DofMap& dofs = ranks->dofs();
+    std::size_t count = 0;
+    for (int l = 0; l < ranks->numLocal(); ++l) count += dofs.numDofs(l) * ranks->rowLength(l);
     std::vector<std::size_t> starts{0};
     std::vector<int> indices;
-    indices.reserve(count(numLocal));
-    for (int l = 0; l < numLocal; ++l)
-      for (int i = 0; i < 3; ++i) {
+    indices.reserve(count);
+    for (int l = 0; l < ranks->numLocal(); ++l)
+      for (int i = 0; i < dofs.numDofs(l); ++i) {
         for (int m : rows[l])
-          for (int j = 0; j < 3; ++j) indices.push_back(3 * m + j);
+          for (int j = 0; j < dofs.numDofs(m); ++j) indices.push_back(dofs.firstDof(m) + j);
         starts.push_back(indices.size());
       }
+    const std::size_t ownCount = starts[numOwned()];
     rowStart = upload("rowStart", starts);
     columns = upload("columns", indices);
 
     using LocalGraph = CrsGraph::local_graph_device_type;
     LocalGraph::row_map_type::non_const_type rowPtr("rowPtr", numOwned() + 1);
-    LocalGraph::entries_type::non_const_type ownIndices("indices", count(ranks->numOwned()));
+    LocalGraph::entries_type::non_const_type ownIndices("indices", ownCount);
     Kokkos::deep_copy(rowPtr, Kokkos::subview(rowStart, std::make_pair(std::size_t{0}, numOwned() + 1)));
     Kokkos::deep_copy(ownIndices,
                       Kokkos::subview(columns, std::make_pair(std::size_t{0}, ownIndices.extent(0))));
@@ -211,35 +229,35 @@ struct FeProblem::Impl {
       const auto& nodes = term->nodes();
       std::vector<int> positions(static_cast<std::size_t>(term->numEntities()) * N * N);
       for (int e = 0; e < term->numEntities(); ++e)
-        for (int a = 0; a < N; ++a) {
-          const auto& row = rows[nodes[e * N + a]];
+        for (int a = 0; a < N; ++a)
           for (int b = 0; b < N; ++b)
             positions[(static_cast<std::size_t>(e) * N + a) * N + b] =
-                3 *
-                static_cast<int>(std::lower_bound(row.begin(), row.end(), nodes[e * N + b]) - row.begin());
-        }
-      term->setPositions(positions);
+                ranks->positionInRow(nodes[e * N + a], nodes[e * N + b]);
+      term->connect(dofs, positions);
     }
   }
 
   /// What is prescribed, of the whole model, and of it what this rank has.
   void uploadConditions(const std::vector<Coupling>& couplings) {
-    std::vector<char> used(model.numNodes, 0);
+    const DofMap& dofs = model.dofs;
+    std::vector<char> used(dofs.numNodes(), 0);
     for (const auto& term : model.terms)
       for (int n : term->nodes()) used[n] = 1;
     for (const Coupling& c : couplings) {
-      used[c.dof / 3] = 1;
-      for (const CoupledDof& m : c.masters) used[m.dof / 3] = 1;
+      used[dofs.nodeOf(c.dof)] = 1;
+      for (const CoupledDof& m : c.masters) used[dofs.nodeOf(m.dof)] = 1;
     }
-    const int numDofs = 3 * model.numNodes;
+    const int numDofs = dofs.numDofs();
+    std::vector<char> isUsed;
+    for (int n = 0; n < dofs.numNodes(); ++n) isUsed.resize(isUsed.size() + dofs.numDofs(n), used[n]);
     for (int d = 0; d < numDofs; ++d)
-      if (!used[d / 3] && (model.load[d] != 0 || model.constantLoad[d] != 0))
-        throw std::invalid_argument("a force acts at node " + std::to_string(d / 3 + 1) +
+      if (!isUsed[d] && (model.load[d] != 0 || model.constantLoad[d] != 0))
+        throw std::invalid_argument("a force acts at node " + std::to_string(dofs.nodeOf(d) + 1) +
                                     ", which no element has");
     std::vector<char> flags(numDofs);
     std::vector<double> values(numDofs, 0.0), rates(numDofs, 0.0);
     for (int d = 0; d < numDofs; ++d) {
-      flags[d] = model.supports.fixed(d) || !used[d / 3];
+      flags[d] = model.supports.fixed(d) || !isUsed[d];
       numFree += !flags[d];
       values[d] = model.supports.value(d);
       rates[d] = model.supports.perLoadFactor(d);
@@ -254,21 +272,20 @@ struct FeProblem::Impl {
       }
     }
     const std::vector<int>& nodes = ranks->nodes();
-    fixed = upload("fixed", ofNodes(flags, nodes));
-    value = toDevice(ofNodes(values, nodes));
-    rate = toDevice(ofNodes(rates, nodes));
+    const int all = static_cast<int>(nodes.size());
+    fixed = upload("fixed", ofNodes(flags, dofs, nodes, all));
+    value = toDevice(ofNodes(values, dofs, nodes, all));
+    rate = toDevice(ofNodes(rates, dofs, nodes, all));
     // Dead loads act at their owners'.
-    const std::vector<int> own(nodes.begin(), nodes.begin() + ranks->numOwned());
     const auto loads = [&](const std::vector<double>& whole) {
-      auto part = ofNodes(whole, own);
-      part.resize(3 * ranks->numLocal(), 0.0);
+      auto part = ofNodes(whole, dofs, nodes, ranks->numOwned());
+      part.resize(numLocal(), 0.0);
       return toDevice(part);
     };
     load = loads(model.load);
     constantLoad = loads(model.constantLoad);
-    for (const int d : model.parameters)
-      if (const int l = ranks->localOf(d / 3); l >= 0 && l < ranks->numOwned())
-        parameters.push_back(3 * l + d % 3);
+    for (const int d : ranks->dofs().dofsWith(Role::parameter))
+      if (d < static_cast<int>(numOwned())) parameters.push_back(d);
   }
 
   /// Forces at load factor 1: dead loads, and as their rates at the start those that the driven supports
@@ -297,7 +314,7 @@ struct FeProblem::Impl {
 
   /// Size of the forces of terms that do not see lambda, where supports alone are displaced, by their rate.
   double forcesAt(double lambda) {
-    const Field u("displaced supports", rate.extent(0)), per = rate;
+    const DofView u("displaced supports", rate.extent(0)), per = rate;
     Kokkos::parallel_for(
         "supports", Kokkos::RangePolicy<Execution>(0, u.size()),
         KOKKOS_LAMBDA(int d) { u(d) = lambda * per(d); });
@@ -310,8 +327,8 @@ struct FeProblem::Impl {
   }
 
   /// sum = this rank's part of the terms - F_0 - lambda F_1 on all rows; returns the scale.
-  double imbalance(const ConstField& u, double lambda) {
-    const Field total = sum, F1 = load, F0 = constantLoad;
+  double imbalance(const ConstDofView& u, double lambda) {
+    const DofView total = sum, F1 = load, F0 = constantLoad;
     Kokkos::parallel_for(
         "loads", Kokkos::RangePolicy<Execution>(0, total.size()),
         KOKKOS_LAMBDA(int i) { total(i) = -F0(i) - lambda * F1(i); });
@@ -324,7 +341,7 @@ struct FeProblem::Impl {
   }
 
   double ofParameters(const Vector& x, const Vector& y) const {
-    if (model.parameters.empty()) return 0;
+    if (numParameters == 0) return 0;
     const auto a = x.getLocalViewHost(Tpetra::Access::ReadOnly),
                b = y.getLocalViewHost(Tpetra::Access::ReadOnly);
     double sum = 0;
@@ -342,18 +359,21 @@ struct FeProblem::Impl {
     const auto start = onHost(rowStart);
     const auto column = onHost(columns);
     const auto isFixed = onHost(fixed);
-    std::vector<double> least(3 * ranks->numLocal(), 0.0);  // first component of each node
-    for (int d = 0; d < static_cast<int>(numOwned()); ++d)
-      for (std::size_t e = start(d); e < start(d + 1); ++e)
-        if (column(e) == d && !isFixed(d) && values(e) > 0) {
-          double& of = least[d / 3 * 3];
-          of = of > 0 ? std::min(of, values(e)) : values(e);
-        }
-    const Field all = toDevice(least);
+    const DofMap& dofs = ranks->dofs();
+    std::vector<double> least(numLocal(), 0.0);  // first unknown of each node
+    for (int l = 0; l < ranks->numOwned(); ++l)
+      for (int d = dofs.firstDof(l); d < dofs.firstDof(l + 1); ++d)
+        for (std::size_t e = start(d); e < start(d + 1); ++e)
+          if (column(e) == d && !isFixed(d) && values(e) > 0) {
+            double& of = least[dofs.firstDof(l)];
+            of = of > 0 ? std::min(of, values(e)) : values(e);
+          }
+    const DofView all = toDevice(least);
     ranks->fetch(all);
     least = toHost(all);
-    std::vector<double> stiffness(ranks->numLocal());
-    for (std::size_t l = 0; l < stiffness.size(); ++l) stiffness[l] = least[3 * l];
+    std::vector<double> stiffness(ranks->numLocal(), 0.0);
+    for (int l = 0; l < ranks->numLocal(); ++l)
+      if (dofs.numDofs(l) > 0) stiffness[l] = least[dofs.firstDof(l)];
     return stiffness;
   }
 
@@ -363,7 +383,7 @@ struct FeProblem::Impl {
     const auto start = rowStart;
     const auto column = columns;
     const auto isFixed = fixed;
-    const Field own = sum;
+    const DofView own = sum;
     Kokkos::parallel_for(
         "diagonal", Kokkos::RangePolicy<Execution>(0, own.size()), KOKKOS_LAMBDA(int d) {
           own(d) = 0;
@@ -383,7 +403,7 @@ struct FeProblem::Impl {
   }
 
   /// Turns the rows of prescribed dofs into s u_d and carries their columns to F.
-  void applySupports(const Field& F) {
+  void applySupports(const DofView& F) {
     const auto values = K->getLocalMatrixDevice().values;
     const auto start = rowStart;
     const auto column = columns;
@@ -434,10 +454,10 @@ bool FeProblem::symmetric() const {
 }
 
 path::ResidualNorm FeProblem::residual(const Vector& u, double lambda, Vector& r) {
-  const ConstField state = impl_->local(u);
+  const ConstDofView state = impl_->local(u);
   path::ResidualNorm result;
   result.scale = impl_->imbalance(state, lambda);
-  const Field out = writable(r), total = impl_->sum, value = impl_->value, rate = impl_->rate;
+  const DofView out = writable(r), total = impl_->sum, value = impl_->value, rate = impl_->rate;
   const auto fixed = impl_->fixed;
   const double s = impl_->diagonal;
   impl_->coupled.gatherForces(total);
@@ -458,10 +478,10 @@ RCP<const CrsMatrix> FeProblem::tangent(const Vector& u, double lambda, Vector& 
   const auto values = impl_->K->getLocalMatrixDevice().values;
   if (ranks.alone()) impl_->entries = values;
   const auto entries = impl_->entries;
-  const Field direction = ranks.alone() ? writable(F) : Field("direction", impl_->load.size());
+  const DofView direction = ranks.alone() ? writable(F) : DofView("direction", impl_->load.size());
   Kokkos::deep_copy(entries, 0.0);
   Kokkos::deep_copy(direction, impl_->load);
-  const ConstField state = impl_->local(u);
+  const ConstDofView state = impl_->local(u);
   ranks.together([&] {
     for (const auto& term : impl_->model.terms)
       term->addTangent(state, lambda, TangentSink{impl_->rowStart, entries, direction});
@@ -471,7 +491,7 @@ RCP<const CrsMatrix> FeProblem::tangent(const Vector& u, double lambda, Vector& 
   ranks.together([&] {
     impl_->coupled.transform(impl_->rowStart, impl_->columns, entries, impl_->diagonal, direction);
   });
-  const Field own = writable(F);
+  const DofView own = writable(F);
   if (!ranks.alone()) {
     ranks.collectRows(impl_->rowStart, entries);
     ranks.collect(direction);
@@ -484,14 +504,14 @@ RCP<const CrsMatrix> FeProblem::tangent(const Vector& u, double lambda, Vector& 
 }
 
 void FeProblem::beginSeries(const Vector& u, double lambda, int maxOrder) {
-  const ConstField state = impl_->local(u);
+  const ConstDofView state = impl_->local(u);
   impl_->ranks->together([&] {
     for (const auto& term : impl_->model.terms) term->beginSeries(state, lambda, maxOrder);
   });
 }
 
 void FeProblem::orderRhs(int k, Vector& Fk) {
-  const Field total = impl_->sum, out = writable(Fk);
+  const DofView total = impl_->sum, out = writable(Fk);
   const auto fixed = impl_->fixed;
   Kokkos::deep_copy(total, 0.0);
   impl_->ranks->together([&] {
@@ -541,13 +561,12 @@ void FeProblem::applyEvent(const std::vector<int>& indices, const Vector& u, dou
 path::Pieces* FeProblem::pieces() { return impl_->pieces->empty() ? nullptr : &*impl_->pieces; }
 
 int FeProblem::constraintPivots() const {
-  return impl_->model.numMultipliers + impl_->events->constraintPivots() +
-         static_cast<int>(impl_->model.parameters.size());
+  return impl_->numMultipliers + impl_->events->constraintPivots() + impl_->numParameters;
 }
 
 std::string FeProblem::name(long long unknown) const {
   if (impl_->model.dofName) return impl_->model.dofName(static_cast<int>(unknown));
-  return std::string("component ") + "xyz"[unknown % 3] + " of node " + std::to_string(unknown / 3 + 1);
+  return impl_->model.dofs.nameOf(static_cast<int>(unknown));
 }
 
 std::vector<int> FeProblem::conditions() const {
@@ -568,7 +587,7 @@ void FeProblem::setConditions(const std::vector<int>& conditions) {
 
 RCP<Vector> FeProblem::initialState(double lambda) const {
   auto u = rcp(new Vector(impl_->map));
-  const Field out = writable(*u), value = impl_->value, rate = impl_->rate;
+  const DofView out = writable(*u), value = impl_->value, rate = impl_->rate;
   Kokkos::parallel_for(
       "initialState", Kokkos::RangePolicy<Execution>(0, out.size()),
       KOKKOS_LAMBDA(int d) { out(d) = value(d) + lambda * rate(d); });
@@ -587,7 +606,7 @@ std::vector<double> FeProblem::reactions(const Vector& u, double lambda) const {
 
 std::vector<double> FeProblem::forces(const Term& term, const Vector& u, double lambda) const {
   Kokkos::deep_copy(impl_->sum, 0.0);
-  const ConstField state = impl_->local(u);
+  const ConstDofView state = impl_->local(u);
   impl_->ranks->together([&] { term.addResidual(state, lambda, impl_->sum); });
   impl_->ranks->collect(impl_->sum);
   return impl_->onAllRanks(impl_->sum);
@@ -595,7 +614,7 @@ std::vector<double> FeProblem::forces(const Term& term, const Vector& u, double 
 
 PointValues FeProblem::observe(int i, const Vector& u, double lambda) const {
   const Term& term = *impl_->model.terms.at(i);
-  const ConstField state = impl_->local(u);
+  const ConstDofView state = impl_->local(u);
   PointValues own;
   impl_->ranks->together([&] { own = term.observe(state, lambda); });
   if (impl_->ranks->alone()) return own;
@@ -611,7 +630,7 @@ PointValues FeProblem::observe(int i, const Vector& u, double lambda) const {
   return own;
 }
 
-ConstField FeProblem::onRank(const Vector& u) const { return impl_->local(u); }
+ConstDofView FeProblem::onRank(const Vector& u) const { return impl_->local(u); }
 
 std::vector<double> FeProblem::values(const Vector& u) { return linear::onAllRanks(u); }
 

@@ -30,25 +30,25 @@ LawArrays::LawArrays(std::unique_ptr<PointLaw> theLaw, const PointSet& points,
 }
 
 std::vector<double> LawArrays::packed(const std::vector<double>& pointData) const {
-  return elements.packed(pointData, static_cast<std::size_t>(elements.view().Q) * shape.data);
+  return elements.packed(pointData, static_cast<std::size_t>(elements.numPoints()) * shape.data);
 }
 
 void LawArrays::keep(const TermPart& part) {
-  data_ =
-      ElementArrays::packedOf(part, data_.data(), static_cast<std::size_t>(elements.view().Q) * shape.data);
+  data_ = ElementArrays::packedOf(part, data_.data(),
+                                  static_cast<std::size_t>(elements.numPoints()) * shape.data);
   elements.keep(part);
 }
 
 PointBatch LawArrays::batch(int b, const double* data, double* memory) const {
-  return {elements.view().Q, elements.view().lanesIn(b), data + b * perBatch(shape.data), memory};
+  return {elements.numPoints(), elements.lanesIn(b), data + b * perBatch(shape.data), memory};
 }
 
 PointBatch LawArrays::seriesBatch(int b, const double* data) const {
-  return batch(b, data, history_.data() + static_cast<std::size_t>(b) * elements.view().Q * pointDoubles_);
+  return batch(b, data, history_.data() + static_cast<std::size_t>(b) * elements.numPoints() * pointDoubles_);
 }
 
 std::size_t LawArrays::historyBytes(int maxOrder) const {
-  return static_cast<std::size_t>(elements.batches().count) * elements.view().Q *
+  return static_cast<std::size_t>(elements.batches().count) * elements.numPoints() *
          law->historyDoubles(maxOrder) * sizeof(double);
 }
 

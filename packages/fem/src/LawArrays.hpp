@@ -26,7 +26,7 @@ class LawArrays {
   /// pointData in that order.
   std::vector<double> packed(const std::vector<double>& pointData) const;
   /// Numbers a batch of `count` entries a point.
-  std::size_t perBatch(std::size_t count) const { return elements.view().Q * count * kLanes; }
+  std::size_t perBatch(std::size_t count) const { return elements.numPoints() * count * kLanes; }
 
   /// Drops all entities but these.
   void keep(const TermPart& part);
@@ -82,14 +82,13 @@ void forEachBatch(const char* name, const Batches& batches, const Kernel& kernel
 
 template <class Inputs>
 PointValues LawArrays::observe(const double* data, const Inputs& inputs) const {
-  const ElementView& e = elements.view();
-  const std::size_t size = static_cast<std::size_t>(e.Q) * shape.observed;
-  PointValues result{law->observedNames(), std::vector<double>(e.numEntities * size)};
+  const std::size_t size = static_cast<std::size_t>(elements.numPoints()) * shape.observed;
+  PointValues result{law->observedNames(), std::vector<double>(elements.numEntities() * size)};
   forEachBatch("observe", elements.batches(), [&](int b) {
     const ThreadMemory::Held held(memory_);
     std::vector<double> values(size * kLanes);
     law->observe(batch(b, data, held.data()), inputs(b, held), values.data());
-    for (int lane = 0; lane < e.lanesIn(b); ++lane)
+    for (int lane = 0; lane < elements.lanesIn(b); ++lane)
       for (std::size_t i = 0; i < size; ++i)
         result.values[(static_cast<std::size_t>(b) * kLanes + lane) * size + i] = values[i * kLanes + lane];
   });

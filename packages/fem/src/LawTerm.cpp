@@ -19,7 +19,8 @@ class LawTerm final : public Term {
                              std::to_string(a_.shape.outputs) + " outputs at points with " +
                              std::to_string(I_) + " (and perhaps the load factor)");
     const std::size_t J = a_.shape.inputs;
-    a_.allocateScratch(3 * view().N * kLanes + a_.perBatch(J + I_ + I_ * J));
+    if (a_.elements.numFields() > 1) moduliDoubles_ = a_.perBatch(I_ * I_);
+    a_.allocateScratch(forceDoubles() + a_.perBatch(J + I_ + I_ * J) + moduliDoubles_);
   }
 
   void setUpdate(DataUpdate update, const std::vector<double>& data) {
@@ -28,7 +29,7 @@ class LawTerm final : public Term {
     initialData_ = data;
   }
   void setPieces(PieceSearch search, const std::vector<double>& data) {
-    pieces_ = std::make_unique<PointPieces>(std::move(search), view().numEntities * view().Q, data);
+    pieces_ = std::make_unique<PointPieces>(std::move(search), numPoints(), data);
     setUpdate(
         [this](int, const double* in, double* renewed) {
           const std::size_t count = static_cast<std::size_t>(pieces_->numPoints()) * a_.shape.inputs;
@@ -38,24 +39,26 @@ class LawTerm final : public Term {
         data);
   }
 
-  int numEntities() const override { return view().numEntities; }
-  int nodesPerEntity() const override { return view().N; }
+  int numEntities() const override { return a_.elements.numEntities(); }
+  int nodesPerEntity() const override { return a_.elements.nodesPerEntity(); }
   const std::vector<int>& nodes() const override { return a_.elements.nodes(); }
   bool symmetric() const override { return a_.shape.symmetric; }
   bool seesLoadFactor() const override { return a_.shape.inputs > I_; }
   std::size_t historyBytes(int maxOrder) const override { return a_.historyBytes(maxOrder); }
 
   void keep(const TermPart& part) override {
-    const int Q = view().Q;
+    const int Q = a_.elements.numPoints();
     a_.keep(part);
     if (!update_) return;
     initialData_ = rowsOf(initialData_, part.entities, static_cast<std::size_t>(Q) * a_.shape.data);
     if (pieces_) pieces_->keep(pointsOf(part.entities, Q));
   }
 
-  void setPositions(const std::vector<int>& positions) override { a_.elements.setPositions(positions); }
+  void connect(const DofMap& dofs, const std::vector<int>& positions) override {
+    a_.elements.connect(dofs, positions, nodesPerEntity());
+  }
 
-  double addResidual(const ConstField& u, double lambda, const Field& f) const override {
+  double addResidual(const ConstDofView& u, double lambda, const DofView& f) const override {
     std::vector<double> room;
     const double* data = dataAt(u, lambda, room);
     std::vector<double> squares(batches().count);
@@ -64,17 +67,16 @@ class LawTerm final : public Term {
       const Scratch s(*this, held);
       inputs(b, u, lambda, true, s.in);
       a_.law->value(a_.batch(b, data, held.data()), s.in, s.out);
-      kernels().forces(view(), b, s.out, I_, true, zero(s.force));
-      kernels().scatter(view(), b, s.force, f.data());
-      squares[b] = a_.elements.squares(b, 3 * view().N, s.force);
+      a_.elements.addForces(b, s.out, I_, true, zero(s.force));
+      a_.elements.scatter(b, s.force, f.data());
+      squares[b] = a_.elements.squares(b, a_.elements.localDofs(), s.force);
     });
     return sumOf(squares);
   }
 
-  void addTangent(const ConstField& u, double lambda, const TangentSink& sink) const override {
+  void addTangent(const ConstDofView& u, double lambda, const TangentSink& sink) const override {
     std::vector<double> room;
     const double* data = dataAt(u, lambda, room);
-    const BlockSink blocks{sink.rowStart.data(), sink.values.data()};
     forEachBatch("tangent", batches(), [&](int b) {
       const ThreadMemory::Held held(a_.memory());
       const Scratch s(*this, held);
@@ -82,15 +84,14 @@ class LawTerm final : public Term {
       a_.law->tangent(a_.batch(b, data, held.data()), s.in, s.out, s.jacobian);
       if (seesLoadFactor()) {
         byLoadFactor(s.jacobian, s.out);
-        kernels().forces(view(), b, s.out, I_, true, zero(s.force));
-        kernels().scatter(view(), b, s.force, sink.loadDirection.data());
+        a_.elements.addForces(b, s.out, I_, true, zero(s.force));
+        a_.elements.scatter(b, s.force, sink.loadDirection.data());
       }
-      kernels().moduli(view(), b, s.jacobian, I_, a_.shape.inputs, s.jacobian);
-      kernels().blocks(view(), b, s.jacobian, a_.shape.symmetric, {}, blocks);
+      a_.elements.addBlocks(b, s.jacobian, I_, a_.shape.inputs, a_.shape.symmetric, {}, sink, s.moduli);
     });
   }
 
-  void beginSeries(const ConstField& u, double lambda, int maxOrder) override {
+  void beginSeries(const ConstDofView& u, double lambda, int maxOrder) override {
     a_.reserveHistory(maxOrder);
     if (update_) {
       const auto data = renewed(u, lambda);
@@ -108,7 +109,7 @@ class LawTerm final : public Term {
     a_.throwFirst(failures);
   }
 
-  void addOrder(int k, const ConstField& last, double lastLambda, const Field& f) override {
+  void addOrder(int k, const ConstDofView& last, double lastLambda, const DofView& f) override {
     const double* data = seriesData();
     const SeriesOrder order = seriesOrder(k, a_.maxOrder());
     forEachBatch("addOrder", batches(), [&](int b) {
@@ -116,29 +117,28 @@ class LawTerm final : public Term {
       const Scratch s(*this, held);
       if (k > 1) inputs(b, last, lastLambda, false, s.in);
       a_.law->order(a_.seriesBatch(b, data), order, s.in, s.out);
-      kernels().forces(view(), b, s.out, I_, true, zero(s.force));
-      kernels().scatter(view(), b, s.force, f.data());
+      a_.elements.addForces(b, s.out, I_, true, zero(s.force));
+      a_.elements.scatter(b, s.force, f.data());
     });
   }
 
   PointPieces* pieces() override { return pieces_.get(); }
 
-  std::vector<double> places(const ConstField& u, double lambda) const override {
-    const ElementView& e = view();
-    const int J = a_.shape.inputs;
-    std::vector<double> all(static_cast<std::size_t>(e.numEntities) * e.Q * J);
+  std::vector<double> places(const ConstDofView& u, double lambda) const override {
+    const std::size_t each = static_cast<std::size_t>(a_.elements.numPoints()) * a_.shape.inputs;
+    std::vector<double> all(each * numEntities());
     forEachBatch("inputs", batches(), [&](int b) {
       const ThreadMemory::Held held(a_.memory());
       const Scratch s(*this, held);
       inputs(b, u, lambda, true, s.in);
-      for (int lane = 0; lane < e.lanesIn(b); ++lane)
-        for (int i = 0; i < e.Q * J; ++i)
-          all[(static_cast<std::size_t>(b) * kLanes + lane) * e.Q * J + i] = s.in[i * kLanes + lane];
+      for (int lane = 0; lane < a_.elements.lanesIn(b); ++lane)
+        for (std::size_t i = 0; i < each; ++i)
+          all[(static_cast<std::size_t>(b) * kLanes + lane) * each + i] = s.in[i * kLanes + lane];
     });
     return all;
   }
 
-  PointValues observe(const ConstField& u, double lambda) const override {
+  PointValues observe(const ConstDofView& u, double lambda) const override {
     std::vector<double> room;
     const double* data = dataAt(u, lambda, room);
     return a_.observe(data, [&](int b, const ThreadMemory::Held& held) {
@@ -153,20 +153,23 @@ class LawTerm final : public Term {
   struct Scratch {
     Scratch(const LawTerm& t, const ThreadMemory::Held& held)
         : force(t.a_.scratchOf(held)),
-          in(force + 3 * t.view().N * kLanes),
+          in(force + t.forceDoubles()),
           out(in + t.a_.perBatch(t.a_.shape.inputs)),
-          jacobian(out + t.a_.perBatch(t.I_)) {}
-    double *force, *in, *out, *jacobian;
+          jacobian(out + t.a_.perBatch(t.I_)),
+          // With one field they take the place of the derivatives.
+          moduli(t.moduliDoubles_ == 0 ? jacobian : jacobian + t.a_.perBatch(t.I_ * t.a_.shape.inputs)) {}
+    double *force, *in, *out, *jacobian, *moduli;
   };
+  std::size_t forceDoubles() const { return static_cast<std::size_t>(a_.elements.localDofs()) * kLanes; }
   double* zero(double* force) const {
-    std::fill_n(force, 3 * view().N * kLanes, 0.0);
+    std::fill_n(force, forceDoubles(), 0.0);
     return force;
   }
 
   /// in = (B u, lambda), with its constant part where it is asked for.
-  void inputs(int b, const ConstField& u, double lambda, bool offset, double* in) const {
-    const int J = a_.shape.inputs, Q = view().Q;
-    kernels().inputs(view(), b, u.data(), J, in);
+  void inputs(int b, const ConstDofView& u, double lambda, bool offset, double* in) const {
+    const int J = a_.shape.inputs, Q = a_.elements.numPoints();
+    a_.elements.gather(b, u.data(), J, in);
     if (offset) a_.elements.addOffset(b, J, in);
     if (J > I_)
       for (int q = 0; q < Q; ++q) std::fill_n(in + (q * J + I_) * kLanes, kLanes, lambda);
@@ -174,20 +177,20 @@ class LawTerm final : public Term {
 
   /// out = -d law/d lambda.
   void byLoadFactor(const double* jacobian, double* out) const {
-    const int rows = view().Q * I_, J = I_ + 1;
+    const int rows = a_.elements.numPoints() * I_, J = I_ + 1;
     for (int m = 0; m < rows; ++m)
       for (int lane = 0; lane < kLanes; ++lane)
         out[m * kLanes + lane] = -jacobian[(m * J + I_) * kLanes + lane];
   }
 
   /// The data, [point][datum], brought up to date at the state.
-  std::vector<double> renewed(const ConstField& u, double lambda) const {
+  std::vector<double> renewed(const ConstDofView& u, double lambda) const {
     std::vector<double> data = initialData_;
-    update_(view().numEntities * view().Q, places(u, lambda).data(), data.data());
+    update_(numPoints(), places(u, lambda).data(), data.data());
     return data;
   }
   /// The packed data at the state; `room` holds them where they are brought up to date.
-  const double* dataAt(const ConstField& u, double lambda, std::vector<double>& room) const {
+  const double* dataAt(const ConstDofView& u, double lambda, std::vector<double>& room) const {
     if (!update_) return a_.data();
     room = a_.packed(renewed(u, lambda));
     return room.data();
@@ -195,12 +198,12 @@ class LawTerm final : public Term {
 
   const double* seriesData() const { return update_ ? seriesData_.data() : a_.data(); }
 
-  const ElementView& view() const { return a_.elements.view(); }
-  const ElementKernels& kernels() const { return a_.elements.kernels(); }
+  int numPoints() const { return a_.elements.numEntities() * a_.elements.numPoints(); }
   const Batches& batches() const { return a_.elements.batches(); }
 
   LawArrays a_;
   int I_;
+  std::size_t moduliDoubles_ = 0;
   DataUpdate update_;
   std::unique_ptr<PointPieces> pieces_;  ///< null: not in pieces
   std::vector<double> initialData_;      ///< [point][datum]

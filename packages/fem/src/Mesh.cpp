@@ -29,8 +29,17 @@ bool isShell(Topology topology) {
   return topology == Topology::Shell4 || topology == Topology::Shell8 || topology == Topology::Shell9;
 }
 
+bool isPlane(Topology topology) {
+  return topology == Topology::Quad4 || topology == Topology::Quad8 || topology == Topology::Quad9 ||
+         topology == Topology::Tri3 || topology == Topology::Tri6;
+}
+
 int nodesPerElement(Topology topology) {
   switch (topology) {
+    case Topology::Tri3:
+      return 3;
+    case Topology::Tri6:
+      return 6;
     case Topology::Hex8:
       return 8;
     case Topology::Hex20:
@@ -38,6 +47,7 @@ int nodesPerElement(Topology topology) {
     case Topology::Hex27:
       return 27;
     case Topology::Tet4:
+    case Topology::Quad4:
       return 4;
     case Topology::Tet10:
       return 10;
@@ -48,8 +58,10 @@ int nodesPerElement(Topology topology) {
     case Topology::Shell4:
       return 4;
     case Topology::Shell8:
+    case Topology::Quad8:
       return 8;
     case Topology::Shell9:
+    case Topology::Quad9:
       return 9;
   }
   throw std::invalid_argument("nodesPerElement: not a value of Topology");
@@ -77,6 +89,16 @@ const char* topologyName(Topology topology) {
       return "SHELL8";
     case Topology::Shell9:
       return "SHELL9";
+    case Topology::Quad4:
+      return "QUAD4";
+    case Topology::Quad8:
+      return "QUAD8";
+    case Topology::Quad9:
+      return "QUAD9";
+    case Topology::Tri3:
+      return "TRI3";
+    case Topology::Tri6:
+      return "TRI6";
   }
   throw std::invalid_argument("topologyName: not a value of Topology");
 }

@@ -10,11 +10,14 @@
 namespace atrapos::fem {
 namespace {
 
-/// The face with this number of nodes, and the one of its corners alone.
-std::pair<Face, Face> facesOf(int numNodes) {
-  switch (numNodes) {
+/// The faces of these points, and those of their corners alone.
+std::pair<Face, Face> facesOf(const PointSet& points) {
+  const bool edges = points.components == 2;
+  switch (points.nodesPerEntity) {
+    case 2:
+      return {Face::Line2, Face::Line2};
     case 3:
-      return {Face::Tri3, Face::Tri3};
+      return edges ? std::pair(Face::Line3, Face::Line2) : std::pair(Face::Tri3, Face::Tri3);
     case 6:
       return {Face::Tri6, Face::Tri3};
     case 4:
@@ -30,43 +33,50 @@ std::pair<Face, Face> facesOf(int numNodes) {
   }
 }
 
-int numCorners(Face cornerFace) { return cornerFace == Face::Tri3 ? 3 : 4; }
+int numCorners(Face cornerFace) { return cornerFace == Face::Line2 ? 2 : cornerFace == Face::Tri3 ? 3 : 4; }
 
-/// Multipliers use the first dof of their nodes.
-void holdOtherDofs(FeModel& model, int first) {
-  model.supports.addNodes(model.numNodes - first);
-  for (int m = first; m < model.numNodes; ++m)
-    for (int i = 1; i < 3; ++i) model.supports.prescribe(m, i, 0, 0);
+const Field& contactForce() {
+  static const Field field{"contact force", {""}, Role::oneSided};
+  return field;
 }
 
 }  // namespace
 
-PointSet withMultipliers(FeModel& model, const PointSet& points) {
-  if (points.shapeComponents != 1) throw std::logic_error("withMultipliers: points with shape values only");
-  const int N = points.nodesPerEntity, Q = points.pointsPerEntity;
-  PointSet result;
+PointSet eachPoint(const PointSet& points) {
+  if (points.shapeComponents != 1) throw std::logic_error("eachPoint: points with shape values only");
+  const std::size_t N = points.nodesPerEntity, Q = points.pointsPerEntity;
+  PointSet result = points;
   result.numEntities = points.numPoints();
-  result.nodesPerEntity = N + 1;
-  result.pointsPerEntity = result.shapeComponents = 1;
-  result.weights = points.weights;
-  result.positions = points.positions;
-  result.normals = points.normals;
-  const int first = model.numNodes;
-  for (int e = 0; e < points.numEntities; ++e)
-    for (int q = 0; q < Q; ++q) {
-      for (int n = 0; n < N; ++n) {
-        result.nodes.push_back(points.nodes[e * N + n]);
-        result.shape.push_back(points.shape[(e * Q + q) * N + n]);
-      }
-      result.nodes.push_back(model.numNodes++);
-      result.shape.push_back(0);
-    }
-  holdOtherDofs(model, first);
+  result.pointsPerEntity = 1;
+  result.nodes.clear();
+  for (std::size_t p = 0; p < static_cast<std::size_t>(points.numPoints()); ++p)
+    result.nodes.insert(result.nodes.end(), &points.nodes[p / Q * N], &points.nodes[p / Q * N] + N);
+  return result;
+}
+
+UnilateralPoints withMultipliers(FeModel& model, const PointSet& points) {
+  UnilateralPoints result;
+  result.points = eachPoint(points);
+  const int count = points.numPoints(), first = model.dofs.addNodes(count, contactForce());
+  for (int p = 0; p < count; ++p) result.multipliers.push_back(first + p);
+  result.functions.assign(count, 1.0);
+  return result;
+}
+
+PointSet withParameter(FeModel& model, const PointSet& points, const Field& field) {
+  PointSet result = eachPoint(points);
+  Interpolation own;
+  own.field = field.name;
+  own.components = own.nodesPerEntity = own.shapeComponents = 1;
+  const int count = points.numPoints(), first = model.dofs.addNodes(count, field);
+  for (int p = 0; p < count; ++p) own.nodes.push_back(first + p);
+  own.shape.assign(count, 1.0);
+  result.more.push_back(std::move(own));
   return result;
 }
 
 std::vector<int> cornersOf(const PointSet& faces) {
-  const int N = faces.nodesPerEntity, M = numCorners(facesOf(N).second);
+  const int N = faces.nodesPerEntity, M = numCorners(facesOf(faces).second);
   std::vector<int> corners;
   std::set<int> known;
   for (int e = 0; e < faces.numEntities; ++e)
@@ -80,51 +90,32 @@ UnilateralPoints withCornerMultipliers(FeModel& model, const PointSet& faces) {
   if (faces.shapeComponents != 1)
     throw std::logic_error("withCornerMultipliers: points with shape values only");
   const int N = faces.nodesPerEntity, Q = faces.pointsPerEntity;
-  const auto [face, cornerFace] = facesOf(N);
+  const auto [face, cornerFace] = facesOf(faces);
   const std::vector<double> reference = referenceNodes(face);
-  const int own = static_cast<int>(reference.size()) / 2, M = numCorners(cornerFace);
+  const int dim = isLine(face) ? 1 : 2, own = static_cast<int>(reference.size()) / dim,
+            M = numCorners(cornerFace);
   UnilateralPoints result;
   result.conditions = M;
-  PointSet& points = result.points;
-  points = faces;
-  points.nodesPerEntity = N + M;
-  points.nodes.clear();
-  points.shape.clear();
-  const int first = model.numNodes;
+  result.points = faces;
+  const std::vector<int> corners = cornersOf(faces);
   std::map<int, int> multiplierAt;  // corner node -> node of its multiplier
-  for (const int corner : cornersOf(faces)) multiplierAt[corner] = model.numNodes++;
+  for (const int corner : corners) multiplierAt[corner] = model.dofs.addNodes(1, contactForce());
   std::vector<double> places;  // reference coordinates of all points
   for (int e = 0; e < faces.numEntities; ++e) {
-    const int* nodes = &faces.nodes[static_cast<std::size_t>(e) * N];
-    points.nodes.insert(points.nodes.end(), nodes, nodes + N);
-    for (int m = 0; m < M; ++m) points.nodes.push_back(multiplierAt.at(nodes[m]));
+    for (int m = 0; m < M; ++m)
+      result.multipliers.push_back(multiplierAt.at(faces.nodes[static_cast<std::size_t>(e) * N + m]));
     for (int q = 0; q < Q; ++q) {
       const double* shape = &faces.shape[(static_cast<std::size_t>(e) * Q + q) * N];
-      points.shape.insert(points.shape.end(), shape, shape + N);
-      points.shape.insert(points.shape.end(), M, 0.0);
       // The shape functions reproduce the reference coordinates.
-      for (int i = 0; i < 2; ++i) {
+      for (int i = 0; i < dim; ++i) {
         double x = 0;
-        for (int n = 0; n < own; ++n) x += shape[n] * reference[2 * n + i];
+        for (int n = 0; n < own; ++n) x += shape[n] * reference[dim * n + i];
         places.push_back(x);
       }
     }
   }
   result.functions = tabulateFaceAt(cornerFace, places).values;
-  holdOtherDofs(model, first);
   return result;
-}
-
-PointSet withUnknowns(PointSet points) {
-  std::vector<double> shape;
-  const int N = points.nodesPerEntity;
-  for (std::size_t n = 0; n < points.shape.size(); ++n) {
-    shape.push_back(points.shape[n]);
-    shape.push_back(n % N == static_cast<std::size_t>(N - 1) ? 1.0 : 0.0);
-  }
-  points.shape = std::move(shape);
-  points.shapeComponents = 2;
-  return points;
 }
 
 }  // namespace atrapos::fem

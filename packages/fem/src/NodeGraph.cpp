@@ -14,11 +14,11 @@ void sortUnique(std::vector<int>& list) {
 
 std::vector<std::vector<int>> nodeGraph(const FeModel& model, const std::vector<Coupling>& couplings,
                                         const std::vector<Rows>& wanted, const Share& share) {
-  std::vector<std::vector<int>> rows(model.numNodes), masters(model.numNodes);
-  std::vector<char> shared(model.numNodes, 0);  // whether the couplings of a slave's node are
+  std::vector<std::vector<int>> rows(model.dofs.numNodes()), masters(rows.size());
+  std::vector<char> shared(rows.size(), 0);  // whether the couplings of a slave's node are
   for (std::size_t c = 0; c < couplings.size(); ++c) {
-    const int slave = couplings[c].dof / 3;
-    for (const CoupledDof& m : couplings[c].masters) masters[slave].push_back(m.dof / 3);
+    const int slave = model.dofs.nodeOf(couplings[c].dof);
+    for (const CoupledDof& m : couplings[c].masters) masters[slave].push_back(model.dofs.nodeOf(m.dof));
     shared[slave] = !share.ofCouplings.empty() && share.ofCouplings[c];
   }
   for (auto& nodes : masters) sortUnique(nodes);
@@ -40,13 +40,13 @@ std::vector<std::vector<int>> nodeGraph(const FeModel& model, const std::vector<
       connect(group, !share.ofTerm.empty() && share.ofTerm[t][e]);
     }
   }
-  for (int n = 0; n < model.numNodes; ++n) {
+  for (int n = 0; n < model.dofs.numNodes(); ++n) {
     if (masters[n].empty()) continue;
     std::vector<int> group = masters[n];
     group.push_back(n);
     connect(group, shared[n]);
   }
-  for (int n = 0; n < model.numNodes; ++n) {
+  for (int n = 0; n < model.dofs.numNodes(); ++n) {
     if (wanted[n] == Rows::none) continue;
     auto& row = rows[n];
     row.push_back(n);

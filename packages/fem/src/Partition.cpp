@@ -46,7 +46,7 @@ int hostOf(const FeModel& model, const Elements& elements, const int* nodes, int
 
 Elements elementsOf(const FeModel& model) {
   Elements elements;
-  elements.at.resize(model.numNodes);
+  elements.at.resize(model.dofs.numNodes());
   elements.ofEntity.resize(model.terms.size());
   std::vector<int> order(model.terms.size());
   std::iota(order.begin(), order.end(), 0);
@@ -75,7 +75,8 @@ Elements elementsOf(const FeModel& model) {
 }
 
 /// Groups of elements that stay together: [element] number of its group, groups numbered by their first one.
-std::vector<int> groupsOf(const Elements& elements, const std::vector<Coupling>& couplings, int& count) {
+std::vector<int> groupsOf(const Elements& elements, const DofMap& dofs,
+                          const std::vector<Coupling>& couplings, int& count) {
   std::vector<int> parent(elements.entity.size());
   std::iota(parent.begin(), parent.end(), 0);
   const auto root = [&](int e) {
@@ -83,8 +84,8 @@ std::vector<int> groupsOf(const Elements& elements, const std::vector<Coupling>&
     return e;
   };
   for (const Coupling& c : couplings)
-    for (const int e : elements.at[c.dof / 3]) {
-      const int a = root(e), b = root(elements.at[c.dof / 3].front());
+    for (const int e : elements.at[dofs.nodeOf(c.dof)]) {
+      const int a = root(e), b = root(elements.at[dofs.nodeOf(c.dof)].front());
       parent[std::max(a, b)] = std::min(a, b);
     }
   std::vector<int> group(parent.size(), -1);
@@ -149,12 +150,12 @@ std::vector<int> given(const FeModel& model, const Elements& elements, const std
 Partition partition(const FeModel& model, const std::vector<Coupling>& couplings, int numRanks) {
   const Elements elements = elementsOf(model);
   int numGroups = 0;
-  const auto group = groupsOf(elements, couplings, numGroups);
+  const auto group = groupsOf(elements, model.dofs, couplings, numGroups);
   const auto rankOfGroup = model.ranks.empty() ? cut(model, elements, group, numGroups, numRanks)
                                                : given(model, elements, group, numGroups, numRanks);
 
   Partition result;
-  std::vector<std::vector<std::pair<int, int>>> ranksAt(model.numNodes);  // rank, number of entities
+  std::vector<std::vector<std::pair<int, int>>> ranksAt(model.dofs.numNodes());  // rank, number of entities
   const auto count = [&](int node, int rank) {
     for (auto& entry : ranksAt[node])
       if (entry.first == rank) {
@@ -171,8 +172,8 @@ Partition partition(const FeModel& model, const std::vector<Coupling>& couplings
       const int* nodes = nodesOf(model, {static_cast<int>(t), e});
       for (int n = 0; n < model.terms[t]->nodesPerEntity(); ++n) count(nodes[n], rank);
     }
-  result.nodes.assign(model.numNodes, 0);
-  for (int n = 0; n < model.numNodes; ++n) {
+  result.nodes.assign(model.dofs.numNodes(), 0);
+  for (int n = 0; n < model.dofs.numNodes(); ++n) {
     int most = 0;
     for (const auto& [rank, entities] : ranksAt[n])
       if (entities > most || (entities == most && rank < result.nodes[n])) {
@@ -180,7 +181,7 @@ Partition partition(const FeModel& model, const std::vector<Coupling>& couplings
         result.nodes[n] = rank;
       }
   }
-  for (const Coupling& c : couplings) result.couplings.push_back(result.nodes[c.dof / 3]);
+  for (const Coupling& c : couplings) result.couplings.push_back(result.nodes[model.dofs.nodeOf(c.dof)]);
   return result;
 }
 

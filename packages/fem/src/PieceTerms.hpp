@@ -19,7 +19,7 @@ namespace atrapos::fem {
 class PieceTerms final : public path::Pieces {
  public:
   /// A state as the terms of this rank read it, and the problem's residual.
-  using Local = std::function<ConstField(const path::Vector&)>;
+  using Local = std::function<ConstDofView(const path::Vector&)>;
   using Residual = std::function<path::ResidualNorm(const path::Vector&, double, path::Vector&)>;
 
   PieceTerms(const std::vector<std::unique_ptr<Term>>& terms, const EventTerms& events,

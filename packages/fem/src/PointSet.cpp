@@ -34,7 +34,7 @@ void appendPosition(const Mesh& mesh, const int* nodes, const Tabulation& t, int
 }
 
 PointSet volume(const Mesh& mesh, const Block& block, const Tabulation& t, bool gradients) {
-  if (isShell(block.topology))
+  if (isShell(block.topology) || isPlane(block.topology))
     throw std::runtime_error(fmt::format("block '{}': {} is a surface and has no volume points", block.name,
                                          topologyName(block.topology)));
   PointSet p;
@@ -71,14 +71,21 @@ PointSet volume(const Mesh& mesh, const Block& block, const Tabulation& t, bool 
 
 }  // namespace
 
+int PointSet::allInputs() const {
+  int sum = inputs();
+  for (const Interpolation& other : more) sum += other.inputs();
+  return sum;
+}
+
 double PointSet::shapeAt(std::size_t point, int node, int component) const {
   const auto entry = [&](std::size_t p, int c) {
     return shape[(p * nodesPerEntity + node) * shapeComponents + c];
   };
   if (maps.empty()) return entry(point, component);
   double sum = 0;
-  for (int d = 0; d < 3; ++d)
-    sum += entry(point % pointsPerEntity, d) * maps[(point * 3 + d) * 3 + component];
+  const int C = shapeComponents;
+  for (int d = 0; d < C; ++d)
+    sum += entry(point % pointsPerEntity, d) * maps[(point * C + d) * C + component];
   return sum;
 }
 
@@ -88,6 +95,41 @@ PointSet volumePoints(const Mesh& mesh, const Block& block, const Tabulation& ce
 
 PointSet volumeValuePoints(const Mesh& mesh, const Block& block, const Tabulation& cell) {
   return volume(mesh, block, cell, false);
+}
+
+namespace {
+
+Interpolation ofField(const Field& field, const PointSet& points, const Tabulation& shape) {
+  if (shape.numPoints != points.pointsPerEntity || shape.numNodes > points.nodesPerEntity)
+    throw std::logic_error("a field's shape functions are not tabulated at the points of its entities");
+  Interpolation of;
+  of.field = field.name;
+  of.components = field.numComponents();
+  of.nodesPerEntity = shape.numNodes;
+  for (int e = 0; e < points.numEntities; ++e) {
+    const int* nodes = &points.nodes[static_cast<std::size_t>(e) * points.nodesPerEntity];
+    of.nodes.insert(of.nodes.end(), nodes, nodes + shape.numNodes);
+  }
+  return of;
+}
+
+}  // namespace
+
+Interpolation valuesOf(const Field& field, const PointSet& points, const Tabulation& shape) {
+  Interpolation of = ofField(field, points, shape);
+  of.shapeComponents = 1;
+  for (int e = 0; e < points.numEntities; ++e)
+    of.shape.insert(of.shape.end(), shape.values.begin(), shape.values.end());
+  return of;
+}
+
+Interpolation gradientsOf(const Field& field, const PointSet& points, const Tabulation& shape) {
+  if (points.maps.empty()) throw std::logic_error("gradientsOf: points without maps");
+  Interpolation of = ofField(field, points, shape);
+  of.shapeComponents = points.shapeComponents;
+  of.shape = shape.gradients;
+  of.maps = points.maps;
+  return of;
 }
 
 ElementAddress addressOf(const Mesh& mesh, int element) {
@@ -110,8 +152,8 @@ std::vector<PointSet> facePoints(const Mesh& mesh, const SideSet& set, int degre
     const Face face = sideFace(block.topology, side.side);
     if (isLine(face))
       throw std::runtime_error(
-          fmt::format("side set '{}': side {} of element {} is an edge of a shell, where a face is needed",
-                      set.name, side.side + 1, side.element + 1));
+          fmt::format("side set '{}': side {} of element {} is an edge, where a face is needed", set.name,
+                      side.side + 1, side.element + 1));
     if (!tables.count(face)) tables[face] = tabulateFace(face, degree);
     const Tabulation& t = tables.at(face);
     PointSet& p = byShape[face];
@@ -146,6 +188,7 @@ PointSet nodePoints(const Mesh& mesh, const std::vector<int>& nodes) {
   PointSet p;
   p.numEntities = static_cast<int>(nodes.size());
   p.nodesPerEntity = p.pointsPerEntity = p.shapeComponents = 1;
+  p.components = mesh.dimension;
   p.nodes = nodes;
   p.shape.assign(nodes.size(), 1.0);
   p.weights.assign(nodes.size(), 1.0);

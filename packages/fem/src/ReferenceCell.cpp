@@ -60,11 +60,18 @@ shards::CellTopology cellOf(Topology topology) {
     case Topology::Wedge15:
       return shardsCell<shards::Wedge<15>>();
     case Topology::Shell4:
+    case Topology::Quad4:
       return shardsCell<shards::Quadrilateral<4>>();
     case Topology::Shell8:
+    case Topology::Quad8:
       return shardsCell<shards::Quadrilateral<8>>();
     case Topology::Shell9:
+    case Topology::Quad9:
       return shardsCell<shards::Quadrilateral<9>>();
+    case Topology::Tri3:
+      return shardsCell<shards::Triangle<3>>();
+    case Topology::Tri6:
+      return shardsCell<shards::Triangle<6>>();
   }
   unknownShape();
 }
@@ -330,9 +337,16 @@ std::vector<int> defaultDegrees(Topology topology) {
       return {2, 5};
     case Topology::Shell4:
     case Topology::Shell8:
+    case Topology::Quad4:
+    case Topology::Quad8:
       return {3, 3};
     case Topology::Shell9:
+    case Topology::Quad9:
       return {5, 5};
+    case Topology::Tri3:
+      return {1};
+    case Topology::Tri6:
+      return {2};
   }
   unknownShape();
 }
@@ -348,7 +362,9 @@ Topology vertexCell(Topology topology) {
     case shards::Wedge<6>::key:
       return Topology::Wedge6;
     case shards::Quadrilateral<4>::key:
-      return Topology::Shell4;
+      return Topology::Quad4;
+    case shards::Triangle<3>::key:
+      return Topology::Tri3;
   }
   unknownShape();
 }
@@ -380,7 +396,7 @@ void solveFactorized(int n, const std::vector<double>& l, double* x) {
   }
 }
 
-/// A side as Shards counts it: faces (dimension 2) first, then a shell's edges (dimension 1).
+/// A side as Shards counts it: faces (dimension 2) first, then edges (dimension 1) of shells and plane cells.
 struct SideOfCell {
   shards::CellTopology cell;
   int dimension, number;
@@ -388,7 +404,8 @@ struct SideOfCell {
 
 SideOfCell sideOf(Topology topology, int side) {
   const shards::CellTopology cell = cellWithSides(topology);
-  const int faces = static_cast<int>(cell.getSubcellCount(2)), sides = numSides(topology);
+  const int faces = isPlane(topology) ? 0 : static_cast<int>(cell.getSubcellCount(2)),
+            sides = numSides(topology);
   if (side < 0 || side >= sides)
     throw std::out_of_range("reference cell: side " + std::to_string(side) + " of a " + cell.getName() +
                             " is not within 0 to " + std::to_string(sides - 1));
@@ -419,6 +436,7 @@ bool isLine(Face face) { return face == Face::Line2 || face == Face::Line3; }
 
 int numSides(Topology topology) {
   const shards::CellTopology cell = cellWithSides(topology);
+  if (isPlane(topology)) return static_cast<int>(cell.getSubcellCount(1));
   return static_cast<int>(cell.getSubcellCount(2) + (isShell(topology) ? cell.getSubcellCount(1) : 0));
 }
 

@@ -8,13 +8,38 @@
 
 namespace atrapos::fem {
 
-RigidBody::RigidBody(int firstNode, const std::array<double, 3>& origin, double armLength)
-    : firstNode_(firstNode), origin_(origin), length_(armLength) {
+RigidBody::RigidBody(FeModel& model, const std::array<double, 3>& origin, double armLength, double stiffness)
+    : origin_(origin), length_(armLength) {
   if (!(armLength > 0) || !std::isfinite(armLength))
     throw std::invalid_argument("a rigid body needs arms of positive length");
+  if (!(stiffness > 0) || !std::isfinite(stiffness))
+    throw std::invalid_argument("a rigid body needs a positive stiffness to scale its multipliers");
+  firstNode_ = model.dofs.addNodes(4, displacementField());
+  // M_xx and M_xy, M_yy and M_yz, M_zz and M_zx.
+  const int multipliers =
+      model.dofs.addNodes(2, {"rigid body's multiplier", {"x", "y", "z"}, Role::multiplier});
+  PointSet p;
+  p.numEntities = p.pointsPerEntity = 1;
+  p.nodesPerEntity = 4;
+  p.shapeComponents = 3;
+  const double one = 1 / length_;
+  p.shape.assign(4 * 3, 0.0);
+  for (int c = 0; c < 3; ++c) {
+    p.shape[c] = -one;
+    p.shape[(1 + c) * 3 + c] = one;
+  }
+  for (int n = 0; n < 4; ++n) p.nodes.push_back(firstNode_ + n);
+  p.weights = {stiffness * length_ * length_};
+  p.positions = {origin_[0], origin_[1], origin_[2]};
+  Interpolation m;
+  m.nodesPerEntity = m.shapeComponents = 2;
+  m.nodes = {multipliers, multipliers + 1};
+  m.shape = {1, 0, 0, 1};
+  p.more.push_back(std::move(m));
+  model.terms.push_back(lawTerm(pointLaw(RigidArms{}), p));
 }
 
-void RigidBody::attachDirector(Couplings& couplings, int node, const std::array<double, 3>& D) const {
+void RigidBody::attachDirector(FeModel& model, int node, const std::array<double, 3>& D) const {
   std::vector<CoupledNode> masters;
   double sum = 0;
   for (int i = 0; i < 3; ++i) {
@@ -23,10 +48,10 @@ void RigidBody::attachDirector(Couplings& couplings, int node, const std::array<
     sum += D[i] / length_;
   }
   masters.push_back({originNode(), -sum});
-  coupleNode(couplings, node, masters);
+  coupleNode(model.couplings, model.dofs, node, masters);
 }
 
-void RigidBody::attach(Couplings& couplings, int node, const std::array<double, 3>& position) const {
+void RigidBody::attach(FeModel& model, int node, const std::array<double, 3>& position) const {
   std::vector<CoupledNode> masters;
   double sum = 0;
   for (int i = 0; i < 3; ++i) {
@@ -36,35 +61,7 @@ void RigidBody::attach(Couplings& couplings, int node, const std::array<double, 
     sum += arm;
   }
   masters.push_back({originNode(), 1 - sum});
-  coupleNode(couplings, node, masters);
-}
-
-void RigidBody::addTo(FeModel& model, double stiffness) const {
-  if (firstNode_ < 0 || firstNode_ + numNodes > model.numNodes)
-    throw std::invalid_argument("the model has no nodes for this rigid body");
-  if (!(stiffness > 0) || !std::isfinite(stiffness))
-    throw std::invalid_argument("a rigid body needs a positive stiffness to scale its multipliers");
-  constexpr int numVectors = 5;  // combinations of the nodes' displacements: law inputs [i][vector]
-  PointSet p;
-  p.numEntities = 1;
-  p.nodesPerEntity = numNodes;
-  p.pointsPerEntity = 1;
-  p.shapeComponents = numVectors;
-  for (int n = 0; n < numNodes; ++n) p.nodes.push_back(firstNode_ + n);
-  const double one = 1 / length_;
-  p.shape.assign(numNodes * numVectors, 0.0);
-  const auto shape = [&](int node, int component) -> double& {
-    return p.shape[node * numVectors + component];
-  };
-  for (int c = 0; c < 3; ++c) {
-    shape(0, c) = -one;
-    shape(1 + c, c) = one;
-  }
-  shape(4, 3) = shape(5, 4) = one;
-  p.weights = {stiffness * length_ * length_};
-  p.positions = {origin_[0], origin_[1], origin_[2]};
-  model.terms.push_back(lawTerm(pointLaw(RigidArms{}), p));
-  model.numMultipliers += 6;
+  coupleNode(model.couplings, model.dofs, node, masters);
 }
 
 }  // namespace atrapos::fem

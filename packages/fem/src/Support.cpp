@@ -13,27 +13,16 @@
 
 namespace atrapos::fem {
 
-Supports::Supports(int numNodes)
-    : fixed_(3 * numNodes, 0), value_(3 * numNodes, 0.0), rate_(3 * numNodes, 0.0) {}
-
-void Supports::addNodes(int count) {
-  fixed_.resize(fixed_.size() + 3 * count, 0);
-  value_.resize(fixed_.size(), 0.0);
-  rate_.resize(fixed_.size(), 0.0);
-}
-
-void Supports::prescribe(int node, int component, double value, double perLoadFactor) {
-  const int dof = 3 * node + component;
-  if (fixed_[dof] && (value_[dof] != value || rate_[dof] != perLoadFactor))
-    throw std::invalid_argument(fmt::format(
-        "displacement {} of node {} is prescribed twice with different values", "xyz"[component], node + 1));
-  fixed_[dof] = 1;
-  value_[dof] = value;
-  rate_[dof] = perLoadFactor;
+void Supports::prescribe(int dof, double value, double perLoadFactor) {
+  if (dof < 0) throw std::invalid_argument("a support of a field that the node does not have");
+  const auto [at, added] = prescribed_.insert({dof, {value, perLoadFactor}});
+  if (!added && (at->second.value != value || at->second.rate != perLoadFactor))
+    throw std::invalid_argument(fmt::format("unknown {} is prescribed twice with different values", dof));
 }
 
 bool Supports::driven() const {
-  return std::any_of(rate_.begin(), rate_.end(), [](double r) { return r != 0; });
+  return std::any_of(prescribed_.begin(), prescribed_.end(),
+                     [](const auto& p) { return p.second.rate != 0; });
 }
 
 namespace {
@@ -59,7 +48,7 @@ int rank(std::array<double, 36> gram) {
 
 }  // namespace
 
-std::vector<FreeBody> freeBodies(const Mesh& mesh, const Supports& supports,
+std::vector<FreeBody> freeBodies(const Mesh& mesh, const DofMap& dofs, const Supports& supports,
                                  const std::vector<HeldDirection>& held, const ShellGeometry* shells,
                                  const std::vector<std::pair<int, int>>& joined) {
   const int numNodes = mesh.numNodes();
@@ -101,8 +90,14 @@ std::vector<FreeBody> freeBodies(const Mesh& mesh, const Supports& supports,
   };
   for (int n = 0; n < numNodes; ++n) {
     const auto motions = rigidMotions(&mesh.coordinates[3 * n], centre, size);
-    for (int i = 0; i < 3; ++i)
-      if (supports.fixed(3 * n + i)) hold(n, motions[i]);
+    for (int i = 0; i < dofs.firstFieldSize(n); ++i)
+      if (supports.fixed(dofs.firstDof(n) + i)) hold(n, motions[i]);
+    if (mesh.dimension == 2)  // no motion leaves the plane
+      for (const int motion : {2, 3, 4}) {
+        std::array<double, 6> row{};
+        row[motion] = 1;
+        hold(n, row);
+      }
   }
   // omega x D / |D|: of order 1 however thin the shell is.
   for (int d = 0; shells != nullptr && d < shells->numDirectors(); ++d) {
@@ -110,7 +105,7 @@ std::vector<FreeBody> freeBodies(const Mesh& mesh, const Supports& supports,
     const double origin[3] = {0, 0, 0}, length = std::sqrt(D[0] * D[0] + D[1] * D[1] + D[2] * D[2]);
     auto motions = rigidMotions(D, origin, length);
     for (int i = 0; i < 3; ++i) {
-      if (!supports.fixed(3 * (numNodes + d) + i)) continue;
+      if (!supports.fixed(dofs.firstDof(numNodes + d) + i)) continue;
       motions[i][0] = motions[i][1] = motions[i][2] = 0;
       hold(shells->meshNode[d], motions[i]);
     }

@@ -43,7 +43,7 @@ TEST(Couplings, ChainsAreResolved) {
   couplings.add({3, {{0, 2.0}}, 1.0, 3.0});
   couplings.add({6, {{3, 1.0}, {0, -1.0}}, 0.0, 0.0});
   EXPECT_TRUE(couplings.driven());
-  const auto rows = couplings.resolved(Supports(3));
+  const auto rows = couplings.resolved(DofMap::displacements(3), {});
   ASSERT_EQ(rows.size(), 2u);
   ASSERT_EQ(rows[1].masters.size(), 1u);
   EXPECT_EQ(rows[1].masters[0].dof, 0);
@@ -53,28 +53,28 @@ TEST(Couplings, ChainsAreResolved) {
 }
 
 TEST(Couplings, WhatCannotBeIsNamed) {
-  Couplings couplings;
-  couplings.add({3, {{0, 1.0}}, 0.0, 0.0});
-  EXPECT_EQ(messageOf([&] {
-              couplings.add({3, {{6, 1.0}}, 0.0, 0.0});
-            }),
-            "displacement x of node 2 is coupled twice");
-  EXPECT_EQ(messageOf([&] {
-              couplings.add({4, {{4, 1.0}}, 0.0, 0.0});
-            }),
-            "displacement y of node 2 is coupled to itself");
-  Supports supports(3);
-  supports.prescribe(1, 0, 0.0, 0.0);
-  EXPECT_EQ(messageOf([&] { couplings.resolved(supports); }),
+  const DofMap dofs = DofMap::displacements(3);
+  const auto refusal = [&](const std::vector<Coupling>& list, const Supports& supports = {}) {
+    Couplings couplings;
+    for (const Coupling& c : list) couplings.add(c);
+    return messageOf([&] { couplings.resolved(dofs, supports); });
+  };
+  const Coupling first{3, {{0, 1.0}}, 0.0, 0.0};
+  EXPECT_EQ(refusal({first, {3, {{6, 1.0}}, 0.0, 0.0}}), "displacement x of node 2 is coupled twice");
+  EXPECT_EQ(refusal({first, {4, {{4, 1.0}}, 0.0, 0.0}}), "displacement y of node 2 is coupled to itself");
+  Supports supports;
+  supports.prescribe(3, 0.0, 0.0);
+  EXPECT_EQ(refusal({first}, supports),
             "displacement x of node 2 is both supported and coupled: support its masters");
-  EXPECT_EQ(messageOf([&] { couplings.resolved(Supports(1)); }),
-            "a coupling of displacement x of node 2 names a node that the model does not have");
-  couplings.add({0, {{3, 0.5}}, 0.0, 0.0});
-  EXPECT_EQ(messageOf([&] { couplings.resolved(Supports(3)); }),
+  EXPECT_EQ(refusal({{3, {{9, 1.0}}, 0.0, 0.0}}),
+            "a coupling of displacement x of node 2 names an unknown that the model does not have");
+  EXPECT_EQ(refusal({{9, {{3, 1.0}}, 0.0, 0.0}}),
+            "a coupling is of unknown 9, which the model does not have");
+  EXPECT_EQ(refusal({first, {0, {{3, 0.5}}, 0.0, 0.0}}),
             "displacement x of node 2 depends on itself by its couplings");
   EXPECT_EQ(messageOf([&] {
               Couplings plane;
-              couplePlane(plane, {0, 1}, {0, 0, 0});
+              couplePlane(plane, dofs, {0, 1}, {0, 0, 0});
             }),
             "a coupled plane needs a normal of finite length");
 }
@@ -94,17 +94,14 @@ TEST(Couplings, EqualNodesAreOneNode) {
   const auto conditions = [](const Mesh& mesh, int offset, FeModel& model) {
     for (int n = 0; n < mesh.numNodes(); ++n) {
       const double x = mesh.coordinates[3 * n];
-      for (int i = 0; i < 3 && x < 1e-9; ++i) model.supports.prescribe(n + offset, i, 0, i == 1 ? 0.1 : 0);
+      for (int i = 0; i < 3 && x < 1e-9; ++i) model.prescribe(n + offset, i, 0, i == 1 ? 0.1 : 0);
       if (x > 2 - 1e-9) model.load[3 * (n + offset) + 2] = 0.002;
     }
   };
   FeModel one, two;
-  one.numNodes = whole.numNodes();
-  two.numNodes = left.numNodes() + right.numNodes();
-  for (FeModel* m : {&one, &two}) {
-    m->supports = Supports(m->numNodes);
-    m->load.assign(3 * m->numNodes, 0.0);
-  }
+  one.dofs = DofMap::displacements(whole.numNodes());
+  two.dofs = DofMap::displacements(left.numNodes() + right.numNodes());
+  for (FeModel* m : {&one, &two}) m->load.assign(m->dofs.numDofs(), 0.0);
   material(whole, 0, one);
   conditions(whole, 0, one);
   material(left, 0, two);
@@ -113,7 +110,7 @@ TEST(Couplings, EqualNodesAreOneNode) {
   conditions(right, left.numNodes(), two);
   const auto pairs = interface(left, right, left.numNodes());
   ASSERT_EQ(pairs.size(), 13u);
-  for (const auto& [a, b] : pairs) coupleEqual(two.couplings, {a, b});
+  for (const auto& [a, b] : pairs) coupleEqual(two.couplings, two.dofs, {a, b});
   FeProblem first(std::move(one)), second(std::move(two));
   EXPECT_EQ(first.numFreeDofs(), second.numFreeDofs());
   const auto expected = equilibrium(first, 1.0, FeProblem::values(*first.initialState(1.0)));
@@ -138,22 +135,21 @@ TEST(Couplings, EqualNodesAreOneNode) {
 TEST(Couplings, PlaneEnd) {
   const Mesh mesh = box(Topology::Hex8, {3, 2, 2});
   FeModel model;
-  model.numNodes = mesh.numNodes();
+  model.dofs = DofMap::displacements(mesh.numNodes());
   for (const Block& block : mesh.blocks) {
     const PointSet p = volumePoints(mesh, block, tabulate(block.topology));
     model.terms.push_back(lawTerm(pointLaw(ExponentialSolid{}), p, std::vector<double>(p.numPoints(), 1.0)));
   }
-  model.supports = Supports(model.numNodes);
-  model.load.assign(3 * model.numNodes, 0.0);
+  model.load.assign(model.dofs.numDofs(), 0.0);
   std::vector<int> end;
   for (int n = 0; n < mesh.numNodes(); ++n) {
     const double* X = &mesh.coordinates[3 * n];
     for (int i = 0; i < 3; ++i)
-      if (X[i] < 1e-9) model.supports.prescribe(n, i, 0, 0);
+      if (X[i] < 1e-9) model.prescribe(n, i, 0, 0);
     if (X[0] > 1 - 1e-9) end.push_back(n);
   }
   ASSERT_EQ(end.size(), 9u);
-  couplePlane(model.couplings, end, {-2, 0, 0});
+  couplePlane(model.couplings, model.dofs, end, {-2, 0, 0});
   model.load[3 * end.back()] = 0.3;
   FeProblem problem(std::move(model));
   const auto seen = equilibrium(problem, 1.0, FeProblem::values(*problem.initialState(1.0)));
@@ -180,11 +176,11 @@ TEST(Couplings, JoinedBodiesAreOne) {
   const Mesh near = box(Topology::Hex8), far = box(Topology::Hex8, {1, 1, 1}, {1, 1, 1}, {5, 0, 0}),
              both = glued({near, far});
   ASSERT_EQ(both.numNodes(), near.numNodes() + far.numNodes());
-  Supports supports(both.numNodes());
-  for (int n = 0; n < near.numNodes(); ++n)
-    for (int i = 0; i < 3; ++i) supports.prescribe(n, i, 0, 0);
-  const auto free = freeBodies(both, supports, {});
+  const DofMap dofs = DofMap::displacements(both.numNodes());
+  Supports supports;
+  for (int d = 0; d < 3 * near.numNodes(); ++d) supports.prescribe(d, 0, 0);
+  const auto free = freeBodies(both, dofs, supports, {});
   ASSERT_EQ(free.size(), 1u);
   EXPECT_EQ(free[0].motions, 6);
-  EXPECT_TRUE(freeBodies(both, supports, {}, nullptr, {{0, near.numNodes()}}).empty());
+  EXPECT_TRUE(freeBodies(both, dofs, supports, {}, nullptr, {{0, near.numNodes()}}).empty());
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "atrapos/fem/Loads.hpp"
+#include "support/Checks.hpp"
 #include "support/Model.hpp"
 #include "support/Vectors.hpp"
 
@@ -46,41 +47,6 @@ PointSet writtenOut(PointSet p) {
   return p;
 }
 
-/// A change of (u, lambda) that keeps to the supports.
-struct Direction {
-  Numbers u;
-  double lambda;
-};
-Direction randomDirection(const FeModel& model, double amplitude, unsigned seed) {
-  Direction d{randomNumbers(3 * model.numNodes, amplitude, seed), 0.3};
-  std::vector<char> used(model.numNodes, 0);
-  for (const auto& term : model.terms)
-    for (int n : term->nodes()) used[n] = 1;
-  for (int i = 0; i < 3 * model.numNodes; ++i)
-    if (model.supports.fixed(i) || !used[i / 3]) d.u[i] = d.lambda * model.supports.perLoadFactor(i);
-  return d;
-}
-
-/// K v - mu F against central differences of R, whose error must fall like h^2.
-void checkTangent(FeModel model) {
-  const Numbers u = randomNumbers(3 * model.numNodes, 0.02, 31);
-  const Direction d = randomDirection(model, 0.05, 32);
-  FeProblem problem(std::move(model));
-  const double lambda = 0.4;
-  const Tangent K = tangent(problem, u, lambda);
-  const Numbers exact = sum(K.times(d.u), -d.lambda, K.F);
-  const auto error = [&](double h) {
-    const Numbers plus = residual(problem, sum(u, h, d.u), lambda + h * d.lambda).r;
-    const Numbers minus = residual(problem, sum(u, -h, d.u), lambda - h * d.lambda).r;
-    return norm(sum(sum(plus, -1, minus), -2 * h, exact)) / (2 * h * norm(exact));
-  };
-  const double coarse = error(0.2), fine = error(0.1);
-  // h^2 with terms of h^4 behind, which are about 1 % at these h.
-  EXPECT_NEAR(std::log2(coarse / fine), 2.0, 0.1) << coarse << ' ' << fine;
-  // Truncation at h = 1e-4 is 1e-6 of that at 0.1, rounding 1e-16 / h.
-  EXPECT_LT(error(1e-4), 1e-6 * fine + 1e-11);
-}
-
 double asymmetry(const Tangent& K, const Numbers& x, const Numbers& y) {
   const double a = dot(K.times(x), y), b = dot(K.times(y), x);
   return std::abs(a - b) / (norm(K.times(x)) * norm(y));
@@ -103,9 +69,8 @@ TEST_P(Cells, ForcesAreThoseOfAPlainLoop) {
   for (int node = 0; node < mesh.numNodes(); ++node)  // what holds a node of no cell is no force of cells
     if (std::find(cells.begin(), cells.end(), node) == cells.end()) std::fill_n(&u[3 * node], 3, 0.0);
   FeModel model;
-  model.numNodes = mesh.numNodes();
+  model.dofs = DofMap::displacements(mesh.numNodes());
   model.terms = solidTerms(mesh);
-  model.supports = Supports(mesh.numNodes());
   FeProblem problem(std::move(model));
   const Numbers expected = plainForces(ExponentialSolid{}, points, scale, u);
   // Sums of about a hundred terms.
@@ -121,9 +86,8 @@ TEST_P(Cells, OwnGradientsDoAsThoseThatEntitiesShare) {
                 x = randomNumbers(3 * mesh.numNodes(), 1, 13);
   const auto along = [&](const PointSet& p) {
     FeModel model;
-    model.numNodes = mesh.numNodes();
+    model.dofs = DofMap::displacements(mesh.numNodes());
     model.terms.push_back(lawTerm(pointLaw(ExponentialSolid{}), p, unevenScale(p, 11)));
-    model.supports = Supports(mesh.numNodes());
     FeProblem problem(std::move(model));
     return std::pair(residual(problem, u, 0).r, tangent(problem, u, 0).times(x));
   };
@@ -322,10 +286,10 @@ TEST(FeProblem, UnloadedBodyHasNoNegativePivot) {
     SCOPED_TRACE(topologyName(cell));
     const Mesh mesh = box(cell);
     FeModel model = busyModel(mesh);
-    model.supports = Supports(mesh.numNodes());
+    model.supports = {};
     for (int n : nodesOfSet(mesh, "x_min"))
-      for (int c = 0; c < 3; ++c) model.supports.prescribe(n, c, 0.0, 0.0);
-    for (int n : nodesOfSet(mesh, "x_max")) model.supports.prescribe(n, 1, 0.0, 0.5);
+      for (int c = 0; c < 3; ++c) model.prescribe(n, c, 0.0, 0.0);
+    for (int n : nodesOfSet(mesh, "x_max")) model.prescribe(n, 1, 0.0, 0.5);
     model.constantLoad.assign(3 * mesh.numNodes(), 0.0);
     FeProblem problem(std::move(model));
     const auto state = equilibrium(problem, 0.0, Numbers(3 * mesh.numNodes(), 0.0));
@@ -365,9 +329,8 @@ TEST(FeProblem, ScaleCountsWhatCancelsAtTheNodes) {
     squares += force * force;
   }
   FeModel model;
-  model.numNodes = mesh.numNodes();
+  model.dofs = DofMap::displacements(mesh.numNodes());
   model.terms.push_back(lawTerm(pointLaw(ExponentialSolid{}), points, ones));
-  model.supports = Supports(mesh.numNodes());
   FeProblem problem(std::move(model));
   const double scale = residual(problem, u, 0.0).norm.scale;
   EXPECT_NEAR(scale, std::sqrt(squares), 1e-13 * scale);  // rounding of sums of some hundred terms
@@ -379,10 +342,9 @@ TEST(FeProblem, ScaleCountsWhatCancelsAtTheNodes) {
 TEST(FeProblem, ScaleOfAnUnloadedState) {
   const Mesh mesh = box(Topology::Hex8, {2, 1, 1});
   FeModel model;
-  model.numNodes = mesh.numNodes();
+  model.dofs = DofMap::displacements(mesh.numNodes());
   model.terms = solidTerms(mesh);
-  model.supports = Supports(mesh.numNodes());
-  for (int n : nodesOfSet(mesh, "x_max")) model.supports.prescribe(n, 0, 0.0, 0.1);
+  for (int n : nodesOfSet(mesh, "x_max")) model.prescribe(n, 0, 0.0, 0.1);
   FeProblem problem(std::move(model));
   const auto norm = residual(problem, Numbers(3 * mesh.numNodes(), 0.0), 0.0).norm;
   EXPECT_EQ(norm.norm, 0.0);
@@ -395,10 +357,9 @@ TEST(FeProblem, ScaleOfSupportsIsThatOfTheirRate) {
   const Mesh mesh = box(Topology::Hex8, {2, 1, 1});
   const auto scale = [&](double perLoadFactor) {
     FeModel model;
-    model.numNodes = mesh.numNodes();
+    model.dofs = DofMap::displacements(mesh.numNodes());
     model.terms = solidTerms(mesh);
-    model.supports = Supports(mesh.numNodes());
-    for (int n : nodesOfSet(mesh, "x_max")) model.supports.prescribe(n, 0, 0.0, perLoadFactor);
+    for (int n : nodesOfSet(mesh, "x_max")) model.prescribe(n, 0, 0.0, perLoadFactor);
     FeProblem problem(std::move(model));
     return residual(problem, Numbers(3 * mesh.numNodes(), 0.0), 0.0).norm.scale;
   };
@@ -410,11 +371,10 @@ TEST(FeProblem, ScaleOfSupportsIsThatOfTheirRate) {
 TEST(FeProblem, ObserveShowsEveryPointInItsPlace) {
   const Mesh mesh = distorted(box(Topology::Tet10, {1, 1, 2}), 0.03);
   FeModel model;
-  model.numNodes = mesh.numNodes();
+  model.dofs = DofMap::displacements(mesh.numNodes());
   model.terms = solidTerms(mesh);
   const PointSet faces = facePoints(mesh, sideSet(mesh, "y_max"), 2).at(0);
   model.terms.push_back(lawTerm(pointLaw(CentralForce{}), faces));
-  model.supports = Supports(mesh.numNodes());
   const PointSet points = volumePoints(mesh, mesh.blocks[0], tabulate(Topology::Tet10));
   FeProblem problem(std::move(model));
   Numbers u = mesh.coordinates;  // u = A x: trace of A at every point
@@ -467,7 +427,7 @@ TEST(FeProblem, MistakesAreNamed) {
   EXPECT_THROW(lawTerm(solid(), many, unevenScale(many, 1)), std::invalid_argument);
 
   FeModel model = busyModel(mesh);
-  model.supports = Supports(mesh.numNodes() + 1);
+  model.supports.prescribe(model.dofs.numDofs(), 0, 0);
   EXPECT_THROW(FeProblem{std::move(model)}, std::logic_error);
 
   FeModel lost = busyModel(mixedMesh());  // a force at a node that nothing carries

@@ -14,9 +14,8 @@ namespace {
 
 FeModel boxModel(const Mesh& mesh) {
   FeModel model;
-  model.numNodes = mesh.numNodes();
+  model.dofs = DofMap::displacements(mesh.numNodes());
   model.terms = solidTerms(mesh);
-  model.supports = Supports(mesh.numNodes());
   return model;
 }
 
@@ -54,15 +53,15 @@ TEST(Partition, EveryNodeBelongsToARankThatHasItsElements) {
   const FeModel model = busyModel(mixedMesh());
   const int numRanks = 4;
   const Partition p = partition(model, {}, numRanks);
-  std::vector<std::vector<char>> has(numRanks, std::vector<char>(model.numNodes, 0));
-  std::vector<char> any(model.numNodes, 0);
+  std::vector<std::vector<char>> has(numRanks, std::vector<char>(model.dofs.numNodes(), 0));
+  std::vector<char> any(model.dofs.numNodes(), 0);
   for (std::size_t t = 0; t < model.terms.size(); ++t) {
     ASSERT_EQ(p.entities[t].size(), static_cast<std::size_t>(model.terms[t]->numEntities()));
     const int N = model.terms[t]->nodesPerEntity();
     for (std::size_t i = 0; i < model.terms[t]->nodes().size(); ++i)
       has[p.entities[t][i / N]][model.terms[t]->nodes()[i]] = any[model.terms[t]->nodes()[i]] = 1;
   }
-  for (int n = 0; n < model.numNodes; ++n) {
+  for (int n = 0; n < model.dofs.numNodes(); ++n) {
     if (any[n]) {
       EXPECT_TRUE(has[p.nodes[n]][n]) << n;
     } else {
@@ -97,8 +96,8 @@ TEST(Partition, ElementsAtASlaveStayTogether) {
   const Mesh mesh = box(Topology::Hex8, {4, 4, 4});
   FeModel model = boxModel(mesh);
   Couplings couplings;
-  couplePlane(couplings, nodesOfSet(mesh, "x_max"), {1, 0, 0});
-  const auto resolved = couplings.resolved(model.supports);
+  couplePlane(couplings, model.dofs, nodesOfSet(mesh, "x_max"), {1, 0, 0});
+  const auto resolved = couplings.resolved(model.dofs, model.supports);
   const Partition p = partition(model, resolved, 3);
   for (std::size_t c = 0; c < resolved.size(); ++c) {
     const int slave = resolved[c].dof / 3;
@@ -138,8 +137,8 @@ TEST(Partition, GivenRanksYieldWhereASlaveNeedsItsElementsTogether) {
   const Mesh mesh = box(Topology::Hex8, {2, 2, 1});
   FeModel model = boxModel(mesh);
   Couplings couplings;
-  couplePlane(couplings, nodesOfSet(mesh, "x_max"), {1, 0, 0});
-  const auto resolved = couplings.resolved(model.supports);
+  couplePlane(couplings, model.dofs, nodesOfSet(mesh, "x_max"), {1, 0, 0});
+  const auto resolved = couplings.resolved(model.dofs, model.supports);
   model.ranks = {{0, 1, 0, 1}};
   const Partition p = partition(model, resolved, 2);
   const Term& term = *model.terms[0];

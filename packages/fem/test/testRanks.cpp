@@ -113,13 +113,12 @@ FeModel heldTerms() {
 FeModel coupledBox() {
   const Mesh mesh = distorted(box(Topology::Hex20, {4, 2, 2}, {2, 1, 1}), 0.02);
   FeModel model;
-  model.numNodes = mesh.numNodes();
+  model.dofs = DofMap::displacements(mesh.numNodes());
   model.terms = solidTerms(mesh);
-  model.supports = Supports(mesh.numNodes());
   for (const int n : nodesOfSet(mesh, "x_min"))
-    for (int i = 0; i < 3; ++i) model.supports.prescribe(n, i, 0, 0);
+    for (int i = 0; i < 3; ++i) model.prescribe(n, i, 0, 0);
   const auto end = nodesOfSet(mesh, "x_max");
-  couplePlane(model.couplings, end, {1, 0.2, 0});
+  couplePlane(model.couplings, model.dofs, end, {1, 0.2, 0});
   Coupling driven;
   const auto nodeNear = [&](double x, double z) {
     int nearest = 0;
@@ -147,6 +146,10 @@ TEST(Ranks, AllCellsWithSupportsAndLoads) {
 
 TEST(Ranks, FacesAndPointsAndTermsThatSeeTheLoadFactor) {
   compareEverything([] { return manyTerms(mixedMesh()); });
+}
+
+TEST(Ranks, TwoFieldsOfWhichOneLivesAtCorners) {
+  compareEverything([] { return heatedModel<2>(distorted(box(Topology::Hex20, {4, 3, 2}), 0.02)); });
 }
 
 TEST(Ranks, Couplings) { compareEverything(coupledBox); }

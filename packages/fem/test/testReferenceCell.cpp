@@ -50,8 +50,9 @@ std::string name(Topology topology) {
       return "Wedge6";
     case Topology::Wedge15:
       return "Wedge15";
+    default:
+      return topologyName(topology);
   }
-  return "?";
 }
 
 std::string name(Face face) {
@@ -141,6 +142,8 @@ bool spans(Topology topology, const Exponents& e) {
       return spans(Face::Quad8, e);
     case Topology::Shell9:
       return spans(Face::Quad9, e);
+    default:
+      break;
   }
   return false;
 }
@@ -629,6 +632,50 @@ TEST(ReferenceCell, SidesOfShellsAreTwoFacesThenFourEdges) {
           EXPECT_NEAR(cell.values[q * numNodes + n], expected, rounding);
         }
     }
+  }
+}
+
+TEST(ReferenceCell, PlaneCellsAreTheFacesOfTheirNameWithEdgesAsSides) {
+  struct Plane {
+    Topology cell;
+    Face face;
+    int points;  // of the default cubature
+    std::vector<std::vector<int>> exodus;
+  };
+  const std::vector<std::vector<int>> quad{{1, 2, 5}, {2, 3, 6}, {3, 4, 7}, {4, 1, 8}},
+      triangle{{1, 2, 4}, {2, 3, 5}, {3, 1, 6}};
+  const Plane planes[] = {{Topology::Quad4, Face::Quad4, 4, quad},
+                          {Topology::Quad8, Face::Quad8, 4, quad},
+                          {Topology::Quad9, Face::Quad9, 9, quad},
+                          {Topology::Tri3, Face::Tri3, 1, triangle},
+                          {Topology::Tri6, Face::Tri6, 3, triangle}};
+  for (const Plane& plane : planes) {
+    SCOPED_TRACE(topologyName(plane.cell));
+    EXPECT_TRUE(isPlane(plane.cell));
+    EXPECT_FALSE(isShell(plane.cell));
+    const int numNodes = nodesPerElement(plane.cell);
+    const std::vector<double> places{0.1, 0.2, 0.3, 0.15, 0.6, 0.3}, nodes = referenceNodes(plane.cell);
+    EXPECT_EQ(nodes, referenceNodes(plane.face));
+    EXPECT_EQ(tabulateAt(plane.cell, places).gradients, tabulateFaceAt(plane.face, places).gradients);
+    EXPECT_EQ(tabulate(plane.cell).numPoints, plane.points);
+    ASSERT_EQ(numSides(plane.cell), static_cast<int>(plane.exodus.size()));
+    EXPECT_THROW(sideNodes(plane.cell, numSides(plane.cell)), std::out_of_range);
+    for (int side = 0; side < numSides(plane.cell); ++side) {
+      std::vector<int> row;
+      for (const int node : plane.exodus[side])
+        if (node <= numNodes) row.push_back(node - 1);
+      EXPECT_EQ(sideNodes(plane.cell, side), row);
+      EXPECT_EQ(sideFace(plane.cell, side), row.size() == 2 ? Face::Line2 : Face::Line3);
+    }
+    const Tabulation t = tabulate(plane.cell);
+    const std::vector<double> matrix = extrapolation(plane.cell, t);
+    for (const Exponents& e : {Exponents{0, 0, 0}, {1, 0, 0}, {0, 1, 0}})
+      for (int n = 0; n < numNodes && t.numPoints > 1; ++n) {
+        double sum = 0;
+        for (int q = 0; q < t.numPoints; ++q)
+          sum += matrix[n * t.numPoints + q] * monomial(e, &t.points[2 * q], 2);
+        EXPECT_NEAR(sum, monomial(e, &nodes[2 * n], 2), 1e-12);
+      }
   }
 }
 

@@ -6,6 +6,7 @@
 
 #include "atrapos/linear/MakeTangentSolver.hpp"
 #include "atrapos/path/SeriesStep.hpp"
+#include "support/Checks.hpp"
 #include "support/Model.hpp"
 #include "support/Vectors.hpp"
 
@@ -14,58 +15,6 @@ using namespace atrapos::fem::test;
 namespace path = atrapos::path;
 
 namespace {
-
-path::Series series(FeProblem& problem, const Numbers& u, double lambda, int order) {
-  atrapos::linear::TangentSolverOptions options;
-  options.symmetric = problem.symmetric();
-  const auto solver = atrapos::linear::makeTangentSolver(options);
-  path::Calls calls(problem, *solver);
-  path::SeriesRequest request;
-  request.order = order;
-  return path::buildSeries(calls, {vectorOf(problem, u), lambda}, request);
-}
-
-/// U0 need not be an equilibrium: its own residual R0 is constant along the series and taken off.
-void checkOrders(FeModel model) {
-  const int numDofs = 3 * model.numNodes;
-  const Supports supports = model.supports;
-  std::vector<char> used(model.numNodes, 0);
-  for (const auto& term : model.terms)
-    for (int n : term->nodes()) used[n] = 1;
-  FeProblem problem(std::move(model));
-  const double lambda0 = 0.4;
-  Numbers u0 = FeProblem::values(*problem.initialState(lambda0));
-  const Numbers perturbation = randomNumbers(numDofs, 0.01, 41);
-  for (int d = 0; d < numDofs; ++d)
-    if (!supports.fixed(d) && used[d / 3]) u0[d] += perturbation[d];
-  const Numbers R0 = residual(problem, u0, lambda0).r;
-
-  const int longest = 12;
-  const path::Series reference = series(problem, u0, lambda0, longest);
-  const double unit = std::pow(reference.norm(1) / reference.norm(longest), 1.0 / (longest - 1));
-  ASSERT_TRUE(std::isfinite(unit));
-
-  for (int K : {1, 3, 6, 10}) {
-    SCOPED_TRACE("order " + std::to_string(K));
-    const path::Series part = series(problem, u0, lambda0, K);
-    auto u = zeroVector(problem);
-    const auto left = [&](double a) {
-      const double lambda = part.evaluate(a, *u);
-      const Numbers values = FeProblem::values(*u);
-      for (int d = 0; d < numDofs; ++d)  // the series keeps to the supports
-        if (supports.fixed(d)) {
-          EXPECT_NEAR(values[d], supports.at(d, lambda), 1e-14);
-        }
-      const auto r = residual(problem, values, lambda);
-      return norm(sum(r.r, -1, R0)) / r.norm.scale;
-    };
-    // Where the remainder is about 1e-8 of its size at the unit: far above rounding at a/2 too (1e-12 for
-    // K = 10), and a small against the radius, so that order K+2 adds to the rate no more than about a/unit.
-    const double a = std::pow(1e-8, 1.0 / (K + 1)) * unit;
-    const double rate = std::log2(left(a) / left(a / 2));
-    EXPECT_NEAR(rate, K + 1, 0.25);
-  }
-}
 
 class SeriesOfCells : public testing::TestWithParam<Topology> {};
 
@@ -115,9 +64,8 @@ TEST(Series, HistoriesStartAfresh) {
 TEST(Series, HistoryBytes) {
   const Mesh mesh = box(Topology::Hex8);  // 18 cells of 8 points
   FeModel model;
-  model.numNodes = mesh.numNodes();
+  model.dofs = DofMap::displacements(mesh.numNodes());
   model.terms = solidTerms(mesh);
-  model.supports = Supports(mesh.numNodes());
   FeProblem problem(std::move(model));
   const auto shape = atrapos::taylor::historyShape(ExponentialSolid{});
   const std::size_t batches = (18 + kLanes - 1) / kLanes;

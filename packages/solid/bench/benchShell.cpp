@@ -57,7 +57,7 @@ Case hex20(int n) {
   const auto cell = fem::tabulate(fem::Topology::Hex20, 5);
   fem::FeModel model = solidModel(mesh, material, &cell);
   for (int k : fem::test::nodesOfSet(mesh, "x_min"))
-    for (int i = 0; i < 3; ++i) model.supports.prescribe(k, i, 0, 0);
+    for (int i = 0; i < 3; ++i) model.prescribe(k, i, 0, 0);
   fem::addSurfaceForce(mesh, fem::test::sideSet(mesh, "x_max"), {0, 0, -force}, model.load);
   return {"HEX20 " + std::to_string(n), std::make_unique<fem::FeProblem>(std::move(model)),
           3 * fem::test::nodesOfSet(mesh, "x_max_mid").at(0) + 2};

@@ -26,10 +26,10 @@ path::Series series(fem::FeProblem& problem, const Numbers& u, double lambda, in
 
 }  // namespace
 
-Numbers randomState(const fem::Supports& supports, double amplitude, unsigned seed) {
-  Numbers u = randomNumbers(3 * supports.numNodes(), amplitude, seed);
+Numbers randomState(const fem::FeModel& model, double amplitude, unsigned seed) {
+  Numbers u = randomNumbers(model.dofs.numDofs(), amplitude, seed);
   for (std::size_t d = 0; d < u.size(); ++d)
-    if (supports.fixed(static_cast<int>(d))) u[d] = 0;
+    if (model.supports.fixed(static_cast<int>(d))) u[d] = 0;
   return u;
 }
 

@@ -5,7 +5,7 @@
 namespace atrapos::solid::test {
 
 /// A state off the linear range: random displacements of this size at free dofs, 0 at the supports.
-Numbers randomState(const fem::Supports& supports, double amplitude, unsigned seed);
+Numbers randomState(const fem::FeModel& model, double amplitude, unsigned seed);
 
 /// Central differences of the residual against the tangent along `direction` (zero at prescribed dofs): their
 /// error falls like h^2.

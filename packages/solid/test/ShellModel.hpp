@@ -22,25 +22,24 @@ std::unique_ptr<fem::Term> shellTerm(const ShellGrid& grid, const SaintVenantKir
 inline fem::FeModel shellModel(const ShellGrid& grid, const SaintVenantKirchhoff& material,
                                const ShellCubature& cubature = {}, Shear shear = Shear::compatible) {
   fem::FeModel model;
-  model.numNodes = 2 * grid.numNodes();
+  model.dofs = fem::DofMap::displacements(2 * grid.numNodes());
   model.terms.push_back(shellTerm(grid, material, cubature, shear));
-  model.supports = fem::Supports(model.numNodes);
-  model.constantLoad.assign(3 * model.numNodes, 0.0);
-  model.load.assign(3 * model.numNodes, 0.0);
+  model.constantLoad.assign(model.dofs.numDofs(), 0.0);
+  model.load.assign(model.dofs.numDofs(), 0.0);
   return model;
 }
 
 /// Holds components ("x", "yz", ...) of v at these nodes.
 inline void hold(fem::FeModel& model, const std::vector<int>& nodes, const std::string& components) {
   for (int n : nodes)
-    for (char c : components) model.supports.prescribe(n, c - 'x', 0, 0);
+    for (char c : components) model.prescribe(n, c - 'x', 0, 0);
 }
 
 /// The same of w.
 inline void holdDirector(fem::FeModel& model, const ShellGrid& grid, const std::vector<int>& nodes,
                          const std::string& components) {
   for (int n : nodes)
-    for (char c : components) model.supports.prescribe(grid.director(n), c - 'x', 0, 0);
+    for (char c : components) model.prescribe(grid.director(n), c - 'x', 0, 0);
 }
 
 /// Symmetry about a plane with this normal axis: that component of v and w.

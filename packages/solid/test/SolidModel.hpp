@@ -15,11 +15,10 @@ using fem::test::Numbers;
 inline fem::FeModel solidModel(const fem::Mesh& mesh, const SaintVenantKirchhoff& law,
                                const fem::Tabulation* cell = nullptr) {
   fem::FeModel model;
-  model.numNodes = mesh.numNodes();
+  model.dofs = fem::DofMap::displacements(mesh.numNodes());
   for (const fem::Block& block : mesh.blocks)
     model.terms.push_back(fem::lawTerm(
         fem::pointLaw(law), fem::volumePoints(mesh, block, cell ? *cell : fem::tabulate(block.topology))));
-  model.supports = fem::Supports(mesh.numNodes());
   model.constantLoad.assign(3 * mesh.numNodes(), 0.0);
   model.load.assign(3 * mesh.numNodes(), 0.0);
   return model;

@@ -32,7 +32,7 @@ struct Bar {
     fem::FeModel model = solidModel(mesh, SaintVenantKirchhoff::fromYoung(E, nu));
     const char* planes[3] = {"x_min", "y_min", "z_min"};
     for (int i = 0; i < 3; ++i)
-      for (int n : nodesOfSet(mesh, planes[i])) model.supports.prescribe(n, i, 0.0, 0.0);
+      for (int n : nodesOfSet(mesh, planes[i])) model.prescribe(n, i, 0.0, 0.0);
     fem::addSurfaceForce(mesh, sideSet(mesh, "x_max"), {E, 0, 0}, model.load);  // lambda = P/(EA), A = 1
     problem = std::make_unique<fem::FeProblem>(std::move(model));
   }

@@ -89,7 +89,7 @@ Errors solve(fem::Topology cell, int divisions) {
   std::vector<char> seen(mesh.numNodes(), 0);
   for (int n : boundaryNodes(mesh)) {
     if (seen[n]++) continue;
-    for (int i = 0; i < 3; ++i) model.supports.prescribe(n, i, 0.0, start[3 * n + i]);
+    for (int i = 0; i < 3; ++i) model.prescribe(n, i, 0.0, start[3 * n + i]);
   }
   // Degree 6: the error of the body force and of the error integrals is two orders below that of p = 2.
   const auto fine = fem::tabulate(cell, 6);

@@ -95,7 +95,7 @@ void prescribedPatch(const fem::Mesh& mesh, const fem::Tabulation& cell) {
   std::vector<char> outside(mesh.numNodes(), 0);
   for (int n : boundaryNodes(mesh)) {
     if (outside[n]++) continue;
-    for (int i = 0; i < 3; ++i) model.supports.prescribe(n, i, 0.0, exact[3 * n + i]);
+    for (int i = 0; i < 3; ++i) model.prescribe(n, i, 0.0, exact[3 * n + i]);
   }
   fem::FeProblem problem(std::move(model));
   ASSERT_GT(problem.numFreeDofs(), 0);
@@ -131,7 +131,7 @@ TEST_P(Patch, Tractions) {
   fem::FeModel model = solidModel(cube, material);
   const char* planes[3] = {"x_min", "y_min", "z_min"};
   for (int i = 0; i < 3; ++i)
-    for (int n : nodesOfSet(cube, planes[i])) model.supports.prescribe(n, i, 0.0, 0.0);
+    for (int n : nodesOfSet(cube, planes[i])) model.prescribe(n, i, 0.0, 0.0);
   fem::addTraction(cube, sideSet(cube, "y_max"), {0, s * (s * s - 1) / 2, 0}, model.load);
   fem::FeProblem problem(std::move(model));
   const Numbers exact = homogeneous(cube, A);

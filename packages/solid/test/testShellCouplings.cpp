@@ -20,8 +20,8 @@ namespace {
 using Node = std::array<double, 3>;
 
 /// Makes a vector keep to the couplings, at this rate of the load factor; masters first.
-void keepTo(const fem::Couplings& couplings, const fem::Supports& supports, double lambda, Numbers& u) {
-  for (const auto& c : couplings.resolved(supports)) {
+void keepTo(const fem::FeModel& model, double lambda, Numbers& u) {
+  for (const auto& c : model.couplings.resolved(model.dofs, model.supports)) {
     u[c.dof] = lambda * c.perLoadFactor;
     for (const auto& m : c.masters) u[c.dof] += m.factor * u[m.dof];
   }
@@ -35,18 +35,22 @@ struct RigidEnd {
   fem::RigidBody body;
 
   RigidEnd(int n, double thickness, double E, double nu)
-      : grid(shellGrid(n, 1, thickness, flat(10, 1))), body(2 * grid.numNodes(), {10, 0.5, 0}, 1.0) {
-    model.numNodes = 2 * grid.numNodes() + fem::RigidBody::numNodes;
+      : grid(shellGrid(n, 1, thickness, flat(10, 1))),
+        model(modelOf(grid)),
+        body(model, {10, 0.5, 0}, 1.0, E * thickness) {
     model.terms.push_back(shellTerm(grid, SaintVenantKirchhoff::fromYoung(E, nu)));
-    model.supports = fem::Supports(model.numNodes);
-    model.constantLoad.assign(3 * model.numNodes, 0.0);
-    model.load.assign(3 * model.numNodes, 0.0);
+    model.constantLoad.assign(model.dofs.numDofs(), 0.0);
+    model.load.assign(model.dofs.numDofs(), 0.0);
     clamp(model, grid, grid.lineI(0));
     for (int node : grid.lineI(2 * n)) {
-      body.attach(model.couplings, node, grid.x[node]);
-      body.attachDirector(model.couplings, grid.director(node), grid.D(node));
+      body.attach(model, node, grid.x[node]);
+      body.attachDirector(model, grid.director(node), grid.D(node));
     }
-    body.addTo(model, E * thickness);
+  }
+  static fem::FeModel modelOf(const ShellGrid& grid) {
+    fem::FeModel model;
+    model.dofs = fem::DofMap::displacements(2 * grid.numNodes());
+    return model;
   }
 };
 
@@ -65,13 +69,13 @@ TEST(ShellCouplings, TangentAndOrders) {
   const ShellGrid grid = shellGrid(3, 2, 0.2, cylinder(1, 0, 1.2, 0, 0.7));
   fem::FeModel model = shellModel(grid, SaintVenantKirchhoff::fromYoung(1, 0.3));
   clamp(model, grid, grid.lineI(0));
-  model.load = randomNumbers(3 * model.numNodes, 0.002, 3);
+  model.load = randomNumbers(model.dofs.numDofs(), 0.002, 3);
   const auto end = grid.lineI(6);
-  fem::couplePlane(model.couplings, end, {0.6, 0.1, -0.4});
+  fem::couplePlane(model.couplings, model.dofs, end, {0.6, 0.1, -0.4});
   model.couplings.add({3 * end[0], {{3 * end[0] + 1, 0.3}}, 0.0, 0.05});  // the leader itself is a slave
-  const Numbers u = randomState(model.supports, 0.02, 17);
-  Numbers direction = randomState(model.supports, 0.02, 18);
-  keepTo(model.couplings, model.supports, 0, direction);
+  const Numbers u = randomState(model, 0.02, 17);
+  Numbers direction = randomState(model, 0.02, 18);
+  keepTo(model, 0, direction);
   fem::FeProblem problem(std::move(model));
   expectTangent(problem, u, direction, 0.3);
   expectOrders(problem, u, 0.3);
@@ -79,10 +83,10 @@ TEST(ShellCouplings, TangentAndOrders) {
 
 TEST(RigidEnd, TangentAndOrders) {
   RigidEnd strip(3, 0.2, 1, 0.3);
-  strip.model.load = randomNumbers(3 * strip.model.numNodes, 0.002, 3);
-  const Numbers u = randomState(strip.model.supports, 0.02, 17);  // multipliers too
-  Numbers direction = randomState(strip.model.supports, 0.02, 18);
-  keepTo(strip.model.couplings, strip.model.supports, 0, direction);
+  strip.model.load = randomNumbers(strip.model.dofs.numDofs(), 0.002, 3);
+  const Numbers u = randomState(strip.model, 0.02, 17);  // multipliers too
+  Numbers direction = randomState(strip.model, 0.02, 18);
+  keepTo(strip.model, 0, direction);
   fem::FeProblem problem(std::move(strip.model));
   EXPECT_TRUE(problem.symmetric());
   EXPECT_EQ(problem.constraintPivots(), 6);
@@ -93,10 +97,10 @@ TEST(RigidEnd, TangentAndOrders) {
 // A rotation of everything costs nothing, and the six constraints see none.
 TEST(RigidEnd, RotationCostsNoForce) {
   RigidEnd strip(3, 0.2, 1, 0.3);
-  strip.model.supports = fem::Supports(strip.model.numNodes);
+  strip.model.supports = {};
   const fem::RigidBody body = strip.body;
   const ShellGrid grid = strip.grid;
-  const int numNodes = strip.model.numNodes;
+  const int numNodes = strip.model.dofs.numNodes();
   fem::FeProblem problem(std::move(strip.model));
   for (double angle : {0.3, 2.5}) {
     const double c = std::cos(angle) - 1, s = std::sin(angle);
@@ -201,15 +205,14 @@ struct HalfAndHalf {
       return SurfacePoint{{5 + 5 * s, t, 0}, {0, 0, 1}};
     });
     const int shift = 2 * grid.numNodes();  // first node of the solid
-    model.numNodes = shift + solid.numNodes();
+    model.dofs = fem::DofMap::displacements(shift + solid.numNodes());
     const auto material = SaintVenantKirchhoff::fromYoung(E, nu);
     model.terms.push_back(shellTerm(grid, material));
     // Full cubature: a row one cell wide and thick has hourglass modes with less.
     fem::PointSet points = fem::volumePoints(solid, solid.blocks[0], fem::tabulate(fem::Topology::Hex20, 5));
     for (int& n : points.nodes) n += shift;
     model.terms.push_back(fem::lawTerm(fem::pointLaw(material), points));
-    model.supports = fem::Supports(model.numNodes);
-    model.load.assign(3 * model.numNodes, 0.0);
+    model.load.assign(model.dofs.numDofs(), 0.0);
     for (int n : grid.lineI(0)) {
       int top = -1, bottom = -1, middle = -1;
       for (int m = 0; m < solid.numNodes(); ++m) {
@@ -219,12 +222,11 @@ struct HalfAndHalf {
         if (std::abs(X[2] + h / 2) < 1e-9) bottom = shift + m;
         if (std::abs(X[2]) < 1e-9) middle = shift + m;
       }
-      fem::coupleShellToSolid(model.couplings, n, grid.director(n), top, bottom);
-      if (middle >= 0) fem::coupleNode(model.couplings, middle, {{top, 0.5}, {bottom, 0.5}});
+      fem::coupleShellToSolid(model.couplings, model.dofs, n, grid.director(n), top, bottom);
+      if (middle >= 0) fem::coupleNode(model.couplings, model.dofs, middle, {{top, 0.5}, {bottom, 0.5}});
     }
     for (int m = 0; m < solid.numNodes(); ++m)
-      for (int i = 0; i < 3 && solid.coordinates[3 * m] < 1e-9; ++i)
-        model.supports.prescribe(shift + m, i, 0, 0);
+      for (int i = 0; i < 3 && solid.coordinates[3 * m] < 1e-9; ++i) model.prescribe(shift + m, i, 0, 0);
   }
 
   /// A line load per length at the free end, on v or w.

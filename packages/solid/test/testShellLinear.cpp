@@ -53,7 +53,7 @@ double hemisphere(int n, const ShellCubature& cubature = {}, Shear shear = Shear
   symmetric(model, grid, grid.lineI(0), 'y');
   symmetric(model, grid, grid.lineI(2 * n), 'x');
   const int a = grid.node(0, 0), b = grid.node(2 * n, 0);
-  model.supports.prescribe(a, 2, 0, 0);
+  model.prescribe(a, 2, 0, 0);
   model.load[3 * a] = 1;
   model.load[3 * b + 1] = -1;
   fem::FeProblem problem(std::move(model));
@@ -86,9 +86,9 @@ double morley(int n, double thickness, double p, Shear shear = Shear::compatible
   for (const auto& line : {grid.lineI(0), grid.lineI(2 * n), grid.lineJ(0), grid.lineJ(2 * n)})
     for (int node : line) edge[node] = 1;
   for (int node = 0; node < grid.numNodes(); ++node)
-    if (edge[node]) model.supports.prescribe(node, 2, 0, 0);
+    if (edge[node]) model.prescribe(node, 2, 0, 0);
   hold(model, {grid.node(0, 0)}, "xy");
-  model.supports.prescribe(grid.node(2 * n, 0), 1, 0, 0);
+  model.prescribe(grid.node(2 * n, 0), 1, 0, 0);
   addShellAreaForce(grid.elements(), midSurface, {0, 0, -1}, model.load);
   fem::FeProblem problem(std::move(model));
   const double D = std::pow(thickness, 3) / (12 * (1 - 0.09));
@@ -110,7 +110,7 @@ double clampedPlateError(int n, double t, Shear shear = Shear::compatible) {
   for (int k = 0; k < grid.numNodes(); ++k)
     for (int d : {3 * k, 3 * grid.director(k)})
       for (int i = 0; i < 3 && edge[k]; ++i)
-        if (!model.supports.fixed(d + i)) model.supports.prescribe(d / 3, i, 0, 0);
+        if (!model.supports.fixed(d + i)) model.prescribe(d / 3, i, 0, 0);
   addShellAreaForce(grid.elements(), midSurface, {0, 0, 1}, model.load);
   fem::FeProblem problem(std::move(model));
   const double D = E * t * t * t / (12 * (1 - 0.09));

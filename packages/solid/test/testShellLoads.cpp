@@ -202,8 +202,7 @@ TEST(ShellLoads, FollowersTangentsAndOrders) {
   DeadEdgeMoment moment;
   moment.y = {1e-4, 1e-4};
   l.model.terms.push_back(deadEdgeMoment(elements, {{0, 0}}, moment));
-  const Numbers u = randomState(l.model.supports, 0.02, 17),
-                direction = randomState(l.model.supports, 0.02, 18);
+  const Numbers u = randomState(l.model, 0.02, 17), direction = randomState(l.model, 0.02, 18);
   fem::FeProblem problem(std::move(l.model));
   EXPECT_FALSE(problem.symmetric());
   expectTangent(problem, u, direction, 0.4);

@@ -104,7 +104,7 @@ ShellPath hemisphere(int n, int& a, int& b) {
   symmetric(model, grid, grid.lineI(2 * n), 'x');
   a = grid.node(0, 0);
   b = grid.node(2 * n, 0);
-  model.supports.prescribe(a, 2, 0, 0);
+  model.prescribe(a, 2, 0, 0);
   model.load[3 * a] = 200;
   model.load[3 * b + 1] = -200;
   fem::FeProblem problem(std::move(model));

@@ -65,12 +65,11 @@ template <class Material>
 fem::FeModel curvedModel(const Material& material) {
   const ShellGrid grid = curvedGrid();
   fem::FeModel model;
-  model.numNodes = 2 * grid.numNodes();
+  model.dofs = fem::DofMap::displacements(2 * grid.numNodes());
   model.terms.push_back(
       fem::enhancedTerm(fem::pointLaw(ShellLaw<Material>{material}), shellPoints(grid.elements())));
-  model.supports = fem::Supports(model.numNodes);
   clamp(model, grid, grid.lineI(0));
-  const Numbers load = randomNumbers(3 * model.numNodes, 0.002, 3);
+  const Numbers load = randomNumbers(model.dofs.numDofs(), 0.002, 3);
   model.load = load;
   model.constantLoad.assign(load.size(), 0.0);
   return model;
@@ -105,7 +104,7 @@ TYPED_TEST_SUITE(ShellOrders, Materials);
 
 TYPED_TEST(ShellOrders, TangentIsTheDerivativeOfTheResidual) {
   fem::FeModel model = curvedModel(make<TypeParam>());
-  const Numbers u = randomState(model.supports, 0.02, 17), direction = randomState(model.supports, 0.02, 18);
+  const Numbers u = randomState(model, 0.02, 17), direction = randomState(model, 0.02, 18);
   fem::FeProblem problem(std::move(model));
   expectTangent(problem, u, direction, 0);
 }
@@ -113,14 +112,14 @@ TYPED_TEST(ShellOrders, TangentIsTheDerivativeOfTheResidual) {
 // The enhanced parameters are solved anew at every state along the series.
 TYPED_TEST(ShellOrders, ResidualStartsAtOrderKPlusOne) {
   fem::FeModel model = curvedModel(make<TypeParam>());
-  const Numbers u0 = randomState(model.supports, 0.02, 17);
+  const Numbers u0 = randomState(model, 0.02, 17);
   fem::FeProblem problem(std::move(model));
   expectOrders(problem, u0, 0.4);
 }
 
 TEST(AssumedShearOrders, TangentAndOrders) {
   fem::FeModel model = assumedShearModel(UnsymmetricMaterial{});
-  const Numbers u = randomState(model.supports, 0.02, 17), direction = randomState(model.supports, 0.02, 18);
+  const Numbers u = randomState(model, 0.02, 17), direction = randomState(model, 0.02, 18);
   fem::FeProblem problem(std::move(model));
   expectTangent(problem, u, direction, 0);
   expectOrders(problem, u, 0.4);
@@ -129,7 +128,7 @@ TEST(AssumedShearOrders, TangentAndOrders) {
 // The enhanced parameters depend on the state alone: the same bits after any other state.
 TYPED_TEST(ShellOrders, ResidualHasNoMemory) {
   fem::FeModel model = curvedModel(make<TypeParam>());
-  const Numbers u = randomState(model.supports, 0.02, 17);
+  const Numbers u = randomState(model, 0.02, 17);
   fem::FeProblem problem(std::move(model));
   const Numbers before = residual(problem, u, 0).r;
   residual(problem, sum(u, 0.7, u), 0);
@@ -141,13 +140,13 @@ TYPED_TEST(ShellOrders, HistoriesStartAfresh) {
   const auto curvedProblem = [] { return fem::FeProblem(curvedModel(make<TypeParam>())); };
   fem::FeProblem used = curvedProblem(), fresh = curvedProblem();
   const fem::FeModel model = curvedModel(make<TypeParam>());
-  const Numbers u1 = randomState(model.supports, 0.02, 1), u2 = randomState(model.supports, 0.02, 2);
+  const Numbers u1 = randomState(model, 0.02, 1), u2 = randomState(model, 0.02, 2);
   const auto orderThree = [&](fem::FeProblem& problem, const Numbers& u, int maxOrder) {
     problem.beginSeries(*vectorOf(problem, u), 0, maxOrder);
     auto F = zeroVector(problem);
     for (int k = 1; k <= 3; ++k) {
       problem.orderRhs(k, *F);
-      problem.completeOrder(k, *vectorOf(problem, randomState(model.supports, 0.1, 50 + k)), 0);
+      problem.completeOrder(k, *vectorOf(problem, randomState(model, 0.1, 50 + k)), 0);
     }
     return fem::FeProblem::values(*F);
   };
@@ -170,10 +169,9 @@ TEST(ShellOrdersFailure, APointWithoutSeriesIsNamed) {
   const KinkedMaterial material{SaintVenantKirchhoff::fromYoung(1, 0.3)};
   const ShellGrid grid = shellGrid(2, 1, thickness, flat(1, 1));
   fem::FeModel model;
-  model.numNodes = 2 * grid.numNodes();
+  model.dofs = fem::DofMap::displacements(2 * grid.numNodes());
   model.terms.push_back(
       fem::enhancedTerm(fem::pointLaw(ShellLaw<KinkedMaterial>{material}), shellPoints(grid.elements())));
-  model.supports = fem::Supports(model.numNodes);
   fem::FeProblem problem(std::move(model));
   const Numbers u(3 * 2 * grid.numNodes(), 0.0);
   EXPECT_EQ(residual(problem, u, 0).norm.norm, 0.0);
@@ -189,9 +187,8 @@ TEST(ShellOrdersFailure, AStateOutsideTheLawsDomainIsNamed) {
   const auto material = SaintVenantKirchhoff{-1.0, 0.2};  // unstable: lambda + 2 mu < 0
   fem::FeModel model;
   const ShellGrid grid = curvedGrid();
-  model.numNodes = 2 * grid.numNodes();
+  model.dofs = fem::DofMap::displacements(2 * grid.numNodes());
   model.terms.push_back(shellTerm(grid, material));
-  model.supports = fem::Supports(model.numNodes);
   fem::FeProblem problem(std::move(model));
   const Numbers u = randomNumbers(3 * 2 * grid.numNodes(), 0.01, 1);
   const auto r = residual(problem, u, 0);

@@ -68,8 +68,8 @@ double patchError(const ShellGrid& grid, const Numbers& exact, Shear shear = She
   const auto outer = outline(grid);
   for (int n = 0; n < grid.numNodes(); ++n)
     for (int i = 0; i < 3 && outer[n]; ++i) {
-      model.supports.prescribe(n, i, 0, exact[3 * n + i]);
-      model.supports.prescribe(grid.director(n), i, 0, exact[3 * grid.director(n) + i]);
+      model.prescribe(n, i, 0, exact[3 * n + i]);
+      model.prescribe(grid.director(n), i, 0, exact[3 * grid.director(n) + i]);
     }
   fem::FeProblem problem(std::move(model));
   EXPECT_GT(problem.numFreeDofs(), 0);
@@ -124,8 +124,8 @@ void expectHomogeneousState(Shear shear) {
   const auto outer = outline(grid);
   for (int n = 0; n < grid.numNodes(); ++n)
     for (int i = 0; i < 3 && outer[n]; ++i) {
-      model.supports.prescribe(n, i, 0, exact[3 * n + i]);
-      model.supports.prescribe(grid.director(n), i, 0, exact[3 * grid.director(n) + i]);
+      model.prescribe(n, i, 0, exact[3 * n + i]);
+      model.prescribe(grid.director(n), i, 0, exact[3 * grid.director(n) + i]);
     }
   fem::FeProblem problem(std::move(model));
   ASSERT_GT(problem.numFreeDofs(), 0);
@@ -218,14 +218,13 @@ TEST(ShellPatch, ScaledDirectors) {
   const int nodes = 2 * grid.numNodes();
   const auto problemOf = [&](const ShellElements& elements) {
     fem::FeModel model;
-    model.numNodes = nodes;
+    model.dofs = fem::DofMap::displacements(nodes);
     model.terms.push_back(
         fem::enhancedTerm(fem::pointLaw(ShellLaw<SaintVenantKirchhoff>{material}), shellPoints(elements)));
     model.terms.push_back(followerPressure(elements, {0, 2, 5}, topSurface, {0.01, 0}));
     FollowerEdgeLoad load;
     load.moment.constant = 0.01;
     model.terms.push_back(followerEdgeLoad(elements, {{2, 1}, {5, 1}}, load));
-    model.supports = fem::Supports(nodes);
     model.load.assign(3 * nodes, 0.0);
     addShellAreaForce(elements, bottomSurface, {0.1, 0.2, 0.3}, model.load);
     return std::make_unique<fem::FeProblem>(std::move(model));

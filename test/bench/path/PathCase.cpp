@@ -31,7 +31,7 @@ PathCase strip(int refinement) {
   const fem::Mesh mesh = fem::stripMesh(options);
   fem::FeModel model = contact::test::solidModel(mesh, 220000, 0);
   for (const int node : fem::test::nodesOfSet(mesh, "x_min"))
-    for (int i = 0; i < 3; ++i) model.supports.prescribe(node, i, 0, 0);
+    for (int i = 0; i < 3; ++i) model.prescribe(node, i, 0, 0);
   fem::addSurfaceForce(mesh, fem::test::sideSet(mesh, "x_max"), {0, 0, -100}, model.load);
   contact::test::addContact(
       model, contact::test::contactPoints(mesh, "bottom", contact::test::Where::Quadrature, 8),

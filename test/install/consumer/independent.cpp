@@ -45,13 +45,12 @@ struct Cantilever {
     const fem::Mesh mesh = fem::boxMesh(box);
     fem::FeModel model;
     model.comm = comm;
-    model.numNodes = mesh.numNodes();
+    model.dofs = fem::DofMap::displacements(mesh.numNodes());
     const auto law = solid::SaintVenantKirchhoff::fromYoung(1000.0 + cells, 0.2);
     model.terms.push_back(fem::lawTerm(
         fem::pointLaw(law), fem::volumePoints(mesh, mesh.blocks[0], fem::tabulate(fem::Topology::Hex8))));
-    model.supports = fem::Supports(mesh.numNodes());
     for (const int node : mesh.nodeSets[fem::findNodeSet(mesh, "x_min")].nodes)
-      for (int i = 0; i < 3; ++i) model.supports.prescribe(node, i, 0, 0);
+      for (int i = 0; i < 3; ++i) model.prescribe(node, i, 0, 0);
     model.load.assign(3 * mesh.numNodes(), 0.0);
     fem::addSurfaceForce(mesh, mesh.sideSets[fem::findSideSet(mesh, "x_max")], {0, 0, -2}, model.load);
     fem::FeProblem problem(std::move(model));

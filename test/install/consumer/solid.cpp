@@ -23,15 +23,13 @@ struct Silent : path::Observer {
 static int follow() {
   const fem::Mesh mesh = fem::boxMesh({});  // the unit cube
   fem::FeModel model;
-  model.numNodes = mesh.numNodes();
+  model.dofs = fem::DofMap::displacements(mesh.numNodes());
   const auto law = solid::SaintVenantKirchhoff::fromYoung(1.0, 0.0);
   const auto points = fem::volumePoints(mesh, mesh.blocks[0], fem::tabulate(fem::Topology::Hex8));
   model.terms.push_back(fem::lawTerm(fem::pointLaw(law), points));
-  model.supports = fem::Supports(mesh.numNodes());
   const char* faces[] = {"x_min", "y_min", "z_min"};
   for (int i = 0; i < 3; ++i)
-    for (int node : mesh.nodeSets[fem::findNodeSet(mesh, faces[i])].nodes)
-      model.supports.prescribe(node, i, 0, 0);
+    for (int node : mesh.nodeSets[fem::findNodeSet(mesh, faces[i])].nodes) model.prescribe(node, i, 0, 0);
   model.load.assign(3 * mesh.numNodes(), 0.0);
   const double s = 1.25, force = s * (s * s - 1) / 2;
   fem::addSurfaceForce(mesh, mesh.sideSets[fem::findSideSet(mesh, "x_max")], {force, 0, 0}, model.load);

@@ -25,9 +25,9 @@ struct Column {
       : pressure(law), loadRate(loadPerFactor), driveRate(drivePerFactor) {
     mesh = fem::test::box(fem::Topology::Hex8, {1, 1, 1}, {1, 1, length}, {0, 0, gap});
     fem::FeModel model = solidModel(mesh, E, 0);
-    for (int n : fem::test::nodesOfSet(mesh, "x_min")) model.supports.prescribe(n, 0, 0, 0);
-    for (int n : fem::test::nodesOfSet(mesh, "y_min")) model.supports.prescribe(n, 1, 0, 0);
-    for (int n : fem::test::nodesOfSet(mesh, "z_max")) model.supports.prescribe(n, 2, 0, -driveRate);
+    for (int n : fem::test::nodesOfSet(mesh, "x_min")) model.prescribe(n, 0, 0, 0);
+    for (int n : fem::test::nodesOfSet(mesh, "y_min")) model.prescribe(n, 1, 0, 0);
+    for (int n : fem::test::nodesOfSet(mesh, "z_max")) model.prescribe(n, 2, 0, -driveRate);
     if (loadRate != 0)
       fem::addSurfaceForce(mesh, fem::test::sideSet(mesh, "z_min"), {0, 0, -loadRate}, model.load);
     RegularisedPressure atPoint = pressure;

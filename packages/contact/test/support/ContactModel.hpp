@@ -27,11 +27,10 @@ inline fem::FeModel solidModel(const fem::Mesh& mesh, double E, double nu,
                                const fem::Tabulation* cell = nullptr) {
   const auto law = solid::SaintVenantKirchhoff::fromYoung(E, nu);
   fem::FeModel model;
-  model.numNodes = mesh.numNodes();
+  model.dofs = fem::DofMap::displacements(mesh.numNodes());
   for (const fem::Block& block : mesh.blocks)
     model.terms.push_back(fem::lawTerm(
         fem::pointLaw(law), fem::volumePoints(mesh, block, cell ? *cell : fem::tabulate(block.topology))));
-  model.supports = fem::Supports(mesh.numNodes());
   model.constantLoad.assign(3 * mesh.numNodes(), 0.0);
   model.load.assign(3 * mesh.numNodes(), 0.0);
   return model;

@@ -76,7 +76,7 @@ void expectEventFunctions(fem::FeProblem& problem, const Numbers& u, double lamb
       // A multiplier is an unknown and its series its own; a gap's series misses what is beyond its order, as
       // the residual does.
       if (conditions[i] == 1) {
-        EXPECT_NEAR(g, values[bodyDofs + 3 * i], 1e-14);
+        EXPECT_NEAR(g, values[bodyDofs + i], 1e-14);
       } else {
         EXPECT_NEAR(g, gaps[i], 1e-4) << i;
       }

@@ -126,7 +126,6 @@ template <class Tool>
 void compareAll(const ToolStages& stages, const Tool& tool, const std::vector<Vector3>& places,
                 const std::vector<std::array<double, 3>>& toolData) {
   constexpr int toolInputs = contact::detail::PlaceInputs<Tool>::value;
-  constexpr bool moves = toolInputs == 4;
   constexpr int D = contact::detail::ToolData<Tool>::value;
   const auto dataBehind = [&](const std::vector<double>& before) {
     const int count = static_cast<int>(before.size());
@@ -146,15 +145,12 @@ void compareAll(const ToolStages& stages, const Tool& tool, const std::vector<Ve
                                                          : m == 3 ? 0.2
                                                                   : loadFactor; }),
       dataBehind({}), 3);
-  // Places are X + u with X = (0.1, -0.2, 0.3).
-  const double X[3] = {0.1, -0.2, 0.3};
   compare(
       *stagedCurveContact(stages, regularised), *fem::pointLaw(CurveContactLaw<Tool>{tool, regularised}),
-      numbers(moves ? 7 : 6,
-              [&](int p, int m) {
-                return m == 6 ? loadFactor : m % 2 == 0 ? places[p][m / 2] - X[m / 2] : m == 1 ? 0.5 : 0.0;
-              }),
-      dataBehind({Delta, X[0], X[1], X[2]}), 4);
+      numbers(toolInputs + 1, [&](int p, int m) { return m < 3    ? places[p][m]
+                                                         : m == 3 ? 0.5
+                                                                  : loadFactor; }),
+      dataBehind({Delta}), 4);
 }
 
 inline Motion someMotion(Random& random, bool turns) {

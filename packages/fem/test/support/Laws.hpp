@@ -45,6 +45,39 @@ struct ExponentialSolid {
   }
 };
 
+/// A body with a temperature theta, in: H (9), theta, grad theta (3); potential
+///     mu g:g + a/2 (tr g)^2 + c (e^theta - 1) tr g + (k/2) e^theta |grad theta|^2
+/// of which the derivative by theta counts `source` times: symmetric where that is 1.
+template <int source>
+struct HeatedSolid {
+  static constexpr int numInputs = 13, numOutputs = 13, numData = 0;
+  static constexpr bool symmetric = source == 1;
+
+  double a = 1.0, mu = 0.8, c = 0.4, k = 0.6;
+
+  template <class T>
+  KOKKOS_INLINE_FUNCTION void operator()(const T* in, const taylor::Passive<T>*, T* out) const {
+    using std::exp;
+    const T* H = in;
+    const T* q = in + 10;
+    T g[9], S[9];
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j)
+        g[3 * i + j] =
+            0.5 * (H[3 * i + j] + H[3 * j + i] + (H[i] * H[j] + H[3 + i] * H[3 + j] + H[6 + i] * H[6 + j]));
+    const T e = exp(in[9]), trace = g[0] + g[4] + g[8];
+    const T volumetric = a * trace + c * e - c;
+    for (int m = 0; m < 9; ++m) S[m] = (2 * mu) * g[m];
+    for (int i = 0; i < 3; ++i) S[4 * i] = S[4 * i] + volumetric;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j)
+        out[3 * i + j] = S[3 * i + j] + H[3 * i] * S[j] + H[3 * i + 1] * S[3 + j] + H[3 * i + 2] * S[6 + j];
+    const T square = q[0] * q[0] + q[1] * q[1] + q[2] * q[2];
+    out[9] = double(source) * (e * (c * trace + (k / 2) * square));
+    for (int i = 0; i < 3; ++i) out[10 + i] = k * (e * q[i]);
+  }
+};
+
 /// A force towards the origin that saturates, c x / (1 + x.x): energy (c/2) log(1 + x.x).
 struct CentralForce {
   static constexpr int numInputs = 3, numOutputs = 3, numData = 0;

@@ -20,16 +20,15 @@ std::vector<std::unique_ptr<Term>> solidTerms(const Mesh& mesh) {
 
 FeModel busyModel(const Mesh& mesh) {
   FeModel model;
-  model.numNodes = mesh.numNodes();
+  model.dofs = DofMap::displacements(mesh.numNodes());
   model.terms = solidTerms(mesh);
-  model.supports = Supports(mesh.numNodes());
   for (int n = 0; n < mesh.numNodes(); ++n) {
     if (mesh.coordinates[3 * n] < 0.1) {
-      model.supports.prescribe(n, 0, 0.01, 0.0);
-      model.supports.prescribe(n, 1, 0.0, 0.0);
-      model.supports.prescribe(n, 2, 0.02, 0.3);
+      model.prescribe(n, 0, 0.01, 0.0);
+      model.prescribe(n, 1, 0.0, 0.0);
+      model.prescribe(n, 2, 0.02, 0.3);
     } else if (mesh.coordinates[3 * n] > 0.9 && mesh.coordinates[3 * n + 2] > 0.9) {
-      model.supports.prescribe(n, 1, 0.0, -0.2);
+      model.prescribe(n, 1, 0.0, -0.2);
     }
   }
   model.constantLoad = randomNumbers(3 * mesh.numNodes(), 0.01, 21);

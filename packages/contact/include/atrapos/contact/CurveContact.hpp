@@ -13,16 +13,11 @@
 
 namespace atrapos::contact {
 
-/// The points' nodes and parameters of contact with its curve as unknown, and their data but for the tool's.
-struct CurvePoints {
-  fem::PointSet points;
-  std::vector<double> data;  ///< [point] Delta, X
-};
-
-/// Gives the model a node more for every point, whose first unknown is t, a part of the path parameter.
-/// Throws std::invalid_argument for gaps that the law cannot have.
-CurvePoints withCurves(fem::FeModel& model, const fem::PointSet& points, const RegularisedPressure& pressure,
-                       const std::vector<double>& gaps);
+/// Gives the model a place t on its curve for every point, a parameter of the law; t is the law's last input
+/// but for the load factor. `gaps`: Delta of every point. Throws std::invalid_argument for those that the law
+/// cannot have.
+fem::PointSet withCurves(fem::FeModel& model, const fem::PointSet& points,
+                         const RegularisedPressure& pressure, const std::vector<double>& gaps);
 
 /// Adds contact of these points by law (15) with its curve as unknown; `gaps`: Delta of every point. The term
 /// is the model's last. Weights of the points multiply the forces, as in LawTerm.
@@ -31,9 +26,8 @@ void addCurveContact(fem::FeModel& model, const fem::PointSet& points, const Too
                      const RegularisedPressure& pressure, const std::vector<double>& gaps) {
   tool.validate();
   using Law = CurveContactLaw<Tool>;
-  const CurvePoints curves = withCurves(model, points, pressure, gaps);
-  model.terms.push_back(
-      fem::lawTerm(fem::pointLaw(Law{tool, pressure}), fem::withUnknowns(curves.points), curves.data));
+  const fem::PointSet curves = withCurves(model, points, pressure, gaps);
+  model.terms.push_back(fem::lawTerm(fem::pointLaw(Law{tool, pressure}), curves, gaps));
 }
 
 /// The same with a set of patches, at rest (PatchTool) or moving (MovingTool<PatchTool>).
@@ -42,17 +36,12 @@ void addCurveContact(fem::FeModel& model, const fem::PointSet& points, const Pat
                      const RegularisedPressure& pressure, const std::vector<double>& gaps) {
   search.tool.validate();
   using Law = CurveContactLaw<Tool>;
-  const CurvePoints curves = withCurves(model, points, pressure, gaps);
+  const fem::PointSet curves = withCurves(model, points, pressure, gaps);
   std::vector<double> data;
-  for (int p = 0; p < curves.points.numEntities; ++p) {
-    data.insert(data.end(), &curves.data[Law::toolData * p], &curves.data[Law::toolData * p] + Law::toolData);
-    data.insert(data.end(), {-1, 0, 0});
-  }
-  const auto pieces =
-      search.pieces(Law::numInputs, Law::toolData,
-                    [](const double* in, const double* own, double* x) { Law::placeOf(in, own, x); });
-  model.terms.push_back(fem::lawTerm(fem::pointLaw(Law{search.tool, pressure}),
-                                     fem::withUnknowns(curves.points), data, pieces));
+  for (const double gap : gaps) data.insert(data.end(), {gap, -1, 0, 0});
+  const auto pieces = search.pieces(Law::numInputs, Law::toolData,
+                                    [](const double* in, const double*, double* x) { Law::placeOf(in, x); });
+  model.terms.push_back(fem::lawTerm(fem::pointLaw(Law{search.tool, pressure}), curves, data, pieces));
 }
 
 }  // namespace atrapos::contact

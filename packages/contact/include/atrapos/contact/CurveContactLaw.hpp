@@ -17,16 +17,15 @@ namespace atrapos::contact {
 /// Both are entire in t, t = 0 is h = Delta, and dh/dt < 0 everywhere; c = 0 is the barrier form. Needs Delta
 /// > c eta.
 ///
-/// in:   (u_x, t, u_y, -, u_z, -) of fem::DisplacementAndUnknown; with a tool that moves also the load
-/// factor.
-/// data: Delta, X, then the tool's own.
-/// out:  (-R n_x, -R'(t) (h - h(t)), -R n_y, 0, -R n_z, 0), the derivatives of one potential where n = grad
-/// h. A point that is over no part of the tool has h = Delta and feels no force.
+/// in:   (x, t); with a tool that moves also the load factor.
+/// data: Delta, then the tool's own.
+/// out:  (-R n, -R'(t) (h - h(t))), the derivatives of one potential where n = grad h. A point that is over
+/// no part of the tool has h = Delta and feels no force.
 template <class Tool>
 struct CurveContactLaw {
   static constexpr int numPlace = detail::PlaceInputs<Tool>::value;
-  static constexpr int numToolData = detail::ToolData<Tool>::value, toolData = 4;  // and where they begin
-  static constexpr int numInputs = 3 + numPlace, numOutputs = 6, numData = toolData + numToolData;
+  static constexpr int numToolData = detail::ToolData<Tool>::value, toolData = 1;  // and where they begin
+  static constexpr int numInputs = 1 + numPlace, numOutputs = 4, numData = toolData + numToolData;
   static constexpr bool symmetric = Tool::symmetric;
 
   Tool tool;
@@ -37,17 +36,16 @@ struct CurveContactLaw {
     using std::exp;
     T projection[Tool::numUnknowns];
     project(in, data, projection);
-    const T up = exp(in[1]), down = exp(-in[1]);
+    const T up = exp(in[3]), down = exp(-in[3]);
     const T R = pressure.eta * (up - 1.0);
     for (int i = 0; i < 3; ++i)
       if constexpr (numToolData > 0)
-        out[2 * i] = -(R * projection[1 + i]) * tool.carries(data + toolData);
+        out[i] = -(R * projection[1 + i]) * tool.carries(data + toolData);
       else
-        out[2 * i] = -(R * projection[1 + i]);
+        out[i] = -(R * projection[1 + i]);
     const T mismatch =
         projection[0] - data[0] * down + (pressure.compliance * pressure.eta) * (up + down - 2.0);
-    out[1] = -(pressure.eta * (up * mismatch));
-    out[3] = out[5] = T(0.0);
+    out[3] = -(pressure.eta * (up * mismatch));
   }
 
   static constexpr int numObserved = 2;
@@ -56,7 +54,7 @@ struct CurveContactLaw {
     double projection[Tool::numUnknowns];
     project(in, data, projection);
     observed[0] = projection[0];
-    observed[1] = pressure.eta * std::expm1(in[1]);
+    observed[1] = pressure.eta * std::expm1(in[3]);
     if constexpr (numToolData > 0)
       if (tool.carries(data + toolData) == 0) {
         observed[0] = std::numeric_limits<double>::infinity();
@@ -64,11 +62,11 @@ struct CurveContactLaw {
       }
   }
 
-  /// The place (x), or (x, load factor), of a point with these inputs and data.
+  /// The place (x), or (x, load factor), of a point with these inputs.
   template <class T>
-  KOKKOS_INLINE_FUNCTION static void placeOf(const T* in, const taylor::Passive<T>* data, T* place) {
-    for (int i = 0; i < 3; ++i) place[i] = in[2 * i] + data[1 + i];
-    if constexpr (numPlace == 4) place[3] = in[6];
+  KOKKOS_INLINE_FUNCTION static void placeOf(const T* in, T* place) {
+    for (int i = 0; i < 3; ++i) place[i] = in[i];
+    if constexpr (numPlace == 4) place[3] = in[4];
   }
 
   void validate() const {
@@ -80,7 +78,7 @@ struct CurveContactLaw {
   template <class T>
   KOKKOS_INLINE_FUNCTION void project(const T* in, const taylor::Passive<T>* data, T* projection) const {
     T place[numPlace];
-    placeOf(in, data, place);
+    placeOf(in, place);
     for (int i = 0; i < Tool::numUnknowns; ++i) projection[i] = T(0.0);
     if constexpr (numToolData > 0) {
       taylor::solveImplicit<numPlace, Tool::numUnknowns, numToolData>(tool, static_cast<const T*>(place),

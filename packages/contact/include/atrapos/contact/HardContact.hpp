@@ -18,7 +18,7 @@ template <class Tool>
 void addHardContact(fem::FeModel& model, const fem::PointSet& points, const Tool& tool) {
   tool.validate();
   using Law = HardContactLaw<Tool>;
-  const fem::PointSet own = fem::withMultipliers(model, points);
+  const fem::UnilateralPoints own = fem::withMultipliers(model, points);
   model.terms.push_back(fem::unilateralTerm(fem::pointLaw(Law{tool}), own));
 }
 
@@ -37,9 +37,9 @@ template <class Tool>
 void addHardContact(fem::FeModel& model, const fem::PointSet& points, const PatchSearch<Tool>& search) {
   search.tool.validate();
   using Law = HardContactLaw<Tool>;
-  const fem::PointSet own = fem::withMultipliers(model, points);
+  const fem::UnilateralPoints own = fem::withMultipliers(model, points);
   model.terms.push_back(fem::unilateralTerm(fem::pointLaw(Law{search.tool}), own,
-                                            search.overNothing(own.numPoints()), search.pieces(0)));
+                                            search.overNothing(own.points.numPoints()), search.pieces(0)));
 }
 
 /// The same of faces: the mean gap around a corner is that of the points that are over a patch.

@@ -49,17 +49,6 @@ struct ProjectionStage<PatchTool> {
   }
 };
 
-/// u (3) -> x = X + u. data: X.
-struct PlaceStage {
-  static constexpr bool stage = true, symmetric = false;
-  static constexpr int numInputs = 3, numOutputs = 3, numData = 3;
-
-  template <class T>
-  KOKKOS_INLINE_FUNCTION void operator()(const T* u, const taylor::Passive<T>* X, T* x) const {
-    for (int i = 0; i < 3; ++i) x[i] = u[i] + X[i];
-  }
-};
-
 /// x, lambda (4) -> where x is for somebody who moves with the tool (3).
 struct PullStage {
   static constexpr bool stage = true, symmetric = false;
@@ -138,10 +127,10 @@ struct HardStage {
   }
 };
 
-/// h, n, t (5) -> -R n_x, -R'(t) (h - h(t)), -R n_y, 0, -R n_z, 0, R (7): CurveContactLaw. data: Delta.
+/// h, n, t (5) -> -R n, -R'(t) (h - h(t)), R (5): CurveContactLaw. data: Delta.
 struct CurveStage {
   static constexpr bool stage = true, symmetric = false;
-  static constexpr int numInputs = 5, numOutputs = 7, numData = 1;
+  static constexpr int numInputs = 5, numOutputs = 5, numData = 1;
   RegularisedPressure pressure;
 
   template <class T>
@@ -149,11 +138,10 @@ struct CurveStage {
     using std::exp;
     const T up = exp(in[4]), down = exp(-in[4]);
     const T R = pressure.eta * (up - 1.0);
-    for (int i = 0; i < 3; ++i) out[2 * i] = -(R * in[1 + i]);
+    for (int i = 0; i < 3; ++i) out[i] = -(R * in[1 + i]);
     const T mismatch = in[0] - data[0] * down + (pressure.compliance * pressure.eta) * (up + down - 2.0);
-    out[1] = -(pressure.eta * (up * mismatch));
-    out[3] = out[5] = T(0.0);
-    out[6] = R;
+    out[3] = -(pressure.eta * (up * mismatch));
+    out[4] = R;
   }
 };
 

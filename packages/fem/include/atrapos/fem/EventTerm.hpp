@@ -24,7 +24,7 @@ class EventTerm : public Term {
   /// Coefficient k of the own conditions' event functions on the series under way: the part that sums over
   /// all ranks, and is to be divided by `covered`, too. k = 0 after beginSeries; k >= 1 after addOrder(k),
   /// with U_k and lambda_k given.
-  virtual std::vector<double> eventOrder(int k, const ConstField& Uk, double lambdaK) const = 0;
+  virtual std::vector<double> eventOrder(int k, const ConstDofView& Uk, double lambdaK) const = 0;
   /// What each own condition has of the surface on the series under way, in such parts: 1 where all of it is
   /// there, as it is without pieces; 0 of a free condition that has nothing to come into contact with.
   virtual std::vector<double> covered() const = 0;
@@ -33,11 +33,11 @@ class EventTerm : public Term {
   struct MeanGaps {
     std::vector<double> sum, covered;
   };
-  virtual MeanGaps gapsAt(const ConstField& u, double lambda) const = 0;
+  virtual MeanGaps gapsAt(const ConstDofView& u, double lambda) const = 0;
   /// Gaps below this are the rounding of coordinates.
-  virtual double touching(const ConstField& u) const = 0;
+  virtual double touching(const ConstDofView& u) const = 0;
   /// [own condition] not 0: at this state one of its points here is on another piece than in the series.
-  virtual std::vector<double> moved(const ConstField& u, double lambda) const = 0;
+  virtual std::vector<double> moved(const ConstDofView& u, double lambda) const = 0;
 
   /// Whether the own conditions are active, 1, or free, 0.
   virtual void setConditions(const std::vector<int>& conditions) = 0;

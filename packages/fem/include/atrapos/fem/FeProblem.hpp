@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "atrapos/fem/Coupling.hpp"
+#include "atrapos/fem/DofMap.hpp"
 #include "atrapos/fem/Support.hpp"
 #include "atrapos/fem/Term.hpp"
 #include "atrapos/path/Problem.hpp"
@@ -20,33 +21,32 @@ namespace atrapos::fem {
 
 /// What a finite-element problem is made of.
 struct FeModel {
-  int numNodes = 0;
+  DofMap dofs;
   std::vector<std::unique_ptr<Term>> terms;
-  Supports supports{0};
+  Supports supports;
   Couplings couplings;
-  /// Dofs that are multipliers of constraints (fem::RigidBody): each owes the tangent one negative pivot.
-  int numMultipliers = 0;
-  std::vector<double> constantLoad;  ///< F_0, [3 node + component], dead
+  std::vector<double> constantLoad;  ///< F_0, [dof], dead
   std::vector<double> load;          ///< F_1: the dead load at load factor 1
   /// Communicator of the problem's maps; null: Tpetra's default, all ranks of the program.
   linear::RCP<const Teuchos::Comm<int>> comm;
-  /// Dofs that are parameters t of local laws (places on contact curves), not displacements; each owes a
-  /// negative pivot.
-  std::vector<int> parameters;
   /// w_t: the square of the change of the load factor that counts in the path parameter as much as a change
-  /// of one t by 1.
+  /// of one parameter t of a law (Role::parameter: places on contact curves) by 1.
   double parameterWeight = 1;
   /// Where the mesh came in parts, [term][entity] the rank that works on an element; terms at the end and
   /// terms of others than elements may have empty lists. Empty: METIS decides.
   std::vector<std::vector<int>> ranks;
-  /// What messages call a dof, [3 node + component]; empty: "component z of node 17", nodes from 1.
+  /// What messages call a dof; empty: DofMap::nameOf.
   std::function<std::string(int dof)> dofName;
+
+  /// Prescribes a component of a node's first field, or of the named one. Throws std::invalid_argument as
+  /// Supports::prescribe does, and where the node has no such component.
+  void prescribe(int node, int component, double value, double perLoadFactor, const std::string& field = {});
 };
 
 /// R(u, lambda) = sum of the terms F(u, lambda) - F_0 - lambda F_1 with Dirichlet conditions, as a
 /// path::Problem.
 ///
-/// The unknowns are all nodal displacements, 3 a node. The row of a prescribed dof reads s (u - value -
+/// The unknowns are those of FeModel::dofs. The row of a prescribed dof reads s (u - value -
 /// lambda rate) = 0 with s the size of the tangent's diagonal, and its column is carried to the load
 /// direction (the state and every series satisfy the condition to rounding), so the tangent stays symmetric
 /// and its inertia is that of the free dofs. A state off its supports is out of balance by that row. Nodes
@@ -103,7 +103,7 @@ class FeProblem final : public path::Problem {
   linear::RCP<path::Vector> initialState(double lambda) const;
 
   /// Forces that the supports exert on the body at (u, lambda), with those of coupled dofs, zero at free
-  /// dofs: [3 node + component], on every rank.
+  /// dofs: [dof], on every rank.
   std::vector<double> reactions(const path::Vector& u, double lambda) const;
 
   /// Nodal forces F(u, lambda) of one term.
@@ -112,15 +112,15 @@ class FeProblem final : public path::Problem {
   /// Named values of term i at all its points, those of all ranks' entities, on every rank.
   PointValues observe(int i, const path::Vector& u, double lambda) const;
 
-  /// The state as the terms read it: with several ranks, three entries for each node of this rank. Holds
-  /// until the next call to the problem.
-  ConstField onRank(const path::Vector& u) const;
+  /// The state as the terms read it: the unknowns of this rank's nodes. Holds until the next call to the
+  /// problem.
+  ConstDofView onRank(const path::Vector& u) const;
 
   /// What the problem was made of; its terms are the problem's own, with several ranks those of this rank's
   /// part.
   const FeModel& model() const;
 
-  /// A vector of the map as plain numbers [3 node + component], on every rank. Collective.
+  /// A vector of the map as plain numbers [dof], on every rank. Collective.
   static std::vector<double> values(const path::Vector& u);
 
   const Term& term(int i) const;
@@ -137,6 +137,6 @@ class FeProblem final : public path::Problem {
 };
 
 /// View of a vector's values for the element loops.
-ConstField field(const path::Vector& u);
+ConstDofView field(const path::Vector& u);
 
 }  // namespace atrapos::fem

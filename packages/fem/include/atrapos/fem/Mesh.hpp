@@ -10,10 +10,32 @@ namespace atrapos::fem {
 /// Shells are quadrilaterals in space, given by their middle surface. Their sides are: 1 the top face, whose
 /// outward normal is that of the node order (counter-clockwise seen from the tip of the normal); 2 the bottom
 /// face; 3 to 6 the edges from corner 1 to 2, 2 to 3, 3 to 4, 4 to 1.
-enum class Topology { Hex8, Hex20, Hex27, Tet4, Tet10, Wedge6, Wedge15, Shell4, Shell8, Shell9 };
+///
+/// Plane cells (quadrilaterals and triangles) are the cross-sections of plane bodies, in the plane of x and
+/// y; their sides are their edges, counter-clockwise.
+enum class Topology {
+  Hex8,
+  Hex20,
+  Hex27,
+  Tet4,
+  Tet10,
+  Wedge6,
+  Wedge15,
+  Shell4,
+  Shell8,
+  Shell9,
+  Quad4,
+  Quad8,
+  Quad9,
+  Tri3,
+  Tri6
+};
 
 /// Whether a cell is a surface in space that stands for a body with a thickness.
 bool isShell(Topology topology);
+
+/// Whether a cell is the cross-section of a plane body.
+bool isPlane(Topology topology);
 
 /// Cells of one topology.
 struct Block {
@@ -45,7 +67,7 @@ struct SideSet {
   std::vector<Side> sides;
 };
 
-/// A three-dimensional mesh in memory. Lengths are in the user's unit.
+/// A mesh in memory, in space, or with plane cells alone and z = 0. Lengths are in the user's unit.
 struct Mesh {
   std::string title;
   std::vector<double> coordinates;  ///< [node][x y z]
@@ -56,13 +78,17 @@ struct Mesh {
   std::vector<long long> elementIds;  ///< over all blocks; empty = 1, 2, ...
 
   int numNodes() const { return static_cast<int>(coordinates.size() / 3); }
+  /// 3; 2 where all cells are plane ones.
+  int dimension = 3;
+
   int numElements() const;
 };
 
 /// Number of nodes of a cell.
 int nodesPerElement(Topology topology);
 
-/// Exodus' name of a cell type: HEX8, HEX20, HEX27, TET4, TET10, WEDGE6, WEDGE15, SHELL4, SHELL8, SHELL9.
+/// Exodus' name of a cell type: HEX8, HEX20, HEX27, TET4, TET10, WEDGE6, WEDGE15, SHELL4, SHELL8, SHELL9,
+/// QUAD4, QUAD8, QUAD9, TRI3, TRI6.
 const char* topologyName(Topology topology);
 
 /// Position of the block, node set or side set with this name or (decimal) id; -1 where there is none.

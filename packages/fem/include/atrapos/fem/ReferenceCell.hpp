@@ -14,17 +14,17 @@
 /// where it is not.
 namespace atrapos::fem {
 
-/// Shape of a side of a cell, with its node count. Lines are the edges of shells.
+/// Shape of a side of a cell, with its node count. Lines are the edges of shells and plane cells.
 enum class Face { Tri3, Tri6, Quad4, Quad8, Quad9, Line2, Line3 };
 
-/// Whether a side is an edge of a shell.
+/// Whether a side is an edge.
 bool isLine(Face face);
 
 /// Shape functions of one cell or face at a set of reference points.
 struct Tabulation {
   int numNodes = 0;
   int numPoints = 0;
-  int dim = 0;                    ///< of the reference domain: solids 3, shells and faces 2, edges 1
+  int dim = 0;  ///< of the reference domain: solids 3, shells, plane cells and faces 2, edges 1
   std::vector<double> points;     ///< [point][dim] reference coordinates
   std::vector<double> weights;    ///< [point], sum = volume (area) of the reference domain; empty where the
                                   ///< points are the caller's own
@@ -46,6 +46,11 @@ struct Tabulation {
 /// | Shell4  | 2 x 2     | of the middle surface; the points through the thickness are the element's |
 /// | Shell8  | 2 x 2     | the same, reduced |
 /// | Shell9  | 3 x 3     | the same, full |
+/// | Quad4   | 2 x 2     | full |
+/// | Quad8   | 2 x 2     | reduced; one cell alone has one zero-energy mode beside the rigid ones |
+/// | Quad9   | 3 x 3     | full |
+/// | Tri3    | 1         | full: the strain is constant |
+/// | Tri6    | 3         | full: the strain is linear |
 ///
 /// A straight row of Hex20, one cell wide and one cell thick, keeps one such mode per cell even when clamped:
 /// use tabulate(Topology::Hex20, 5), 3 x 3 x 3 points, there. See docs/theory/elements.md. "Full" is meant
@@ -57,7 +62,7 @@ Tabulation tabulate(Topology topology);
 /// within 0 to 20, on tetrahedra 0 to 6.
 Tabulation tabulate(Topology topology, int degree);
 
-/// The cell at given reference points, [point][3], of a shell [point][2]; no weights. Throws
+/// The cell at given reference points, [point][dim]; no weights. Throws
 /// std::invalid_argument where the size is not a multiple of the dimension. Points outside the cell are
 /// allowed (the polynomials continue there).
 Tabulation tabulateAt(Topology topology, const std::vector<double>& points);
@@ -69,8 +74,7 @@ Tabulation tabulateFace(Face face, int degree);
 /// A face at given points, [point][2] (an edge: [point][1]) in its own reference coordinates; no weights.
 Tabulation tabulateFaceAt(Face face, const std::vector<double>& points);
 
-/// Reference coordinates of the nodes: [node][3] of a solid cell, [node][2] of a shell or face, [node][1] of
-/// an edge.
+/// Reference coordinates of the nodes, [node][dim].
 std::vector<double> referenceNodes(Topology topology);
 std::vector<double> referenceNodes(Face face);
 
@@ -82,16 +86,16 @@ Face sideFace(Topology topology, int side);
 
 /// The cell's local nodes on a side, 0-based, in the order that sideFace's shape functions expect; seen from
 /// outside they run counter-clockwise, so that x_xi cross x_eta points out of the cell. The two faces of a
-/// shell have the nodes of its middle surface, in opposite order; its edges run as the top face does. Throws
-/// std::out_of_range for a number that is no side.
+/// shell have the nodes of its middle surface, in opposite order; its edges run as the top face does, those
+/// of plane cells counter-clockwise. Throws std::out_of_range for a number that is no side.
 std::vector<int> sideNodes(Topology topology, int side);
 
 /// Matrix [node][point] that carries values at the cubature points to nodal values (smoothed nodal stresses):
 /// the weighted least-squares fit in the shape functions of the cell's vertices (trilinear for hexahedra,
-/// bilinear for shells, linear for tetrahedra, linear times linear for wedges), evaluated at all nodes. Exact
-/// for linear fields; a single point gives its value to every node. Throws std::invalid_argument where the
-/// tabulation has no weights, is not of this cell, or has points that determine no such fit (more than one,
-/// but too few or badly placed).
+/// bilinear for quadrilaterals, linear for tetrahedra and triangles, linear times linear for wedges),
+/// evaluated at all nodes. Exact for linear fields; a single point gives its value to every node. Throws
+/// std::invalid_argument where the tabulation has no weights, is not of this cell, or has points that
+/// determine no such fit (more than one, but too few or badly placed).
 std::vector<double> extrapolation(Topology topology, const Tabulation& tabulation);
 
 }  // namespace atrapos::fem

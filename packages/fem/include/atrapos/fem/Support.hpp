@@ -1,36 +1,40 @@
 #pragma once
 
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "atrapos/fem/DofMap.hpp"
 #include "atrapos/fem/Mesh.hpp"
 #include "atrapos/fem/ShellGeometry.hpp"
 
 namespace atrapos::fem {
 
-/// Dirichlet conditions u_i = value + lambda * perLoadFactor, dof by dof (3 a node).
+/// Dirichlet conditions u = value + lambda * perLoadFactor, dof by dof.
 class Supports {
  public:
-  explicit Supports(int numNodes);
+  /// Throws std::invalid_argument where the same dof was prescribed before with other numbers, and for dofs
+  /// below 0.
+  void prescribe(int dof, double value, double perLoadFactor);
 
-  /// More nodes behind those there are, free.
-  void addNodes(int count);
-
-  /// Prescribes one component (0, 1, 2) at a node. Throws std::invalid_argument where the same dof was
-  /// prescribed before with other numbers.
-  void prescribe(int node, int component, double value, double perLoadFactor);
-
-  int numNodes() const { return static_cast<int>(fixed_.size() / 3); }
-  bool fixed(int dof) const { return fixed_[dof] != 0; }
-  double value(int dof) const { return value_[dof]; }
-  double perLoadFactor(int dof) const { return rate_[dof]; }
-  double at(int dof, double lambda) const { return value_[dof] + lambda * rate_[dof]; }
+  bool fixed(int dof) const { return prescribed_.count(dof) > 0; }
+  double value(int dof) const { return of(dof).value; }
+  double perLoadFactor(int dof) const { return of(dof).rate; }
+  double at(int dof, double lambda) const { return of(dof).value + lambda * of(dof).rate; }
   bool driven() const;  ///< any perLoadFactor != 0
+  /// The largest dof that is prescribed; -1: none is.
+  int last() const { return prescribed_.empty() ? -1 : prescribed_.rbegin()->first; }
 
  private:
-  std::vector<char> fixed_;
-  std::vector<double> value_, rate_;
+  struct Prescribed {
+    double value = 0, rate = 0;
+  };
+  Prescribed of(int dof) const {
+    const auto found = prescribed_.find(dof);
+    return found == prescribed_.end() ? Prescribed{} : found->second;
+  }
+  std::map<int, Prescribed> prescribed_;
 };
 
 /// A direction in which something other than a support holds a node (contact with a rigid tool).
@@ -50,7 +54,7 @@ struct FreeBody {
 /// omega. Parts that are joined by a hinge only (a fold with two directors, a shell's edge on a solid) count
 /// as one: that they can turn about it is not seen here. `joined`: pairs of nodes that couplings join, as an
 /// element would.
-std::vector<FreeBody> freeBodies(const Mesh& mesh, const Supports& supports,
+std::vector<FreeBody> freeBodies(const Mesh& mesh, const DofMap& dofs, const Supports& supports,
                                  const std::vector<HeldDirection>& held,
                                  const ShellGeometry* shells = nullptr,
                                  const std::vector<std::pair<int, int>>& joined = {});

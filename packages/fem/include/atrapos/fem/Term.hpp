@@ -11,16 +11,16 @@ using Execution = Kokkos::DefaultExecutionSpace;
 using Memory = Execution::memory_space;
 template <class T>
 using View = Kokkos::View<T, Memory>;
-/// Nodal fields as one vector, [3 node + component].
-using Field = View<double*>;
-using ConstField = View<const double*>;
+/// The unknowns that a rank has, or forces on them, [dof].
+using DofView = View<double*>;
+using ConstDofView = View<const double*>;
 
-/// Where a tangent is assembled: the rows of the three dofs of a node have the same columns, in ascending
-/// order, so one position serves a whole 3 x 3 block.
+/// Where a tangent is assembled: the rows of all dofs of a node have the same columns, in ascending order, so
+/// one position serves the whole block of two nodes.
 struct TangentSink {
   View<const std::size_t*> rowStart;  ///< [dof] first entry of the row
   View<double*> values;               ///< [entry]
-  Field loadDirection;                ///< [dof] F = -dR/dlambda
+  DofView loadDirection;              ///< [dof] F = -dR/dlambda
 };
 
 /// Named values that a law shows at its points (stresses, gaps, ...): [entity][point][name].
@@ -29,6 +29,7 @@ struct PointValues {
   std::vector<double> values;
 };
 
+class DofMap;
 class PointPieces;
 
 /// The share of a term that one rank works on.
@@ -38,8 +39,8 @@ struct TermPart {
 };
 
 /// One contribution F(u, lambda) to the residual: a law acting at the points of a set of entities, sum over
-/// points of B^T law(B u, lambda). Virtual once per loop, never inside it. Fields have 3 entries a node of
-/// the mesh.
+/// points of B^T law(B u, lambda). Virtual once per loop, never inside it. The unknowns are those of a
+/// DofMap.
 class Term {
  public:
   virtual ~Term() = default;
@@ -58,33 +59,34 @@ class Term {
     throw std::invalid_argument("one of the problem's terms works on one rank only: start without mpirun");
   }
 
-  /// Receives the matrix graph once: position of the block (a, b) of an entity within its row,
-  /// [entity][a][b], in units of entries.
-  virtual void setPositions(const std::vector<int>& positions) = 0;
+  /// Receives once which unknowns the nodes have and where these are in the matrix: position of the first
+  /// unknown of node b in the rows of node a, [entity][a][b]. Throws std::logic_error where nodes lack a
+  /// field that the term needs.
+  virtual void connect(const DofMap& dofs, const std::vector<int>& positions) = 0;
 
   /// f += F(u, lambda). Returns the sum of squares of the entities' own nodal forces, before they are summed
   /// at nodes: what equilibrium is the cancellation of.
-  virtual double addResidual(const ConstField& u, double lambda, const Field& f) const = 0;
+  virtual double addResidual(const ConstDofView& u, double lambda, const DofView& f) const = 0;
 
   /// K += dF/du, load direction -= dF/dlambda.
-  virtual void addTangent(const ConstField& u, double lambda, const TangentSink& sink) const = 0;
+  virtual void addTangent(const ConstDofView& u, double lambda, const TangentSink& sink) const = 0;
 
   /// Order 0 of the series at (u, lambda); histories for orders up to maxOrder. Throws taylor::DomainError,
   /// naming the point, where the law has no series.
-  virtual void beginSeries(const ConstField& u, double lambda, int maxOrder) = 0;
+  virtual void beginSeries(const ConstDofView& u, double lambda, int maxOrder) = 0;
 
   /// Makes order k - 1, (`last`, `lastLambda`), known (k > 1; unused for k = 1), then f += order k of
   /// F(u(a), lambda(a)) with U_k = 0 and lambda_k = 0.
-  virtual void addOrder(int k, const ConstField& last, double lastLambda, const Field& f) = 0;
+  virtual void addOrder(int k, const ConstDofView& last, double lastLambda, const DofView& f) = 0;
 
   /// The pieces that its points are on, the term's own; null where the law is analytic everywhere.
   virtual PointPieces* pieces() { return nullptr; }
   /// What pieces are found from, in the state (u, lambda): [point][input] (PieceSearch); empty where there
   /// are none.
-  virtual std::vector<double> places(const ConstField& /*u*/, double /*lambda*/) const { return {}; }
+  virtual std::vector<double> places(const ConstDofView& /*u*/, double /*lambda*/) const { return {}; }
 
   /// The law's named values at every point in the state (u, lambda).
-  virtual PointValues observe(const ConstField& u, double lambda) const = 0;
+  virtual PointValues observe(const ConstDofView& u, double lambda) const = 0;
 
   /// Bytes of the histories of a series of order maxOrder.
   virtual std::size_t historyBytes(int maxOrder) const = 0;

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <array>
+#include <string>
+
+#include "atrapos/fem/Mesh.hpp"
+
+namespace atrapos::fem {
+
+/// A rectangle along the axes, the cross-section of a plane body. Sets are named as those of a shell plate
+/// (StructuredShell.hpp): side sets and node sets x_min, x_max, y_min, y_max, node sets of corners
+/// (x_max_y_min) and of the lines halfway (x_mid, y_mid). Triangles halve the quadrilaterals along the
+/// diagonal from x_min_y_min.
+struct RectangleOptions {
+  std::array<double, 2> lengths{1.0, 1.0};
+  std::array<double, 2> origin{0.0, 0.0};  ///< corner x_min_y_min
+  /// p >= 1: distances from the nearer edge grow like the power p of the number of elements; 1: equal
+  /// elements.
+  double grading = 1.0;
+  std::array<int, 2> divisions{1, 1};
+  Topology topology = Topology::Quad8;
+  std::string blockName = "body";
+};
+
+/// Throws std::invalid_argument, one line, for divisions below 1, lengths not above 0, and cells that are no
+/// plane ones.
+Mesh rectangleMesh(const RectangleOptions& options);
+
+}  // namespace atrapos::fem

@@ -1,0 +1,74 @@
+#include "atrapos/fem/StructuredPlane.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+#include "atrapos/fem/StructuredShell.hpp"
+
+namespace atrapos::fem {
+namespace {
+
+/// The shell whose nodes are those that the plane cells have.
+Topology shellOf(Topology plane) {
+  switch (plane) {
+    case Topology::Quad4:
+    case Topology::Tri3:
+      return Topology::Shell4;
+    case Topology::Quad8:
+      return Topology::Shell8;
+    case Topology::Quad9:
+    case Topology::Tri6:
+      return Topology::Shell9;
+    default:
+      throw std::invalid_argument(std::string("rectangle mesh: ") + topologyName(plane) +
+                                  " is no plane cell");
+  }
+}
+
+bool isTriangle(Topology topology) { return topology == Topology::Tri3 || topology == Topology::Tri6; }
+
+/// Nodes of the two triangles of a quadrilateral, of SHELL9 the centre on the diagonal.
+constexpr int kTriangles[2][6] = {{0, 1, 2, 4, 5, 8}, {0, 2, 3, 8, 6, 7}};
+/// Where its edges are: triangle, and its side.
+constexpr int kEdges[4][2] = {{0, 0}, {0, 1}, {1, 1}, {1, 2}};
+
+}  // namespace
+
+Mesh rectangleMesh(const RectangleOptions& o) {
+  ShellPlateOptions plate;
+  plate.length = o.lengths[0];
+  plate.width = o.lengths[1];
+  plate.origin = {o.origin[0], o.origin[1], 0};
+  plate.grading = o.grading;
+  plate.divisions = o.divisions;
+  plate.topology = shellOf(o.topology);
+  plate.blockName = o.blockName;
+  Mesh mesh = shellPlateMesh(plate);
+  mesh.title = "rectangle";
+  mesh.dimension = 2;
+  Block& block = mesh.blocks.front();
+  const bool split = isTriangle(o.topology);
+  block.topology = o.topology;
+  if (split) {
+    const int N = nodesPerElement(plate.topology), own = nodesPerElement(o.topology);
+    std::vector<int> nodes;
+    for (std::size_t e = 0; e < block.nodes.size(); e += N)
+      for (const auto& triangle : kTriangles)
+        for (int n = 0; n < own; ++n) nodes.push_back(block.nodes[e + triangle[n]]);
+    block.nodes = std::move(nodes);
+  }
+  // The faces of shells go, and the sides begin with the edges.
+  auto& sets = mesh.sideSets;
+  sets.erase(std::remove_if(sets.begin(), sets.end(),
+                            [](const SideSet& s) { return !s.sides.empty() && s.sides.front().side < 2; }),
+             sets.end());
+  for (SideSet& set : sets)
+    for (Side& side : set.sides) {
+      side.side -= 2;
+      if (split) side = {2 * side.element + kEdges[side.side][0], kEdges[side.side][1]};
+    }
+  return mesh;
+}
+
+}  // namespace atrapos::fem
