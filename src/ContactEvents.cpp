@@ -85,7 +85,7 @@ class PointOnSeries {
     x[3] = motion_.lambda(a);
   }
 
-  ToolProjection atStart() const {
+  contact::ToolProjection atStart() const {
     double x[4];
     for (int i = 0; i < 3; ++i) x[i] = component(motion_.u[0], i) + reference_[i];
     x[3] = motion_.lambda(0);
@@ -102,7 +102,7 @@ class PointOnSeries {
 
   /// Whether the way that the point goes within the step is too short to close or open it: gaps change by no
   /// more.
-  bool staysFrom(const ToolProjection& start) const {
+  bool staysFrom(const contact::ToolProjection& start) const {
     if (tool_.moves()) return false;
     double way = 0;
     for (int n = 0; n < N_; ++n) way += std::abs(shape_[n]) * motion_.ways[nodes_[n]];
@@ -129,7 +129,7 @@ class PointOnSeries {
     return sum;
   }
 
-  const RigidTool& tool_;
+  const contact::RigidTool& tool_;
   double closedGap_;
   const Motion& motion_;
   int N_;
@@ -186,7 +186,7 @@ void ContactEvents::onStep(int branch, int step, double pathLengthStart, double 
         ++number;
         char& wasClosed = closed_[c][number];
         PointOnSeries point(contact, t, p, motion);
-        ToolProjection start;
+        contact::ToolProjection start;
         if (goesOn && !known_.gaps[c].empty()) start.gap = known_.gaps[c][number];
         if (!std::isfinite(start.gap)) start = point.atStart();
         const auto note = [&](double a, bool closes) {

@@ -169,7 +169,7 @@ void Scene::requireSupport(const fem::FeModel& model) const {
           continue;
         const double* x = &mesh_.coordinates[3 * static_cast<std::size_t>(n)];
         const double place[4] = {x[0], x[1], x[2], 0};
-        const ToolProjection over = contact.tool->project(place);
+        const contact::ToolProjection over = contact.tool->project(place);
         if (std::isfinite(over.gap)) held.push_back({n, {over.normal[0], over.normal[1], over.normal[2]}});
       }
     }

@@ -10,10 +10,10 @@
 
 #include "ContactPressure.hpp"
 #include "DeckMesh.hpp"
-#include "NearContact.hpp"
-#include "RigidTool.hpp"
 #include "SceneState.hpp"
 #include "Shells.hpp"
+#include "atrapos/contact/NearContact.hpp"
+#include "atrapos/contact/RigidTool.hpp"
 #include "atrapos/fem/FeProblem.hpp"
 #include "atrapos/fem/Mesh.hpp"
 #include "atrapos/fem/PointSet.hpp"
@@ -41,8 +41,8 @@ struct ContactPoints {
   std::vector<std::vector<double>> gaps;        ///< [term][point] initial gap
   std::vector<std::vector<double>> references;  ///< [term][point] Delta
   std::vector<std::vector<double>> closedGaps;  ///< [term][point] a point with a smaller gap is closed
-  const RigidTool* tool = nullptr;
-  std::vector<NearContact*> near;  ///< [term]; empty where all points carry the law
+  const contact::RigidTool* tool = nullptr;
+  std::vector<contact::NearContact*> near;  ///< [term]; empty where all points carry the law
   ContactPressure pressure;
   bool hardFaces = false;  ///< hard, with conditions on mean gaps around the corners of faces
   int count = 0;
@@ -176,8 +176,8 @@ class Scene {
   std::unique_ptr<fem::FeProblem> problem_;
   /// Of a scene that sharpens: the problem before, which those who followed its path still refer to.
   std::unique_ptr<fem::FeProblem> loaded_;
-  std::vector<std::unique_ptr<RigidTool>> tools_;  ///< in the deck's order
-  std::vector<BodyBlock> bodies_;                  ///< [block]
+  std::vector<std::unique_ptr<contact::RigidTool>> tools_;  ///< in the deck's order
+  std::vector<BodyBlock> bodies_;                           ///< [block]
   std::vector<ContactPoints> contacts_;
   /// [monitor] weights of a displacement monitor over the unknowns; null for the others
   std::vector<linear::RCP<path::Vector>> displacementWeights_;

@@ -6,6 +6,7 @@
 #include <limits>
 #include <numeric>
 
+#include "DeckTool.hpp"
 #include "Ranks.hpp"
 #include "Scene.hpp"
 #include "atrapos/fem/Loads.hpp"
@@ -79,8 +80,8 @@ void Scene::addContacts(fem::FeModel& model) {
       } else if (all) {
         model.terms.push_back(entry.tool->term(entry.pressure.law, entry.points[t], references));
       } else {
-        auto term =
-            std::make_unique<NearContact>(*entry.tool, entry.pressure.law, entry.points[t], references);
+        auto term = std::make_unique<contact::NearContact>(*entry.tool, entry.pressure.law, entry.points[t],
+                                                           references);
         entry.near.push_back(term.get());
         model.terms.push_back(std::move(term));
       }
@@ -98,7 +99,7 @@ void Scene::measureGaps(const deck::Contact& contact, ContactPoints& entry) cons
       const double* x = &points.positions[3 * static_cast<std::size_t>(p)];
       const double place[4] = {x[0], x[1], x[2], 0};
       const std::string ambiguity = entry.tool->ambiguity(place);
-      const ToolProjection over = entry.tool->project(place);
+      const contact::ToolProjection over = entry.tool->project(place);
       if (!ambiguity.empty() || std::isnan(over.gap))
         fail("contact/" + contact.name,
              fmt::format("the point ({:.6g}, {:.6g}, {:.6g}) has no unique projection on tool '{}'{}{}", x[0],
@@ -224,20 +225,21 @@ bool Scene::othersAreNear(const path::Vector& u, double lambda) const {
   const fem::ConstDofView state = problem_->onRank(u);
   bool near = false;
   for (const ContactPoints& contact : contacts_)
-    for (const NearContact* term : contact.near) near = near || term->othersAreNear(state, lambda);
+    for (const contact::NearContact* term : contact.near) near = near || term->othersAreNear(state, lambda);
   return ranks::any(near);
 }
 
 void Scene::grow(const path::Vector& u, double lambda) {
   const fem::ConstDofView state = problem_->onRank(u);
   for (const ContactPoints& contact : contacts_)
-    for (NearContact* term : contact.near) term->grow(state, lambda);
+    for (contact::NearContact* term : contact.near) term->grow(state, lambda);
 }
 
 int ContactPoints::numCarried() const {
   if (near.empty()) return count;
-  return ranks::sum(std::accumulate(near.begin(), near.end(), 0,
-                                    [](int n, const NearContact* term) { return n + term->numCarried(); }));
+  return ranks::sum(std::accumulate(near.begin(), near.end(), 0, [](int n, const contact::NearContact* term) {
+    return n + term->numCarried();
+  }));
 }
 
 }  // namespace atrapos

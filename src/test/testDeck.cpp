@@ -509,10 +509,10 @@ TEST(BadDeck, places) {
   expectLine("axis: [0, 1, 0]", "axis: [0, 1]",
              ":16:57: tools/roll/axis: expected a list of 3 finite numbers, got the list [0, 1]");
   expectLine(", radius: 50", "", ":16:3: tools/roll/radius: is missing; expected a number, positive");
-  expectLine(
-      "path:", "ä: 1\npath:",
-      ":19:1: ä: is not a key here; allowed are title, mesh, materials, shells, supports, couplings, loads, "
-      "tools, contact, path, solver, output");
+  expectLine("path:", "ä: 1\npath:",
+             ":19:1: ä: is not a key here; allowed are title, mesh, materials, plane, shells, supports, "
+             "couplings, loads, "
+             "tools, contact, path, solver, output");
   expectLine("{tool: roll", "{tool: # ä\n    'rol'",
              ":19:5: contact/lower/tool: no entry 'rol' in tools (did you mean 'roll'?); there are roll");
   // Columns count characters.

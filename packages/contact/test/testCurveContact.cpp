@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "atrapos/contact/CurveContact.hpp"
 #include "atrapos/contact/MovingTool.hpp"
 #include "atrapos/fem/Loads.hpp"
 #include "support/ContactModel.hpp"

@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "atrapos/contact/HardContact.hpp"
+#include "atrapos/contact/HardContactLaw.hpp"
 #include "atrapos/contact/MovingTool.hpp"
+#include "atrapos/fem/PointLawOf.hpp"
+#include "atrapos/fem/UnilateralTerm.hpp"
 #include "atrapos/path/SeriesStep.hpp"
 #include "support/ContactModel.hpp"
 #include "support/Derivatives.hpp"
@@ -25,6 +27,17 @@ MovingTool<Cylinder> turning() {
   tool.motion.shift[1][2] = 0.3;
   tool.motion.angle[1] = 0.2;
   return tool;
+}
+
+/// A tool that the package does not compile, as laws in one piece.
+using Taper = RadialRoll<TaperedProfile>;
+fem::FeModel onTool(const fem::Mesh& mesh, const Taper& tool, Where where) {
+  fem::FeModel model = solidModel(mesh, 10, 0.3);
+  const fem::PointSet points = contactPoints(mesh, "z_min", where);
+  const auto own =
+      where == Where::Nodes ? fem::withMultipliers(model, points) : fem::withCornerMultipliers(model, points);
+  model.terms.push_back(fem::unilateralTerm(fem::pointLaw(HardContactLaw<Taper>{tool}), own));
+  return model;
 }
 
 template <class Tool>
@@ -93,7 +106,7 @@ TEST(HardBlock, TangentIsTheDerivativeOfTheResidual) {
     tangentIsDerivative(roll(), true, where);
     tangentIsDerivative(turning(), true, where);
   }
-  RadialRoll<TaperedProfile> taper;
+  Taper taper;
   taper.center[2] = -2.005;
   taper.profile.radius = 2;
   tangentIsDerivative(taper, false, Where::Nodes);  // its normal is not the gradient of its gap

@@ -5,7 +5,6 @@
 #include <functional>
 #include <optional>
 
-#include "atrapos/contact/HardContact.hpp"
 #include "atrapos/contact/MovingTool.hpp"
 #include "atrapos/fem/Loads.hpp"
 #include "support/ContactModel.hpp"

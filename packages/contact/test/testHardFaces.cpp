@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "atrapos/contact/HardContact.hpp"
 #include "atrapos/contact/MovingTool.hpp"
 #include "atrapos/contact/Sphere.hpp"
+#include "atrapos/fem/Multipliers.hpp"
 #include "atrapos/path/SeriesStep.hpp"
 #include "support/ContactModel.hpp"
 #include "support/Derivatives.hpp"

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "atrapos/contact/HardContact.hpp"
+#include "atrapos/fem/Multipliers.hpp"
 #include "atrapos/fem/Rows.hpp"
 #include "support/ContactModel.hpp"
 #include "support/Derivatives.hpp"

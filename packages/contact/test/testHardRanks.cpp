@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <string>
 
-#include "atrapos/contact/HardContact.hpp"
 #include "atrapos/contact/MovingTool.hpp"
 #include "support/ContactModel.hpp"
 #include "support/PatchSurfaces.hpp"

@@ -6,8 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "atrapos/contact/CurveContact.hpp"
-#include "atrapos/contact/HardContact.hpp"
+#include "support/RigidContact.hpp"
 #include "support/StripOnRoll.hpp"
 
 using namespace atrapos;

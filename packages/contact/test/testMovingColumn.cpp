@@ -19,10 +19,9 @@ std::unique_ptr<fem::FeProblem> risingPlane(const Column& column) {
   for (int n : fem::test::nodesOfSet(mesh, "z_max")) model.prescribe(n, 2, 0, 0);
   MovingTool<Plane> tool;
   tool.motion.shift[1][2] = 1;
-  using Law = ContactLaw<MovingTool<Plane>>;
   const fem::PointSet points = contactPoints(mesh, "z_min", Where::Quadrature);
-  model.terms.push_back(fem::lawTerm(fem::pointLaw(Law{tool, column.pressure}), points,
-                                     Numbers(points.numPoints(), column.gap)));
+  model.terms.push_back(
+      rigid(tool)->term(AnyPressure(column.pressure), points, Numbers(points.numPoints(), column.gap)));
   return std::make_unique<fem::FeProblem>(std::move(model));
 }
 

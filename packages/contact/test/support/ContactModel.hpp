@@ -6,10 +6,9 @@
 #include <memory>
 #include <stdexcept>
 
-#include "atrapos/contact/ContactLaw.hpp"
+#include "RigidContact.hpp"
 #include "atrapos/fem/FeProblem.hpp"
 #include "atrapos/fem/LawTerm.hpp"
-#include "atrapos/fem/PointLawOf.hpp"
 #include "atrapos/linear/MakeTangentSolver.hpp"
 #include "atrapos/path/PathFollower.hpp"
 #include "atrapos/solid/SaintVenantKirchhoff.hpp"
@@ -57,8 +56,7 @@ void addContact(fem::FeModel& model, const fem::PointSet& points, const Tool& to
       throw std::logic_error("addContact: no projection");
     gaps.push_back(std::max(y[0], least));
   }
-  using Law = ContactLaw<Tool, Pressure>;
-  model.terms.push_back(fem::lawTerm(fem::pointLaw(Law{tool, pressure}), points, gaps));
+  model.terms.push_back(rigid(tool)->term(AnyPressure(pressure), points, gaps));
 }
 
 /// Bounds so tight that the equilibrium errors of tests stay near rounding.

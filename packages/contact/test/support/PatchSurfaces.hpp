@@ -6,12 +6,10 @@
 #include <vector>
 
 #include "Geometry.hpp"
-#include "atrapos/contact/ContactLaw.hpp"
 #include "atrapos/contact/PatchSearch.hpp"
 #include "atrapos/contact/PatchSet.hpp"
+#include "atrapos/contact/RigidTool.hpp"
 #include "atrapos/fem/FeProblem.hpp"
-#include "atrapos/fem/LawTerm.hpp"
-#include "atrapos/fem/PointLawOf.hpp"
 
 /// Surfaces of patches for tests.
 namespace atrapos::contact::test {
@@ -135,17 +133,15 @@ inline std::array<double, 4> project(const PatchSet& set, const Vector3& x) {
 inline void addPatchContact(fem::FeModel& model, const fem::PointSet& points,
                             const PatchSearch<PatchTool>& search, const RegularisedPressure& pressure,
                             double least) {
-  std::vector<double> data;
+  std::vector<double> gaps;
   for (int p = 0; p < points.numPoints(); ++p) {
     const double* x = &points.positions[3 * p];
     const auto place = search.set->locate(x);
     double y[6] = {};
     if (place[0] >= 0) taylor::solveImplicit<3, 6, 3>(search.tool, x, place.data(), y);
-    data.insert(data.end(), {std::max(y[0], least), -1, 0, 0});
+    gaps.push_back(std::max(y[0], least));
   }
-  using Law = ContactLaw<PatchTool>;
-  model.terms.push_back(
-      fem::lawTerm(fem::pointLaw(Law{search.tool, pressure}), points, data, search.pieces(1)));
+  model.terms.push_back(rigidTool(search.set)->term(AnyPressure(pressure), points, gaps));
 }
 
 }  // namespace atrapos::contact::test

@@ -1,14 +1,14 @@
-#include "NearContact.hpp"
+#include "atrapos/contact/NearContact.hpp"
 
 #include <algorithm>
 
 #include "atrapos/fem/PointPieces.hpp"
 #include "atrapos/fem/Rows.hpp"
 
-namespace atrapos {
+namespace atrapos::contact {
 
-NearContact::NearContact(const RigidTool& tool, const contact::AnyPressure& pressure,
-                         const fem::PointSet& points, const std::vector<double>& referenceGaps)
+NearContact::NearContact(const RigidTool& tool, const AnyPressure& pressure, const fem::PointSet& points,
+                         const std::vector<double>& referenceGaps)
     : tool_(tool),
       pressure_(pressure),
       points_(points),
@@ -138,4 +138,4 @@ fem::PointValues NearContact::observe(const fem::ConstDofView& u, double lambda)
 
 std::size_t NearContact::historyBytes(int maxOrder) const { return all_->historyBytes(maxOrder); }
 
-}  // namespace atrapos
+}  // namespace atrapos::contact

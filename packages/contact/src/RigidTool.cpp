@@ -1,4 +1,4 @@
-#include "StagedTool.hpp"
+#include "atrapos/contact/RigidTool.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,19 +11,19 @@
 #include "atrapos/fem/ReducedLaw.hpp"
 #include "atrapos/fem/UnilateralTerm.hpp"
 
-namespace atrapos {
+namespace atrapos::contact {
 namespace {
 
 /// x (3) for somebody who moves with the tool; place: (x, load factor).
-void toToolFrame(const std::optional<contact::Motion>& motion, const double* place, double* X) {
+void toToolFrame(const std::optional<Motion>& motion, const double* place, double* X) {
   if (motion)
-    contact::MovingTool<contact::Plane>{{}, *motion}.toToolFrame(place, X);
+    MovingTool<Plane>{{}, *motion}.toToolFrame(place, X);
   else
     std::copy_n(place, 3, X);
 }
 
 /// y = (h, n, ...) with the normal of the tool where it stands.
-ToolProjection projection(const std::optional<contact::Motion>& motion, const double* place, const double* y,
+ToolProjection projection(const std::optional<Motion>& motion, const double* place, const double* y,
                           double distance) {
   ToolProjection result{y[0], {y[1], y[2], y[3]}, distance};
   if (!motion || !motion->turns()) return result;
@@ -50,17 +50,17 @@ std::unique_ptr<fem::PointLaw> forPoints(std::unique_ptr<fem::PointLaw> law, con
 /// to date where the tool has pieces.
 class StagedTool : public RigidTool {
  public:
-  StagedTool(contact::ToolStages stages, std::optional<contact::Motion> motion)
+  StagedTool(ToolStages stages, std::optional<Motion> motion)
       : stages_(std::move(stages)), motion_(std::move(motion)) {
     if (motion_) motion_->validate();
   }
 
   bool moves() const override { return motion_.has_value(); }
 
-  std::unique_ptr<fem::Term> term(const contact::AnyPressure& pressure, const fem::PointSet& points,
+  std::unique_ptr<fem::Term> term(const AnyPressure& pressure, const fem::PointSet& points,
                                   const std::vector<double>& referenceGaps) const override {
-    return onPieces(forPoints(contact::stagedContact(stages_, pressure), points), points,
-                    withTool(referenceGaps, 1), pieces(points, 1, points.components));
+    return onPieces(forPoints(stagedContact(stages_, pressure), points), points, withTool(referenceGaps, 1),
+                    pieces(points, 1, points.components));
   }
 
   void addHard(fem::FeModel& model, const fem::PointSet& points) const override {
@@ -73,18 +73,18 @@ class StagedTool : public RigidTool {
     addUnilateral(model, own);
   }
 
-  void addCurve(fem::FeModel& model, const contact::RegularisedPressure& pressure,
-                const fem::PointSet& points, const std::vector<double>& referenceGaps) const override {
-    const fem::PointSet curves = contact::withCurves(model, points, pressure, referenceGaps);
+  void addCurve(fem::FeModel& model, const RegularisedPressure& pressure, const fem::PointSet& points,
+                const std::vector<double>& referenceGaps) const override {
+    const fem::PointSet curves = withCurves(model, points, pressure, referenceGaps);
     // The load factor stands behind the place on the curve.
-    model.terms.push_back(onPieces(forPoints(contact::stagedCurveContact(stages_, pressure), points), curves,
+    model.terms.push_back(onPieces(forPoints(stagedCurveContact(stages_, pressure), points), curves,
                                    withTool(referenceGaps, 1), pieces(points, 1, points.components + 1)));
   }
 
-  std::unique_ptr<fem::Term> sharpened(const contact::RegularisedPressure& pressure,
-                                       const fem::PointSet& points, const std::vector<double>& referenceGaps,
+  std::unique_ptr<fem::Term> sharpened(const RegularisedPressure& pressure, const fem::PointSet& points,
+                                       const std::vector<double>& referenceGaps,
                                        double loadFactor) const override {
-    auto law = forPoints(contact::stagedSharpenedContact(stages_, pressure, loadFactor), points);
+    auto law = forPoints(stagedSharpenedContact(stages_, pressure, loadFactor), points);
     const auto data = withTool(referenceGaps, 1);
     const int D = points.components;
     const fem::PieceSearch search = pieces(points, 1, D);
@@ -122,11 +122,11 @@ class StagedTool : public RigidTool {
                   });
   }
 
-  const std::optional<contact::Motion>& motion() const { return motion_; }
+  const std::optional<Motion>& motion() const { return motion_; }
 
  private:
   void addUnilateral(fem::FeModel& model, const fem::UnilateralPoints& own) const {
-    model.terms.push_back(fem::unilateralTerm(forPoints(contact::stagedHardContact(stages_), own.points), own,
+    model.terms.push_back(fem::unilateralTerm(forPoints(stagedHardContact(stages_), own.points), own,
                                               withTool(std::vector<double>(), own.points.numPoints(), 0),
                                               pieces(own.points, 0, own.points.components)));
   }
@@ -151,14 +151,14 @@ class StagedTool : public RigidTool {
     return all;
   }
 
-  contact::ToolStages stages_;
-  std::optional<contact::Motion> motion_;
+  ToolStages stages_;
+  std::optional<Motion> motion_;
 };
 
 class SmoothTool final : public StagedTool {
  public:
-  SmoothTool(const contact::AnyTool& tool, const std::optional<contact::Motion>& motion)
-      : StagedTool(contact::stagesOf(tool, motion), motion), tool_(tool) {
+  SmoothTool(const AnyTool& tool, const std::optional<Motion>& motion)
+      : StagedTool(stagesOf(tool, motion), motion), tool_(tool) {
     tool_.validate();
   }
 
@@ -169,22 +169,22 @@ class SmoothTool final : public StagedTool {
   }
 
   ToolProjection project(const double* place) const override {
-    double X[3], y[contact::AnyTool::numUnknowns];
+    double X[3], y[AnyTool::numUnknowns];
     toToolFrame(motion(), place, X);
-    taylor::solveImplicit<3, contact::AnyTool::numUnknowns>(tool_, X, y);
+    taylor::solveImplicit<3, AnyTool::numUnknowns>(tool_, X, y);
     return projection(motion(), place, y, std::abs(y[0]));
   }
 
  private:
   fem::PieceSearch pieces(int, int, const PlaceOf&) const override { return {}; }
 
-  contact::AnyTool tool_;
+  AnyTool tool_;
 };
 
 class PatchedTool final : public StagedTool {
  public:
-  PatchedTool(std::shared_ptr<const contact::PatchSet> set, const std::optional<contact::Motion>& motion)
-      : StagedTool(contact::stagesOf(set->tool(), motion), motion), tool_(set->tool()), set_(std::move(set)) {
+  PatchedTool(std::shared_ptr<const PatchSet> set, const std::optional<Motion>& motion)
+      : StagedTool(stagesOf(set->tool(), motion), motion), tool_(set->tool()), set_(std::move(set)) {
     tool_.validate();
   }
 
@@ -195,7 +195,7 @@ class PatchedTool final : public StagedTool {
   }
 
   ToolProjection project(const double* place) const override {
-    double X[3], y[contact::PatchTool::numUnknowns];
+    double X[3], y[PatchTool::numUnknowns];
     toToolFrame(motion(), place, X);
     const double distance = set_->nearest(X).distance;
     const auto data = set_->locate(X);
@@ -204,33 +204,30 @@ class PatchedTool final : public StagedTool {
       none.distance = distance;
       return none;
     }
-    taylor::solveImplicit<3, contact::PatchTool::numUnknowns, contact::PatchTool::numToolData>(
-        tool_, X, data.data(), y);
+    taylor::solveImplicit<3, PatchTool::numUnknowns, PatchTool::numToolData>(tool_, X, data.data(), y);
     return projection(motion(), place, y, distance);
   }
 
  private:
   fem::PieceSearch pieces(int numInputs, int before, const PlaceOf& placeOf) const override {
     if (motion())
-      return contact::PatchSearch<contact::MovingTool<contact::PatchTool>>{set_, {tool_, *motion()}}.pieces(
-          numInputs, before, placeOf);
-    return contact::PatchSearch<contact::PatchTool>{set_, tool_}.pieces(numInputs, before, placeOf);
+      return PatchSearch<MovingTool<PatchTool>>{set_, {tool_, *motion()}}.pieces(numInputs, before, placeOf);
+    return PatchSearch<PatchTool>{set_, tool_}.pieces(numInputs, before, placeOf);
   }
 
-  contact::PatchTool tool_;
-  std::shared_ptr<const contact::PatchSet> set_;
+  PatchTool tool_;
+  std::shared_ptr<const PatchSet> set_;
 };
 
 }  // namespace
 
-std::unique_ptr<RigidTool> stagedTool(const contact::AnyTool& tool,
-                                      const std::optional<contact::Motion>& motion) {
+std::unique_ptr<RigidTool> rigidTool(const AnyTool& tool, const std::optional<Motion>& motion) {
   return std::make_unique<SmoothTool>(tool, motion);
 }
 
-std::unique_ptr<RigidTool> stagedTool(std::shared_ptr<const contact::PatchSet> set,
-                                      const std::optional<contact::Motion>& motion) {
+std::unique_ptr<RigidTool> rigidTool(std::shared_ptr<const PatchSet> set,
+                                     const std::optional<Motion>& motion) {
   return std::make_unique<PatchedTool>(std::move(set), motion);
 }
 
-}  // namespace atrapos
+}  // namespace atrapos::contact

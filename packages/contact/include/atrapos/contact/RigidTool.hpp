@@ -3,19 +3,18 @@
 #include <array>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "atrapos/contact/MovingTool.hpp"
 #include "atrapos/contact/OneOf.hpp"
+#include "atrapos/contact/PatchSet.hpp"
 #include "atrapos/fem/FeProblem.hpp"
 #include "atrapos/fem/PointSet.hpp"
 #include "atrapos/fem/Term.hpp"
 
-namespace atrapos {
-
-namespace deck {
-struct Tool;
-}
+namespace atrapos::contact {
 
 /// Where a place is over a tool.
 struct ToolProjection {
@@ -24,8 +23,8 @@ struct ToolProjection {
   double distance = 0;                                   ///< to the nearest point of the tool, >= 0
 };
 
-/// A tool of a deck. Places are (x, y, z, load factor). Points may be those of a plane body (x, y): the tool
-/// is then met in z = 0, and its forces along z are none of the body's.
+/// A rigid tool, whatever its kind. Places are (x, y, z, load factor). Points may be those of a plane body
+/// (x, y): the tool is then met in z = 0, and its forces along z are none of the body's.
 class RigidTool {
  public:
   virtual ~RigidTool() = default;
@@ -39,7 +38,7 @@ class RigidTool {
   virtual ToolProjection project(const double* place) const = 0;
 
   /// The term of a contact at face or node points; referenceGaps is [point], > 0.
-  virtual std::unique_ptr<fem::Term> term(const contact::AnyPressure& pressure, const fem::PointSet& points,
+  virtual std::unique_ptr<fem::Term> term(const AnyPressure& pressure, const fem::PointSet& points,
                                           const std::vector<double>& referenceGaps) const = 0;
 
   /// Adds hard contact of these points to the model: its last term, and a node behind the others for the
@@ -51,18 +50,21 @@ class RigidTool {
 
   /// Adds contact by law (15) with the place on its curve as unknown: the model's last term, and a node
   /// behind the others for each point. Throws std::invalid_argument, one line, for gaps the law cannot have.
-  virtual void addCurve(fem::FeModel& model, const contact::RegularisedPressure& pressure,
-                        const fem::PointSet& points, const std::vector<double>& referenceGaps) const = 0;
+  virtual void addCurve(fem::FeModel& model, const RegularisedPressure& pressure, const fem::PointSet& points,
+                        const std::vector<double>& referenceGaps) const = 0;
 
   /// The contact with law (15) where eta falls to eta exp(-s), s what the term sees as the load factor, and
   /// the tool stands where it is at `loadFactor`.
-  virtual std::unique_ptr<fem::Term> sharpened(const contact::RegularisedPressure& pressure,
+  virtual std::unique_ptr<fem::Term> sharpened(const RegularisedPressure& pressure,
                                                const fem::PointSet& points,
                                                const std::vector<double>& referenceGaps,
                                                double loadFactor) const = 0;
 };
 
-/// Throws std::invalid_argument, one line, where the tool's numbers make no surface.
-std::unique_ptr<RigidTool> makeTool(const deck::Tool& tool);
+/// Tools of the package, at rest or moving, whose contact laws are put together of stages. Throws
+/// std::invalid_argument, one line, where the numbers of tool or motion make no surface.
+std::unique_ptr<RigidTool> rigidTool(const AnyTool& tool, const std::optional<Motion>& motion = {});
+std::unique_ptr<RigidTool> rigidTool(std::shared_ptr<const PatchSet> set,
+                                     const std::optional<Motion>& motion = {});
 
-}  // namespace atrapos
+}  // namespace atrapos::contact

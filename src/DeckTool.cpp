@@ -1,13 +1,10 @@
 // Deck entry -> tool of the package: one function each.
-#include "RigidTool.hpp"
+#include "DeckTool.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 #include <variant>
-
-#include "StagedTool.hpp"
-#include "deck/Deck.hpp"
 
 namespace atrapos {
 namespace {
@@ -129,10 +126,11 @@ std::shared_ptr<const contact::PatchSet> patchSet(const deck::PatchesTool& t) {
 
 }  // namespace
 
-std::unique_ptr<RigidTool> makeTool(const deck::Tool& entry) {
+std::unique_ptr<contact::RigidTool> makeTool(const deck::Tool& entry) {
   std::optional<contact::Motion> moves;
   if (entry.motion.moves()) moves = motion(entry.motion);
-  if (const auto* t = std::get_if<deck::PatchesTool>(&entry.surface)) return stagedTool(patchSet(*t), moves);
+  if (const auto* t = std::get_if<deck::PatchesTool>(&entry.surface))
+    return contact::rigidTool(patchSet(*t), moves);
   const contact::AnyTool rigid = std::visit(
       [](const auto& t) -> contact::AnyTool {
         if constexpr (std::is_same_v<decltype(t), const deck::PatchesTool&>)
@@ -141,7 +139,7 @@ std::unique_ptr<RigidTool> makeTool(const deck::Tool& entry) {
           return tool(t);
       },
       entry.surface);
-  return stagedTool(rigid, moves);
+  return contact::rigidTool(rigid, moves);
 }
 
 }  // namespace atrapos

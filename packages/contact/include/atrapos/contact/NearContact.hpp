@@ -3,22 +3,22 @@
 #include <memory>
 #include <vector>
 
-#include "RigidTool.hpp"
+#include "atrapos/contact/RigidTool.hpp"
 #include "atrapos/fem/DofMap.hpp"
 #include "atrapos/fem/Term.hpp"
 
-namespace atrapos {
+namespace atrapos::contact {
 
 /// The contact of those faces or nodes that are near a tool; the others carry no law until they get there.
 ///
 /// An entity is near where the gap of one of its points is below half of its reference gap. What is left out
 /// is the law beyond Delta/2: with (15) less than eta a point. Entities join by `grow`, between steps, and
 /// stay; somebody looks along every step whether others have come near, and takes the step back where they
-/// have (Run.cpp).
+/// have.
 class NearContact final : public fem::Term {
  public:
   /// No entity carries the law yet. The tool outlives the term.
-  NearContact(const RigidTool& tool, const contact::AnyPressure& pressure, const fem::PointSet& points,
+  NearContact(const RigidTool& tool, const AnyPressure& pressure, const fem::PointSet& points,
               const std::vector<double>& referenceGaps);
 
   /// Points of this rank that carry the law.
@@ -54,7 +54,7 @@ class NearContact final : public fem::Term {
   fem::PointSet pointsOf(const std::vector<int>& entities) const;
 
   const RigidTool& tool_;
-  contact::AnyPressure pressure_;
+  AnyPressure pressure_;
   fem::PointSet points_;
   std::vector<double> referenceGaps_;
   std::unique_ptr<fem::Term> all_;
@@ -65,4 +65,4 @@ class NearContact final : public fem::Term {
   std::unique_ptr<fem::Term> near_;  ///< null: none
 };
 
-}  // namespace atrapos
+}  // namespace atrapos::contact

@@ -1,0 +1,107 @@
+// What decks say of plane bodies: generated rectangles, what they stand for, and what is refused.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "deck/Deck.hpp"
+
+namespace {
+
+using namespace atrapos;
+using namespace atrapos::deck;
+
+const char* const goodDeck = R"(mesh:
+  file: plate.exo
+  generate: {shape: rectangle, lengths: [4, 2], origin: [1, 0], divisions: [5, 3], cell: TRI6, grading: 2}
+plane: {kind: stress, thickness: 0.5}
+materials:
+  steel: {law: saint_venant_kirchhoff, youngs_modulus: 220000, poissons_ratio: 0.3, blocks: [body]}
+supports:
+  clamp: {set: x_min, condition: clamped}
+loads:
+  pull: {type: surface, set: x_max, total: [1, 2, 0]}
+  weight: {type: volume, blocks: [body], force: [0, -1, 0]}
+  tip: {type: nodal, set: x_max_y_max, total: [0, 1, 0]}
+path:
+  stop: {load_factor: 1}
+output:
+  monitors:
+    tip: {type: displacement, set: x_max, component: y}
+)";
+
+std::string changed(const std::string& from, const std::string& to) {
+  std::string text = goodDeck;
+  const auto at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << "the good deck has no '" << from << "'";
+  return at == std::string::npos ? text : text.replace(at, from.size(), to);
+}
+
+fem::Mesh meshOf(const Deck& deck) {
+  return fem::rectangleMesh(std::get<fem::RectangleOptions>(*deck.mesh.generate));
+}
+
+/// The line with which the changed deck is refused against its own mesh, or against this one.
+std::string errorOf(const std::string& from, const std::string& to, const fem::Mesh* mesh = nullptr) {
+  try {
+    const Deck deck = readDeckText(changed(from, to), "plane.yaml");
+    checkAgainstMesh(deck, mesh != nullptr ? *mesh : meshOf(deck));
+  } catch (const DeckError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+}  // namespace
+
+TEST(PlaneDeck, goodDeckGivesItsValues) {
+  const Deck deck = readDeckText(goodDeck, "plane.yaml");
+  const auto& rectangle = std::get<fem::RectangleOptions>(*deck.mesh.generate);
+  EXPECT_EQ(rectangle.lengths, (std::array<double, 2>{4, 2}));
+  EXPECT_EQ(rectangle.origin, (std::array<double, 2>{1, 0}));
+  EXPECT_EQ(rectangle.divisions, (std::array<int, 2>{5, 3}));
+  EXPECT_EQ(rectangle.topology, fem::Topology::Tri6);
+  EXPECT_EQ(rectangle.grading, 2);
+  ASSERT_TRUE(deck.plane);
+  EXPECT_EQ(deck.plane->kind, Plane::Kind::Stress);
+  EXPECT_EQ(*deck.plane->thickness, 0.5);
+  EXPECT_NO_THROW(checkAgainstMesh(deck, meshOf(deck)));
+  EXPECT_FALSE(readDeckText(changed("{kind: stress, thickness: 0.5}", "{kind: axisymmetric}"), "plane.yaml")
+                   .plane->thickness);
+}
+
+TEST(PlaneDeck, describedDeckReadsBack) {
+  std::ostringstream first, second;
+  describe(readDeckText(goodDeck, "plane.yaml"), first);
+  describe(readDeckText(first.str(), "plane.yaml"), second);
+  EXPECT_EQ(first.str(), second.str());
+  EXPECT_NE(first.str().find("kind: stress"), std::string::npos) << first.str();
+}
+
+TEST(PlaneDeck, whatIsNotPlaneIsRefused) {
+  EXPECT_EQ(errorOf("plane: {kind: stress, thickness: 0.5}\n", ""),
+            "plane.yaml: plane: missing; the mesh is a plane one, so the deck says what it stands for: kind: "
+            "strain, stress or axisymmetric");
+  const fem::Mesh box = fem::boxMesh({});
+  EXPECT_EQ(errorOf("total: [1, 2, 0]", "total: [1, 2, 0]", &box),
+            "plane.yaml:4:1: plane: the mesh has three dimensions; expected one with QUAD or TRI in two");
+  EXPECT_EQ(errorOf("condition: clamped", "x: 0, z: 0"),
+            "plane.yaml:8:32: supports/clamp/z: a plane body has no z");
+  EXPECT_EQ(errorOf("condition: clamped", "condition: symmetry_z"),
+            "plane.yaml:8:34: supports/clamp/condition: a plane body has no z");
+  for (const auto& [from, to, place] :
+       {std::array<const char*, 3>{"total: [1, 2, 0]", "total: [1, 2, 3]", "plane.yaml:10:3: loads/pull"},
+        {"force: [0, -1, 0]", "force: [0, 0, -1]", "plane.yaml:11:3: loads/weight"},
+        {"total: [0, 1, 0]", "total: [0, 1, 1]", "plane.yaml:12:3: loads/tip"},
+        {"component: y", "component: z", "plane.yaml:17:5: output/monitors/tip"}})
+    EXPECT_EQ(errorOf(from, to), std::string(place) + ": a plane body has no z");
+}
+
+TEST(PlaneDeck, badValuesAreNamed) {
+  EXPECT_EQ(errorOf("kind: stress, thickness: 0.5", "kind: axisymmetric, thickness: 0.5"),
+            "plane.yaml:4:40: plane/thickness: is not for kind: axisymmetric");
+  EXPECT_EQ(errorOf("kind: stress", "kind: shear").substr(0, 46),
+            "plane.yaml:4:15: plane/kind: 'shear' is not an");
+  EXPECT_EQ(errorOf("lengths: [4, 2]", "lengths: [4, 0]"),
+            "plane.yaml:3:41: mesh/generate/lengths: each must be positive, got the list [4, 0]");
+}
