@@ -1,5 +1,5 @@
 // Texts of decks are strings to gnuplot and nothing else, and gnuplot runs where it should.
-#include "Gnuplot.hpp"
+#include "output/Gnuplot.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "Gnuplot.hpp"
-#include "PathPlot.hpp"
+#include "output/Gnuplot.hpp"
+#include "output/PathPlot.hpp"
 #include "support/Folder.hpp"
 
 namespace atrapos::test {

@@ -4,7 +4,7 @@
 #include <Tpetra_Vector.hpp>
 #include <cmath>
 
-#include "ReferencePath.hpp"
+#include "output/ReferencePath.hpp"
 #include "atrapos/linear/MakeTangentSolver.hpp"
 #include "atrapos/models/Models.hpp"
 #include "atrapos/path/PathFollower.hpp"

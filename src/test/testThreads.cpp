@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "Threads.hpp"
+#include "machine/Threads.hpp"
 
 namespace atrapos {
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "atrapos/fem/FeProblem.hpp"
+#include "atrapos/fem/FeModel.hpp"
 #include "atrapos/fem/Partition.hpp"
 
 namespace atrapos::fem::detail {

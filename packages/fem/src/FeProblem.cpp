@@ -69,18 +69,6 @@ std::vector<T> ofNodes(const std::vector<T>& whole, const DofMap& dofs, const st
 
 }  // namespace
 
-void FeModel::prescribe(int node, int component, double value, double perLoadFactor,
-                        const std::string& field) {
-  const int number = field.empty() ? -1 : dofs.find(field);
-  const bool there = field.empty() ? component < dofs.firstFieldSize(node)
-                                   : number >= 0 && dofs.dof(number, node, component) >= 0;
-  if (!there || component < 0)
-    throw std::invalid_argument("node " + std::to_string(node + 1) + " has no component " +
-                                std::to_string(component + 1) + " of a field to prescribe");
-  supports.prescribe(field.empty() ? dofs.firstDof(node) + component : dofs.dof(number, node, component),
-                     value, perLoadFactor);
-}
-
 ConstDofView field(const Vector& u) {
   auto view = u.getLocalViewDevice(Tpetra::Access::ReadOnly);
   return Kokkos::subview(view, Kokkos::ALL(), 0);

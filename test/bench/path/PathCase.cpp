@@ -1,4 +1,4 @@
-#include "PathCase.hpp"
+#include "commands/PathCase.hpp"
 
 #include <algorithm>
 #include <cmath>

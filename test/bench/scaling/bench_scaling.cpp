@@ -21,13 +21,13 @@
 
 #include "CsvCells.hpp"
 #include "Families.hpp"
-#include "Memory.hpp"
-#include "MeshCommand.hpp"
-#include "Ranks.hpp"
-#include "Run.hpp"
-#include "RunSettings.hpp"
-#include "Runtime.hpp"
-#include "SceneCase.hpp"
+#include "machine/Memory.hpp"
+#include "commands/MeshCommand.hpp"
+#include "machine/Ranks.hpp"
+#include "commands/Run.hpp"
+#include "commands/RunSettings.hpp"
+#include "machine/Runtime.hpp"
+#include "commands/SceneCase.hpp"
 
 namespace {
 

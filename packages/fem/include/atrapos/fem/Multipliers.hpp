@@ -1,6 +1,6 @@
 #pragma once
 
-#include "atrapos/fem/FeProblem.hpp"
+#include "atrapos/fem/FeModel.hpp"
 #include "atrapos/fem/PointSet.hpp"
 
 namespace atrapos::fem {

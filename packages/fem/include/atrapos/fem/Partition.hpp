@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "atrapos/fem/FeProblem.hpp"
+#include "atrapos/fem/FeModel.hpp"
 #include "atrapos/fem/Mesh.hpp"
 
 namespace atrapos::fem {

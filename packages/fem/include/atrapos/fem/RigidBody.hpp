@@ -3,7 +3,7 @@
 #include <array>
 #include <vector>
 
-#include "atrapos/fem/FeProblem.hpp"
+#include "atrapos/fem/FeModel.hpp"
 
 namespace atrapos::fem {
 

@@ -1,0 +1,67 @@
+#include "commands/Check.hpp"
+
+#include <fmt/format.h>
+
+#include <ostream>
+
+#include "machine/Memory.hpp"
+#include "commands/MeshCommand.hpp"
+#include "machine/Ranks.hpp"
+#include "commands/RunSettings.hpp"
+#include "commands/SceneCase.hpp"
+#include "machine/Threads.hpp"
+#include "atrapos/linear/Choice.hpp"
+
+namespace atrapos {
+namespace {
+
+/// Nodes where several directors stand.
+int hinges(const fem::ShellGeometry& shells) {
+  int count = 0;
+  for (int n = 0; n < shells.numMeshNodes; ++n)
+    count += shells.firstDirector[n + 1] - shells.firstDirector[n] > 1;
+  return count;
+}
+
+}  // namespace
+
+void printCheck(Scene& scene, std::ostream& out) {
+  deck::describe(scene.deck(), out);
+  fem::FeProblem& problem = scene.problem();
+  out << fmt::format("\n# mesh      {}\n", describeMesh(scene.mesh()));
+  out << fmt::format("# unknowns  {} ({} free), {} tangent\n", scene.numUnknowns(), problem.numFreeDofs(),
+                     problem.symmetric() ? "symmetric" : "unsymmetric");
+  const fem::ShellGeometry& shells = scene.shells().geometry;
+  for (const fem::ShellBlock& block : shells.blocks)
+    out << fmt::format("# shells    {} elements in block '{}'\n", block.numElements(),
+                       scene.mesh().blocks[block.block].name);
+  if (!shells.blocks.empty())
+    out << fmt::format("# directors {}, at {} nodes more than one (hinges)\n", shells.numDirectors(),
+                       hinges(shells));
+  for (const ContactPoints& contact : scene.contacts()) {
+    out << fmt::format("# contact   {}: {} points, smallest gap {:.6g}, {}\n", contact.name, contact.count,
+                       contact.smallestGap, contact.pressure.text);
+    if (contact.attracted > 0)
+      out << fmt::format(
+          "# warning   contact/{}/reference_gap: pulls at the {} points that are farther off than it; "
+          "initial "
+          "does not\n",
+          contact.name, contact.attracted);
+  }
+  if (ranks::count() > 1) out << fmt::format("# ranks     {}\n", threads::describe(ranks::communicator()));
+  SceneCase pathCase(scene);
+  const auto solver = tangentSolver(pathCase);
+  const MemoryEstimate memory =
+      estimateMemory(problem, pathCase.start(), scene.deck().path, *solver, pathCase.historyBytes());
+  if (const std::string why = linear::choice(*solver); !why.empty()) out << "# solver    " << why << '\n';
+  for (const std::string& line : describe(memory, allMachines())) out << "# " << line << '\n';
+}
+
+void printCheck(const ModelCase& model, std::ostream& out) {
+  deck::describe(model.deck(), out);
+  out << fmt::format("\n# problem   {}\n", model.about());
+  out << fmt::format("# unknowns  {}\n", model.sizes()[0].second);
+  for (const std::string& name : model.monitorNames()) out << fmt::format("# monitor   {}\n", name);
+}
+
+}  // namespace atrapos

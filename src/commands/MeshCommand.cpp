@@ -1,0 +1,50 @@
+#include "commands/MeshCommand.hpp"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+#include "atrapos/fem/StructuredMesh.hpp"
+#include "atrapos/fem/StructuredPlane.hpp"
+#include "atrapos/fem/StructuredShell.hpp"
+#include "deck/DeckValue.hpp"
+
+namespace atrapos {
+namespace {
+
+struct Builder {
+  fem::Mesh operator()(const fem::BoxOptions& o) const { return fem::boxMesh(o); }
+  fem::Mesh operator()(const fem::StripOptions& o) const { return fem::stripMesh(o); }
+  fem::Mesh operator()(const fem::CylinderPanelOptions& o) const { return fem::cylinderPanelMesh(o); }
+  fem::Mesh operator()(const fem::SpherePanelOptions& o) const { return fem::spherePanelMesh(o); }
+  fem::Mesh operator()(const fem::ShellPlateOptions& o) const { return fem::shellPlateMesh(o); }
+  fem::Mesh operator()(const fem::ShellCylinderOptions& o) const { return fem::shellCylinderMesh(o); }
+  fem::Mesh operator()(const fem::ShellAnnulusOptions& o) const { return fem::shellAnnulusMesh(o); }
+  fem::Mesh operator()(const fem::ShellSphereOptions& o) const { return fem::shellSphereMesh(o); }
+  fem::Mesh operator()(const fem::RectangleOptions& o) const { return fem::rectangleMesh(o); }
+};
+
+}  // namespace
+
+fem::Mesh generateMesh(const deck::Deck& deck) {
+  if (deck.problem) deck::failAt(deck, "problem", "a model problem has no mesh");
+  if (!deck.mesh.generate)
+    deck::failAt(deck, "mesh/generate", "missing; `atrapos mesh` needs it to make " + deck.mesh.file);
+  try {
+    fem::Mesh mesh = std::visit(Builder{}, *deck.mesh.generate);
+    mesh.title = deck::beginOf(deck.title, 80);  // what Exodus holds
+    return mesh;
+  } catch (const std::invalid_argument& e) {
+    deck::failAt(deck, "mesh/generate", e.what());
+  }
+}
+
+std::string describeMesh(const fem::Mesh& mesh) {
+  std::string text = fmt::format("{} nodes", mesh.numNodes());
+  for (const fem::Block& block : mesh.blocks)
+    text += fmt::format(", {} {} in block '{}'", block.nodes.size() / fem::nodesPerElement(block.topology),
+                        fem::topologyName(block.topology), block.name);
+  return text;
+}
+
+}  // namespace atrapos

@@ -1,0 +1,229 @@
+#include "commands/Run.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <ostream>
+
+#include "output/FieldFiles.hpp"
+#include "output/Files.hpp"
+#include "scene/Imperfections.hpp"
+#include "machine/Interrupt.hpp"
+#include "output/PathPlot.hpp"
+#include "machine/Ranks.hpp"
+#include "output/Recorder.hpp"
+#include "restart/RestartFile.hpp"
+#include "commands/RunSettings.hpp"
+#include "output/RunSummary.hpp"
+#include "atrapos/path/PathFollower.hpp"
+
+namespace atrapos {
+namespace {
+
+/// A path without branches as a diagram of one.
+class Single final : public path::Observer {
+ public:
+  Single(PathCase& pathCase, Recorder& recorder, path::BranchProgress& progress)
+      : case_(pathCase), recorder_(recorder), progress_(progress) {}
+
+  /// Follows the path; where the problem has become another one on a step, again from the step's start.
+  template <class Follower>
+  void follow(Follower& follower) {
+    path::Outcome total;
+    do {
+      changed_ = false;
+      const path::Start from = *progress_.path;
+      const path::Outcome part = follower.runFrom(from, *this);
+      total = total.final.u ? sum(total, part) : part;
+    } while (changed_);
+    progress_.diagram.branches[0].outcome = total;
+  }
+
+  void onSearch(int found, int wanted) override { recorder_.onSearch(0, found, wanted); }
+
+  bool onStep(const path::StepReport& report, const path::Series& series) override {
+    changed_ = case_.changedOn(report.length, series);
+    if (changed_) return false;
+    auto& points = progress_.diagram.points;
+    for (const auto& point : report.criticalPoints) points.push_back({point, 0, report.step});
+    progress_.path = report.next;
+    const bool more = recorder_.onStep(0, report, series);
+    recorder_.onProgress(progress_);
+    return more;
+  }
+
+ private:
+  /// The costs of both; all else is that of the last part.
+  static path::Outcome sum(const path::Outcome& first, path::Outcome last) {
+    last.factorizations += first.factorizations;
+    last.events += first.events;
+    last.eventTrials += first.eventTrials;
+    last.solves += first.solves;
+    last.orders += first.orders;
+    last.startIterations += first.startIterations;
+    last.corrections += first.corrections;
+    last.restarts += first.restarts;
+    last.retreats += first.retreats;
+    last.criticalFactorizations += first.criticalFactorizations;
+    last.closings += first.closings;
+    last.cutBacks += first.cutBacks;
+    last.jumps += first.jumps;
+    last.worstResidual = std::max(last.worstResidual, first.worstResidual);
+    last.worstJump = std::max(last.worstJump, first.worstJump);
+    last.seconds.tangent += first.seconds.tangent;
+    last.seconds.analysis += first.seconds.analysis;
+    last.seconds.factor += first.seconds.factor;
+    last.seconds.solve += first.seconds.solve;
+    last.seconds.orderRhs += first.seconds.orderRhs;
+    last.seconds.residual += first.seconds.residual;
+    last.seconds.total += first.seconds.total;
+    return last;
+  }
+
+  PathCase& case_;
+  Recorder& recorder_;
+  path::BranchProgress& progress_;
+  bool changed_ = false;
+};
+
+/// A run that is killed must not leave an earlier run's files beside its own, those of the branches up to
+/// `last` excepted.
+void removeStale(const std::string& directory, int last, const deck::Deck& deck) {
+  if (!ranks::isFirst()) return;
+  for (const char* old : {"summary.json", "branches.csv", "path.png", "sharpen.csv"})
+    std::filesystem::remove(directory + "/" + old);
+  removeOtherFields(directory, last, deck);
+}
+
+std::optional<Continued> continuedRun(PathCase& pathCase, const RunOptions& options) {
+  if (options.restart.empty()) return {};
+  const deck::Path& settings = pathCase.deck().path;
+  Continued continued = readRestart(options.restart, options.from, pathCase.problem().map());
+  const bool tree = settings.branches != path::Follow::none;
+  if (continued.tree != tree)
+    throw std::invalid_argument(fmt::format("path/branches: the run in {} follows {}branches; expected {}",
+                                            options.restart, continued.tree ? "" : "no ",
+                                            continued.tree ? "all or stable" : "none"));
+  const auto& branches = continued.progress.diagram.branches;
+  std::size_t imperfect = 0;
+  for (const path::Branch& b : branches)
+    if (b.imperfection != 0) {
+      const auto& asked = settings.imperfections;
+      if (imperfect >= asked.size() || asked[imperfect] != b.imperfection)
+        throw std::invalid_argument(fmt::format("path/imperfections: the run in {} has {:g} in place {}",
+                                                options.restart, b.imperfection, imperfect + 1));
+      ++imperfect;
+    }
+  if (continued.progress.path && !settings.autoOrder)
+    continued.progress.path->order = 0;  // that of the deck, which may be another one
+  return continued;
+}
+
+bool atStop(const path::Branch& branch) {
+  return branch.end != path::BranchEnd::path || branch.outcome.reason == path::EndReason::stopReached ||
+         branch.outcome.reason == path::EndReason::stepLimit;
+}
+
+RunResult resultOf(const path::BranchDiagram& diagram) {
+  RunResult result;
+  result.reachedStop = true;
+  result.text = diagram.branches[0].outcome.text;
+  for (std::size_t b = 0; b < diagram.branches.size(); ++b) {
+    if (atStop(diagram.branches[b])) continue;
+    result.reachedStop = false;
+    result.text = diagram.branches[b].outcome.text;
+    if (b > 0) result.text = fmt::format("branch {}: {}", b, result.text);
+    break;
+  }
+  if (Interrupt::came()) {
+    result.reachedStop = false;
+    result.text = "interrupted; every finished step is on disk";
+  }
+  return result;
+}
+
+}  // namespace
+
+RunResult runPath(PathCase& pathCase, const RunOptions& options) {
+  const deck::Deck& deck = pathCase.deck();
+  path::Problem& problem = pathCase.problem();
+  const auto solver = tangentSolver(pathCase, options.progress);
+  const path::Options settings = pathOptions(pathCase);
+  const path::Stops stops = pathCase.stops();
+  const std::vector<int> conditions = problem.conditions();
+  path::PathFollower follower(problem, *solver, settings, stops);
+  path::BranchFollower tree(problem, *solver, settings, stops, branchOptions(deck.path));
+  follower.watch(pathCase.functionals());
+  tree.watch(pathCase.functionals());
+  auto continued = continuedRun(pathCase, options);
+  auto imperfect = continued ? imperfectUnderWay(pathCase, conditions, continued->progress) : nullptr;
+  ranks::wait();  // all have read what the first one is going to replace
+
+  prepareFolder(options.directory, {"path.csv", "points.csv", "events.csv", "branches.csv", "results.exo",
+                                    "restart.bin", "sharpen.csv", "summary.json", "path.png"});
+  ranks::wait();  // the folder is there
+  Interrupt interrupt;
+  Recorder recorder(imperfect ? imperfect->pathCase() : pathCase, imperfect ? imperfect->problem() : problem,
+                    options.directory, options.progress, continued);
+  removeStale(options.directory, continued ? continued->progress.current : 0, deck);
+  const path::State start = pathCase.start();
+  const std::optional<path::Start> behind = continued ? continued->progress.path : std::nullopt;
+  path::BranchProgress progress = continued ? continued->progress : path::BranchProgress(start);
+  if (progress.diagram.branches.back().imperfection == 0) {
+    if (deck.path.branches != path::Follow::none) {
+      tree.goOn(progress, recorder);
+    } else if (progress.path) {
+      Single single(pathCase, recorder, progress);
+      if (deck.path.series()) {
+        single.follow(follower);
+      } else {
+        path::NewtonFollower newton(problem, *solver, newtonOptions(pathCase), stops);
+        single.follow(newton);
+      }
+      if (!deck.path.imperfections.empty() && !Interrupt::came()) {
+        progress.path.reset();
+        recorder.onProgress(progress);
+      }
+    }
+    recorder.finish(start);
+  }
+  const path::BranchDiagram& diagram = progress.diagram;
+  std::string trouble;
+  try {
+    followImperfect(pathCase, *solver, settings, conditions, std::move(imperfect), recorder, progress);
+  } catch (const std::runtime_error& e) {
+    trouble = e.what();  // what has been found stays
+  }
+
+  auto summary = runSummary(pathCase, diagram, *solver, recorder);
+  if (continued) {
+    const int branch = continued->progress.current;
+    summary["restarted_on_branch"] = branch;
+    summary["restarted_behind_step"] =
+        behind ? behind->steps : continued->progress.diagram.branches[branch].outcome.steps;
+  }
+  std::string finished;
+  const path::Outcome& first = diagram.branches[0].outcome;
+  if (first.reason == path::EndReason::stopReached && !Interrupt::came())
+    finished = pathCase.finish(first.final, settings, *solver, options.directory, summary);
+  replaceFile(options.directory + "/summary.json", summary.dump(2) + "\n");
+  replaceFile(options.directory + "/branches.csv", branchTable(diagram));
+  const std::string plot = plotPath(options.directory, deck.title, pathCase.monitorNames(),
+                                    static_cast<int>(diagram.branches.size()));
+  if (options.progress) {
+    *options.progress << fmt::format(
+        "{} steps, {} factorizations, {} solves, {:.2f} s; worst residual {:.2e}\n",
+        summary["steps"].get<int>(), summary["factorizations"].get<int>(), summary["solves"].get<int>(),
+        recorder.seconds(), recorder.worstResidual());
+    if (!finished.empty()) *options.progress << finished << '\n';
+    if (!plot.empty()) *options.progress << plot << '\n';
+  }
+  RunResult result = resultOf(diagram);
+  if (result.reachedStop && !trouble.empty()) result = {false, trouble};
+  return result;
+}
+
+}  // namespace atrapos

@@ -1,0 +1,114 @@
+#include "commands/SceneCase.hpp"
+
+#include <fmt/format.h>
+
+#include <Tpetra_Vector.hpp>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "scene/ContactEvents.hpp"
+#include "output/FieldFiles.hpp"
+#include "machine/Memory.hpp"
+#include "scene/Sharpen.hpp"
+#include "atrapos/linear/OnAllRanks.hpp"
+
+namespace atrapos {
+
+int SceneCaseState::activeContacts() const {
+  int active = 0;
+  for (const ContactPoints& contact : scene_.contacts())
+    active += scene_.contactState(contact, state_).active;
+  return active;
+}
+
+path::State SceneCase::start() const { return {scene_.problem().initialState(0.0), 0.0}; }
+
+std::unique_ptr<FieldFile> SceneCase::makeFieldFile(const std::string& file) const {
+  return makeSceneFields(scene_, file);
+}
+
+std::unique_ptr<StepWatch> SceneCase::makeWatch(const std::string& file, bool append) const {
+  if (scene_.contacts().empty()) return nullptr;
+  return std::make_unique<ContactEvents>(scene_, file, append);
+}
+
+std::unique_ptr<PathCase> SceneCase::moved(const path::Vector& shape, double size) const {
+  const auto values = linear::onAllRanks(shape);
+  fem::Mesh mesh = scene_.mesh();
+  // Three unknowns a node of the mesh come first, then those of directors and rigid bodies.
+  std::vector<double>& x = mesh.coordinates;
+  double largest = 0;
+  for (std::size_t i = 0; i < x.size(); ++i)
+    if (std::abs(values[i]) > std::abs(largest)) largest = values[i];
+  if (largest == 0) throw std::runtime_error("path/imperfections: the mode moves no node");
+  for (std::size_t i = 0; i < x.size(); ++i) x[i] += size / largest * values[i];
+  return std::make_unique<SceneCase>(
+      std::make_unique<Scene>(scene_.deck(), DeckMesh(std::move(mesh), scene_.givenRanks())));
+}
+
+std::vector<std::string> SceneCase::remarks() const {
+  std::vector<std::string> lines;
+  for (const ContactPoints& contact : scene_.contacts())
+    lines.push_back(fmt::format("contact {}: {}", contact.name, contact.pressure.text));
+  return lines;
+}
+
+bool SceneCase::changedOn(double length, const path::Series& series) {
+  if (!scene_.contactsGrow()) return false;
+  constexpr int places = 8;
+  path::Vector u(scene_.problem().map());
+  bool changed = false;
+  for (int j = 1; j <= places; ++j) {
+    const double lambda = series.evaluate(length * j / places, u);
+    if (!scene_.othersAreNear(u, lambda)) continue;
+    changed = true;
+    scene_.grow(u, lambda);
+  }
+  takenBack_ += changed ? 1 : 0;
+  return changed;
+}
+
+void SceneCase::summarize(nlohmann::ordered_json& summary) const {
+  auto contacts = nlohmann::ordered_json::object();
+  for (const ContactPoints& contact : scene_.contacts()) {
+    auto& entry = contacts[contact.name];
+    entry["law"] = contact.pressure.text;
+    for (const auto& [name, value] : contact.pressure.numbers) entry[name] = value;
+    entry["points"] = contact.count;
+    entry["points_carried"] = contact.numCarried();
+  }
+  summary["contacts"] = contacts;
+  summary["steps_taken_back"] = takenBack_;
+}
+
+std::string SceneCase::finish(const path::State& end, const path::Options& options,
+                              linear::TangentSolver& solver, const std::string& directory,
+                              nlohmann::ordered_json& summary) {
+  if (!scene_.deck().path.sharpen) return {};
+  const auto names = scene_.monitorNames();
+  const Sharpened sharpened =
+      sharpen(scene_, end, *scene_.deck().path.sharpen, options, solver, directory + "/sharpen.csv");
+  auto& entry = summary["sharpened"];
+  entry["reached"] = sharpened.reached;
+  if (!sharpened.reached) entry["why"] = sharpened.text;
+  entry["factor"] = sharpened.factor;
+  entry["steps"] = sharpened.steps;
+  for (std::size_t m = 0; m < names.size(); ++m) entry["monitors"][names[m]] = sharpened.monitors[m];
+  return fmt::format("eta times {:.3g} in {} steps{}{}", sharpened.factor, sharpened.steps,
+                     sharpened.reached ? "" : ": ", sharpened.text);
+}
+
+double SceneCase::historyBytes() {
+  return static_cast<double>(scene_.problem().historyBytes(historyOrder(scene_.deck().path)));
+}
+
+std::vector<std::pair<std::string, long long>> SceneCase::sizes() const {
+  return {{"nodes", scene_.mesh().numNodes()},
+          {"elements", scene_.mesh().numElements()},
+          {"unknowns", scene_.numUnknowns()},
+          {"free_unknowns", scene_.problem().numFreeDofs()},
+          {"contact_points", scene_.numContactPoints()},
+          {"series_bytes", static_cast<long long>(scene_.problem().historyBytes(scene_.deck().path.order))}};
+}
+
+}  // namespace atrapos

@@ -1,0 +1,68 @@
+#include "output/Gnuplot.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <spawn.h>
+#include <sys/wait.h>
+
+#include <cerrno>
+#include <cstring>
+
+#include "deck/Characters.hpp"
+
+extern char** environ;
+
+namespace atrapos {
+namespace {
+
+/// So many characters of a text in UTF-8.
+std::string firstOf(const std::string& text, int count) {
+  std::size_t end = 0;
+  for (; end < text.size() && count > 0; --count) end += deck::characterSize(text, end);
+  return end < text.size() ? text.substr(0, end) + "..." : text;
+}
+
+}  // namespace
+
+// Gnuplot runs what is between backticks wherever no single quote is open, puts in what @ names, and loses
+// count of quotes within quotes: all that may mean something is written as its octal number.
+std::string gnuplotText(const std::string& text) {
+  constexpr int longest = 120;  // wider than the picture
+  std::string result = "\"";
+  bool number = false;  // a digit would go on with it
+  for (const char c : firstOf(deck::plainLine(text), longest)) {
+    const auto code = static_cast<unsigned char>(c);
+    const bool letter = (code >= 'a' && code <= 'z') || (code >= 'A' && code <= 'Z');
+    const bool digit = code >= '0' && code <= '9';
+    if (letter || (digit && !number) || std::strchr(" .,:;()+-*/=_", c)) {
+      result += c;
+      number = false;
+    } else {
+      result += fmt::format("\\{:03o}", code);
+      number = true;
+    }
+  }
+  return result + '"';
+}
+
+std::string runGnuplot(const std::string& folder, const std::string& script) {
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_addopen(&actions, 0, "/dev/null", O_RDONLY, 0);
+  for (const int told : {1, 2}) posix_spawn_file_actions_addopen(&actions, told, "/dev/null", O_WRONLY, 0);
+  posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
+  std::string words[] = {"gnuplot", "--default-settings", script};
+  char* argv[] = {words[0].data(), words[1].data(), words[2].data(), nullptr};
+  pid_t child = 0;
+  const int error = posix_spawnp(&child, argv[0], &actions, nullptr, argv, environ);
+  posix_spawn_file_actions_destroy(&actions);
+  if (error == ENOENT) return fmt::format("gnuplot is not installed ({} draws it)", script);
+  if (error != 0) return "gnuplot could not be started";
+  int status = 0;
+  while (waitpid(child, &status, 0) < 0)
+    if (errno != EINTR) return "gnuplot's end is not known";
+  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) return fmt::format("gnuplot failed (see {})", script);
+  return "";
+}
+
+}  // namespace atrapos

@@ -1,0 +1,277 @@
+#include "output/Recorder.hpp"
+
+#include <fmt/format.h>
+
+#include <Tpetra_Vector.hpp>
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <ostream>
+
+#include "output/FieldFiles.hpp"
+#include "machine/Interrupt.hpp"
+#include "machine/Ranks.hpp"
+
+namespace atrapos {
+namespace {
+
+/// While an earlier run is taken over, new files stand beside the old ones.
+constexpr const char* kBeside = ".new";
+
+constexpr double kNotEvaluated = std::numeric_limits<double>::quiet_NaN();
+
+}  // namespace
+
+Recorder::Recorder(PathCase& pathCase, path::Problem& problem, std::string directory, std::ostream* progress,
+                   const std::optional<Continued>& continued)
+    : case_(&pathCase),
+      problem_(&problem),
+      functionals_(pathCase.functionals()),
+      directory_(std::move(directory)),
+      progress_(progress),
+      path_(file("path.csv") + (continued ? kBeside : ""), pathHeader(case_->monitorNames())),
+      points_(file("points.csv") + (continued ? kBeside : ""), pointHeader(case_->monitorNames())),
+      work_(Teuchos::rcp(new path::Vector(case_->problem().map()))),
+      residual_(Teuchos::rcp(new path::Vector(case_->problem().map()))),
+      start_(std::chrono::steady_clock::now()) {
+  const std::string beside = continued ? kBeside : "";
+  const deck::Path& settings = case_->deck().path;
+  if (settings.restart)
+    restart_.emplace(file("restart.bin") + beside, settings.branches != path::Follow::none);
+  if (continued) branch_ = continued->progress.current;
+  if (!continued || continued->progress.path)
+    fields_ = case_->makeFieldFile(file(fieldsName(branch_)) + beside);
+  // Between the ends of Newton steps nothing is known for sure.
+  if (settings.series()) watch_ = case_->makeWatch(file("events.csv") + beside, false);
+  if (continued) try {
+      goOn(*continued);
+    } catch (...) {
+      if (fields_) fields_->discard();
+      for (const char* name : {"path.csv", "points.csv", "events.csv", "restart.bin"})
+        std::filesystem::remove(file(name) + kBeside);
+      throw;
+    }
+  if (progress_)
+    for (const std::string& line : case_->remarks()) *progress_ << line << '\n';
+  printHead();
+}
+
+Recorder::~Recorder() = default;
+
+void Recorder::goOn(const Continued& continued) {
+  const auto& path = continued.progress.path;
+  const RestartPlace last{branch_, path ? path->steps : std::numeric_limits<int>::max()};
+  const auto old = [&](const std::string& name) { return continued.directory + "/" + name; };
+  path_.copyFrom(old("path.csv"), last);
+  points_.copyFrom(old("points.csv"), last);
+  if (fields_)
+    fields_->copyFrom(old(fieldsName(branch_)), 1 + numFieldStates(path->steps, !path->stop.empty()),
+                      path->pathLength);
+  if (watch_) watch_->copyFrom(old("events.csv"), last);
+  if (restart_) restart_->goOn(old("restart.bin"), continued);
+  started_ = true;
+  ranks::wait();  // all have taken over what is replaced now
+  if (ranks::isFirst() && !std::filesystem::equivalent(directory_, continued.directory))
+    copyFields(continued.directory, directory_, fields_ ? branch_ - 1 : branch_);
+  // The restart file first: whatever ends this in the middle, the others hold at least what it names.
+  const auto replace = [&](const std::string& name) {
+    if (ranks::isFirst()) std::filesystem::rename(file(name) + kBeside, file(name));
+  };
+  if (restart_) replace("restart.bin");
+  ranks::wait();
+  if (fields_) fields_->rename(file(fieldsName(branch_)));
+  if (watch_) replace("events.csv");
+  replace("path.csv");
+  replace("points.csv");
+}
+
+bool Recorder::hasFields(int step, bool atStop) const {
+  return step % case_->deck().output.fieldsEvery == 0 || atStop;
+}
+
+int Recorder::numFieldStates(int steps, bool atStop) const {
+  const int every = case_->deck().output.fieldsEvery;
+  return steps / every + (atStop && steps % every != 0 ? 1 : 0);
+}
+
+double Recorder::seconds() const {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+}
+
+void Recorder::onBranch(const path::BranchDiagram& diagram, int branch) {
+  if (branch == 0) return;
+  const path::Branch& b = diagram.branches[branch];
+  const path::CriticalPoint& point = diagram.points[b.point].point;
+  if (progress_)
+    *progress_ << fmt::format("branch {}: from the {} on branch {} at load factor {:.10g}{}\n", branch,
+                              path::toString(point.kind), b.parent, point.state.lambda,
+                              b.end == path::BranchEnd::path ? "" : ": " + b.outcome.text);
+  if (b.end == path::BranchEnd::path) begin(branch);
+}
+
+void Recorder::beginImperfect(PathCase& pathCase, path::Problem& problem, int branch, double size) {
+  if (&pathCase != case_) {
+    case_ = &pathCase;
+    functionals_ = pathCase.functionals();
+    if (watch_) {
+      watched_ += watch_->count();
+      watch_.reset();
+      watch_ = pathCase.makeWatch(file("events.csv"), true);
+    }
+  }
+  problem_ = &problem;
+  if (progress_) *progress_ << fmt::format("branch {}: the path with imperfection {:g}\n", branch, size);
+  begin(branch);
+}
+
+void Recorder::begin(int branch) {
+  branch_ = branch;
+  started_ = false;
+  fields_.reset();  // the file of the branch before is complete
+  fields_ = case_->makeFieldFile(file(fieldsName(branch)));
+  printHead();
+}
+
+bool Recorder::onStep(int branch, const path::StepReport& report, const path::Series& series) {
+  const double before = seconds();
+  branch_ = branch;
+  const auto negativeAt = [&](double a) { return report.negativeAt(a).value_or(-1); };
+  // The step is one of the problem before the events at its end.
+  const auto changeBack = [&] {
+    if (!report.events.empty()) case_->problem().applyEvent(report.events, *report.end.u, report.end.lambda);
+  };
+  changeBack();
+  if (!started_) writeStart(*series.coefficient(0).u, series.lambdaCoefficient(0), negativeAt(0));
+  const int points = case_->deck().output.pointsPerStep;
+  for (int j = 1; j < points; ++j) {
+    const double a = report.length * j / points;
+    const double lambda = series.evaluate(a, *work_);
+    writeRow(report.step, report.pathLengthStart + a, lambda, *case_->at(*work_, lambda), negativeAt(a),
+             case_->deck().output.residuals == deck::Output::Residuals::Points ? residualAt(*work_, lambda)
+                                                                               : kNotEvaluated);
+  }
+  const long long negative = negativeAt(report.length);
+  const auto end = case_->at(*report.end.u, report.end.lambda);
+  writeRow(report.step, report.pathLengthEnd, report.end.lambda, *end, negative, report.residual);
+  writePoints(report, series);
+  if (watch_)
+    watch_->onStep(branch, report.step, report.pathLengthStart, report.length, series, *end, report.events);
+  if (fields_ && hasFields(report.step, !report.next.stop.empty()))
+    fields_->write(*end, {report.end.lambda, report.pathLengthEnd, report.radius, report.residual,
+                          report.order, negative, branch_});
+  printStep(report, *end);
+  changeBack();
+  outputSeconds_ += seconds() - before;
+  return !Interrupt::agree();
+}
+
+void Recorder::onSearch(int /*branch*/, int found, int wanted) {
+  constexpr double patience = 5;  // s
+  if (!progress_ || seconds() - printed_ < patience) return;
+  printed_ = seconds();
+  *progress_ << fmt::format("      {} eigenvalue(s) changed sign, the places of {} are found, {:.2f} s", wanted,
+                            found, printed_)
+             << std::endl;
+}
+
+void Recorder::onProgress(const path::BranchProgress& progress) {
+  if (restart_) restart_->append(progress);
+}
+
+void Recorder::finish(const path::State& start) {
+  if (!started_) writeStart(*start.u, start.lambda, -1);
+}
+
+void Recorder::writeStart(const path::Vector& u, double lambda, long long negative) {
+  started_ = true;
+  const auto state = case_->at(u, lambda);
+  const double residual = residualAt(u, lambda);
+  writeRow(0, 0.0, lambda, *state, negative, residual);
+  if (fields_) fields_->write(*state, {lambda, 0, 0, residual, 0, negative, branch_});
+}
+
+double Recorder::residualAt(const path::Vector& u, double lambda) {
+  return problem_->residual(u, lambda, *residual_).relative();
+}
+
+void Recorder::writeRow(int step, double pathLength, double lambda, const CaseState& state,
+                        long long negative, double residual) {
+  if (step > 0 && residual > worstResidual_) worstResidual_ = residual;
+  path_.append(text(PathRow{step, pathLength, lambda, state.monitors(), negative, branch_, residual}));
+}
+
+void Recorder::writePoints(const path::StepReport& report, const path::Series& series) {
+  std::vector<PointRow> rows;
+  for (const path::LimitPoint& p : report.limitPoints) {
+    series.evaluate(p.a, *work_);
+    PointRow row{report.step, branch_, report.pathLengthStart + p.a, p.lambda,
+                 p.maximum ? "maximum" : "minimum"};
+    row.monitors = case_->at(*work_, p.lambda)->monitors();
+    rows.push_back(row);
+  }
+  for (const path::Extremum& e : report.extrema) {
+    series.evaluate(e.a, *work_);
+    // A monitor that is zero by symmetry turns at random: what it changes by must be more than the residual
+    // bound leaves open.
+    const path::Vector& weights = *functionals_[e.monitor].weights;
+    const auto value = series.functional(weights);
+    const double change = std::max(std::abs(e.value - value(0)), std::abs(e.value - value(report.length)));
+    if (!(change > case_->deck().path.residual * weights.norm2() * work_->norm2())) continue;
+    PointRow row{report.step, branch_, report.pathLengthStart + e.a, e.lambda,
+                 (e.maximum ? "maximum:" : "minimum:") + functionals_[e.monitor].name};
+    row.monitors = case_->at(*work_, e.lambda)->monitors();
+    rows.push_back(row);
+  }
+  limitPoints_ += static_cast<int>(report.limitPoints.size());
+  for (const path::CriticalPoint& p : report.criticalPoints) {
+    PointRow row{report.step, branch_, report.pathLengthStart + p.a, p.state.lambda, path::toString(p.kind)};
+    row.negativeChange = p.negativeChange;
+    row.nullity = p.nullity;
+    row.uncertainty = p.uncertainty;
+    row.monitors = case_->at(*p.state.u, p.state.lambda)->monitors();
+    rows.push_back(row);
+  }
+  unexplained_ += report.unexplained;
+  std::sort(rows.begin(), rows.end(),
+            [](const PointRow& a, const PointRow& b) { return a.pathLength < b.pathLength; });
+  for (const PointRow& row : rows) points_.append(text(row));
+}
+
+void Recorder::printHead() const {
+  if (progress_)
+    *progress_ << fmt::format("{:>5} {:>5} {:>10} {:>13} {:>10} {:>10} {:>4} {:>4} {:>8} {:>8}  {}\n", "step",
+                              case_->deck().path.series() ? "order" : "",
+                              case_->deck().path.series() ? "radius" : "tried", "load factor", "length",
+                              "residual", "cut", "corr", "contacts", "time s", "events");
+}
+
+void Recorder::printStep(const path::StepReport& r, const CaseState& end) {
+  const int active = progress_ || ranks::count() > 1 ? end.activeContacts() : 0;  // collective
+  if (!progress_) return;
+  std::string events;
+  for (const path::LimitPoint& p : r.limitPoints)
+    events +=
+        fmt::format("limit point ({}) at load factor {:.8g}; ", p.maximum ? "maximum" : "minimum", p.lambda);
+  const bool follows = case_->deck().path.branches != path::Follow::none;
+  for (const path::CriticalPoint& p : r.criticalPoints) {
+    events +=
+        fmt::format("bifurcation point ({}) at load factor {:.10g}", path::toString(p.kind), p.state.lambda);
+    if (p.nullity > 1) events += fmt::format(", {} null vectors", p.nullity);
+    if (follows && p.tangents.empty())
+      events += ": the directions of its branches are not known, none is followed";
+    events += "; ";
+  }
+  if (r.jump > 0) events += fmt::format("forces jump by {:.2g} at a border of patches; ", r.jump);
+  if (r.unexplained > 0)
+    events += fmt::format("{} eigenvalue(s) changed sign at a place not found; ", r.unexplained);
+  if (!events.empty()) events.resize(events.size() - 2);
+  *progress_ << fmt::format(
+                    "{:>5} {:>5} {:>10.3e} {:>13.6g} {:>10.3e} {:>10.2e} {:>4} {:>4} {:>8} {:>8.2f}  {}",
+                    r.step, case_->deck().path.series() ? fmt::format("{}", r.order) : "", r.radius,
+                    r.lambdaEnd, r.length, r.residual, r.cutBacks, r.corrections, active, seconds(), events)
+             << std::endl;
+  printed_ = seconds();
+}
+
+}  // namespace atrapos

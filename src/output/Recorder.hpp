@@ -1,0 +1,83 @@
+#pragma once
+
+#include <chrono>
+#include <iosfwd>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "commands/PathCase.hpp"
+#include "output/PathTable.hpp"
+#include "restart/RestartFile.hpp"
+#include "atrapos/path/Branches.hpp"
+
+namespace atrapos {
+
+/// Writes what a run finds, step by step: path.csv, points.csv, events.csv, restart.bin, results.exo and
+/// results_branch<n>.exo; one line a step for the user. Every finished step is on disk before the next one
+/// begins, its restart record last. On several ranks all call it and the first one writes, but for
+/// result files in parts (output/parts).
+class Recorder final : public path::BranchObserver {
+ public:
+  /// `progress` may be null; `problem`: whose path is under way at the beginning, that of the case or an
+  /// imperfect one. Throws std::invalid_argument where the continued run does not fit the deck.
+  Recorder(PathCase& pathCase, path::Problem& problem, std::string directory, std::ostream* progress,
+           const std::optional<Continued>& continued);
+  ~Recorder() override;
+
+  void onBranch(const path::BranchDiagram& diagram, int branch) override;
+  /// An imperfect path as another branch; the case and the problem, whose residual counts, must outlive its
+  /// steps.
+  void beginImperfect(PathCase& pathCase, path::Problem& problem, int branch, double size);
+  /// False after SIGINT or SIGTERM.
+  bool onStep(int branch, const path::StepReport& report, const path::Series& series) override;
+  /// A line for the user where the last one is long ago.
+  void onSearch(int branch, int found, int wanted) override;
+  void onProgress(const path::BranchProgress& progress) override;
+
+  /// The start of the path under way where no step was made.
+  void finish(const path::State& start);
+
+  int limitPoints() const { return limitPoints_; }
+  int unexplained() const { return unexplained_; }
+  int contactEvents() const { return watched_ + (watch_ ? watch_->count() : 0); }
+  double worstResidual() const { return worstResidual_; }  ///< over all output points
+  double outputSeconds() const { return outputSeconds_; }
+  double seconds() const;
+
+ private:
+  std::string file(const std::string& name) const { return directory_ + "/" + name; }
+  void begin(int branch);
+  void goOn(const Continued& continued);
+  void writeStart(const path::Vector& u, double lambda, long long negative);
+  void writeRow(int step, double pathLength, double lambda, const CaseState& state, long long negative,
+                double residual);
+  /// Whether the state at the end of a step goes into the result file.
+  bool hasFields(int step, bool atStop) const;
+  /// How many of them do, up to this step.
+  int numFieldStates(int steps, bool atStop) const;
+  double residualAt(const path::Vector& u, double lambda);
+  void writePoints(const path::StepReport& report, const path::Series& series);
+  void printHead() const;
+  void printStep(const path::StepReport& report, const CaseState& end);
+
+  PathCase* case_;          ///< under way
+  path::Problem* problem_;  ///< its own, or an imperfect one
+  std::vector<path::Monitor> functionals_;
+  std::string directory_;
+  std::ostream* progress_;
+  Table path_, points_;
+  std::optional<RestartFile> restart_;
+  std::unique_ptr<FieldFile> fields_;  ///< of the branch under way
+  std::unique_ptr<StepWatch> watch_;
+  path::RCP<path::Vector> work_, residual_;
+  std::chrono::steady_clock::time_point start_;
+  int branch_ = 0;
+  bool started_ = false;  ///< the start of the branch under way is written
+  int limitPoints_ = 0, unexplained_ = 0;
+  int watched_ = 0;  ///< by watches of other cases
+  double worstResidual_ = 0, outputSeconds_ = 0;
+  double printed_ = 0;  ///< seconds() at the last line for the user
+};
+
+}  // namespace atrapos

@@ -1,0 +1,174 @@
+#include "output/RunSummary.hpp"
+
+#include <fmt/format.h>
+
+#include <Kokkos_Core.hpp>
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "machine/Memory.hpp"
+#include "machine/Ranks.hpp"
+#include "Version.hpp"
+#include "atrapos/fem/Processor.hpp"
+#include "atrapos/linear/Choice.hpp"
+#include "atrapos/linear/Iterations.hpp"
+#include "deck/DeckTables.hpp"
+
+namespace atrapos {
+namespace {
+
+template <class T, class Owner>
+T sum(const path::BranchDiagram& diagram, T Owner::*member) {
+  T total{};
+  for (const path::Branch& b : diagram.branches) total += b.outcome.*member;
+  return total;
+}
+
+double seconds(const path::BranchDiagram& diagram, double path::Timings::*member) {
+  double total = 0;
+  for (const path::Branch& b : diagram.branches) total += b.outcome.seconds.*member;
+  return total;
+}
+
+nlohmann::ordered_json pointsOf(const PathCase& pathCase, const path::BranchDiagram& diagram) {
+  auto list = nlohmann::ordered_json::array();
+  const auto names = pathCase.monitorNames();
+  for (std::size_t i = 0; i < diagram.points.size(); ++i) {
+    const path::BranchPoint& found = diagram.points[i];
+    const path::CriticalPoint& p = found.point;
+    nlohmann::ordered_json json{{"point", i},
+                                {"branch", found.branch},
+                                {"step", found.step},
+                                {"kind", path::toString(p.kind)},
+                                {"load_factor", p.state.lambda},
+                                {"nullity", p.nullity},
+                                {"negative_change", p.negativeChange},
+                                {"residual", p.residual},
+                                {"uncertainty", p.uncertainty}};
+    const auto values = pathCase.at(*p.state.u, p.state.lambda)->monitors();
+    for (std::size_t m = 0; m < names.size(); ++m) json["monitors"][names[m]] = values[m];
+    list.push_back(json);
+  }
+  return list;
+}
+
+nlohmann::ordered_json branchesOf(const path::BranchDiagram& diagram) {
+  auto list = nlohmann::ordered_json::array();
+  for (std::size_t i = 0; i < diagram.branches.size(); ++i) {
+    const path::Branch& b = diagram.branches[i];
+    nlohmann::ordered_json json{{"branch", i}};
+    if (b.parent >= 0) {
+      json["parent"] = b.parent;
+      json["point"] = b.point;
+      json["load_direction"] = b.direction.lambda;
+    }
+    json["depth"] = b.depth;
+    if (b.imperfection != 0) json["imperfection"] = b.imperfection;
+    json["end"] = path::toString(b.end);
+    json["ended"] = path::toString(b.outcome.reason);
+    json["why"] = b.outcome.text;
+    json["steps"] = b.outcome.steps;
+    json["factorizations"] = b.outcome.factorizations;
+    if (b.outcome.final.u) json["load_factor"] = b.outcome.final.lambda;
+    json["path_length"] = b.outcome.pathLength;
+    list.push_back(json);
+  }
+  return list;
+}
+
+}  // namespace
+
+nlohmann::ordered_json runSummary(const PathCase& pathCase, const path::BranchDiagram& diagram,
+                                  const linear::TangentSolver& solver, const Recorder& recorder) {
+  using path::Outcome;
+  const Outcome& first = diagram.branches[0].outcome;
+  const deck::Deck& deck = pathCase.deck();
+  nlohmann::ordered_json json;
+  json["program"] = "atrapos " + std::string(kVersion);
+  json["deck"] = deck.file;
+  json["title"] = deck.title;
+  json["ended"] = path::toString(first.reason);
+  json["why"] = first.text;
+  json["reached_stop"] = first.reason == path::EndReason::stopReached;
+  json["load_factor"] = first.final.lambda;
+  json["path_length"] = first.pathLength;
+  json["path_weight"] = first.weight;
+  json["steps"] = sum(diagram, &Outcome::steps);
+  json["method"] = deck::wordOf(deck.path.method, deck::methods());
+  if (deck.path.autoOrder)
+    json["order"] = "auto";
+  else if (deck.path.series())
+    json["order"] = deck.path.order;
+  json["orders_computed"] = sum(diagram, &Outcome::orders);
+  json["factorizations"] = sum(diagram, &Outcome::factorizations) + diagram.switchFactorizations;
+  json["solves"] = sum(diagram, &Outcome::solves);
+  json["corrections"] = sum(diagram, &Outcome::corrections);
+  json["start_iterations"] = sum(diagram, &Outcome::startIterations);
+  json["restarts"] = sum(diagram, &Outcome::restarts);
+  json["retreats"] = sum(diagram, &Outcome::retreats);
+  json["critical_factorizations"] = sum(diagram, &Outcome::criticalFactorizations);
+  json["switch_factorizations"] = diagram.switchFactorizations;
+  json["closings"] = sum(diagram, &Outcome::closings);
+  json["cut_backs"] = sum(diagram, &Outcome::cutBacks);
+  json["residual_bound"] = deck.path.residual;
+  json["worst_residual"] = recorder.worstResidual();
+  double worst = 0, worstJump = 0;
+  for (const path::Branch& b : diagram.branches) {
+    worst = std::max(worst, b.outcome.worstResidual);
+    worstJump = std::max(worstJump, b.outcome.worstJump);
+  }
+  json["worst_residual_at_step_ends"] = worst;
+  json["jumps"] = sum(diagram, &Outcome::jumps);
+  json["worst_jump"] = worstJump;
+  json["limit_points"] = recorder.limitPoints();
+  json["bifurcation_points"] = diagram.points.size();
+  json["unexplained_sign_changes"] = recorder.unexplained();
+  json["points"] = pointsOf(pathCase, diagram);
+  json["branches"] = branchesOf(diagram);
+  json["branches_complete"] = diagram.complete;
+  for (const auto& [name, size] : pathCase.sizes()) json[name] = size;
+  if (deck.path.series()) json["contact_events"] = recorder.contactEvents();
+  pathCase.summarize(json);
+  json["solver"] = solver.name();
+  if (const std::string why = linear::choice(solver); !why.empty()) json["solver_choice"] = why;
+  if (const auto iterations = linear::iterations(solver))
+    json["iterations"] = {{"total", iterations->total}, {"most", iterations->most}};
+  nlohmann::ordered_json memory;
+  if (const auto factor = linear::spent(solver)) memory["factor"] = factor->bytes;
+  memory["peak"] = residentOfAll().peak;  // collective
+  json["memory_bytes"] = memory;
+  json["ranks"] = ranks::count();
+  json["kernels"] = fem::describeKernels();
+  json["execution_space"] = Kokkos::DefaultExecutionSpace::name();
+  json["threads"] = Kokkos::DefaultExecutionSpace::concurrency();
+  json["seconds"] = {{"tangent", seconds(diagram, &path::Timings::tangent)},
+                     {"analysis", seconds(diagram, &path::Timings::analysis)},
+                     {"factorization", seconds(diagram, &path::Timings::factor)},
+                     {"solves", seconds(diagram, &path::Timings::solve)},
+                     {"order_rhs", seconds(diagram, &path::Timings::orderRhs)},
+                     {"residual", seconds(diagram, &path::Timings::residual)},
+                     {"output", recorder.outputSeconds()},
+                     {"total", recorder.seconds()}};
+  return json;
+}
+
+std::string branchTable(const path::BranchDiagram& diagram) {
+  std::string table =
+      "branch,parent,depth,point,kind,load_factor,load_direction,steps,factorizations,end,ended,"
+      "imperfection\n";
+  for (std::size_t i = 0; i < diagram.branches.size(); ++i) {
+    const path::Branch& b = diagram.branches[i];
+    const bool first = b.parent < 0;
+    const path::CriticalPoint* p = first ? nullptr : &diagram.points[b.point].point;
+    table += fmt::format("{},{},{},{},{},{:.17g},{:.17g},{},{},{},{},{:g}\n", i, b.parent, b.depth, b.point,
+                         b.imperfection != 0 ? "imperfect"
+                         : first             ? "start"
+                                             : path::toString(p->kind),
+                         first ? b.start.lambda : p->state.lambda, first ? 0.0 : b.direction.lambda,
+                         b.outcome.steps, b.outcome.factorizations, path::toString(b.end),
+                         path::toString(b.outcome.reason), b.imperfection);
+  }
+  return table;
+}
+
+}  // namespace atrapos

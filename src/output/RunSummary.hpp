@@ -1,0 +1,21 @@
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "commands/PathCase.hpp"
+#include "output/Recorder.hpp"
+#include "atrapos/linear/TangentSolver.hpp"
+#include "atrapos/path/Branches.hpp"
+
+namespace atrapos {
+
+/// summary.json: how the run ended, what was found, what it cost. Counts and seconds are those of all
+/// branches together; the load factor and the path length are the first path's.
+nlohmann::ordered_json runSummary(const PathCase& pathCase, const path::BranchDiagram& diagram,
+                                  const linear::TangentSolver& solver, const Recorder& recorder);
+
+/// branches.csv: one row per branch of the diagram, the first path included.
+std::string branchTable(const path::BranchDiagram& diagram);
+
+}  // namespace atrapos

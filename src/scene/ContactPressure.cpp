@@ -1,0 +1,92 @@
+#include "scene/ContactPressure.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace atrapos {
+namespace {
+
+/// Collects the numbers of a law.
+class Numbers {
+ public:
+  explicit Numbers(ContactPressure& result) : result_(result) {}
+
+  double operator()(const char* name, const std::optional<double>& given, double chosen) {
+    const double value = given.value_or(chosen);
+    result_.numbers.emplace_back(name, value);
+    result_.text += fmt::format(", {} {:.6g}{}", name, value, given ? "" : " (chosen)");
+    return value;
+  }
+
+ private:
+  ContactPressure& result_;
+};
+
+}  // namespace
+
+ContactPressure contactPressure(const deck::Contact& contact, const BodySize& body) {
+  using Law = deck::Contact::Law;
+  const double slender = body.thickness / body.length;
+  // The pressure that bends a plate of this length and thickness by the gap, without its factor of about 1.
+  const double bending = body.youngsModulus * slender * slender * slender * body.smallestGap / body.length;
+  const double alpha0 = 10 * body.youngsModulus / body.thickness * body.areaPerPoint;
+  const double eta0 = 0.01 * bending * body.areaPerPoint;
+  const double gap = contact.referenceGap.value_or(body.smallestGap);
+
+  ContactPressure result;
+  Numbers number(result);
+  const auto compliance = [&] {
+    if (!contact.isRigid()) return 1 / number("stiffness", contact.stiffness, alpha0);
+    result.text += ", rigid";
+    return 0.0;
+  };
+  switch (contact.law) {
+    case Law::Hard:
+      result.hard = true;
+      result.text = "hard";
+      // Far above the rounding of gaps that are constraints, far below what a contact's state can mean.
+      result.closedGap = 1e-10 * body.length;
+      return result;
+    case Law::Hyperbola:
+    case Law::Barrier: {
+      result.text = contact.law == Law::Barrier ? "barrier" : "hyperbola";
+      const double c = contact.law == Law::Barrier ? 0 : compliance();
+      const double eta = number("regularisation", contact.regularisation, eta0);
+      result.regularised = contact::RegularisedPressure{c, eta};
+      result.law = *result.regularised;
+      result.leastReference = result.closedGap = 2 * eta * c;
+      break;
+    }
+    case Law::Power: {
+      result.text = "power";
+      const double c = compliance();
+      const double eta = number("regularisation", contact.regularisation, eta0);
+      const double m = number("exponent", contact.exponent, contact.exponent);
+      result.law = contact::PowerBarrier{c, eta, m};
+      result.leastReference = result.closedGap = 2 * eta * c;
+      break;
+    }
+    case Law::Exponential: {
+      result.text = "exponential";
+      const double touching = number("touching", contact.touching, bending * body.areaPerPoint);
+      const double length = number("length", contact.length, 0.01 * gap);
+      result.law = contact::ExponentialPressure{touching, length};
+      break;
+    }
+    case Law::Penalty: {
+      result.text = "penalty";
+      const double alpha = number("stiffness", contact.stiffness, alpha0);
+      // The force at zero gap that the hyperbola would have.
+      const double length =
+          number("length", contact.length, std::sqrt(alpha * eta0 * gap) / (alpha * std::log(2.0)));
+      result.law = contact::SmoothedPenalty{alpha, length};
+      break;
+    }
+  }
+  if (contact.isRigid()) result.closedGap = -1;
+  result.law.validate();
+  return result;
+}
+
+}  // namespace atrapos

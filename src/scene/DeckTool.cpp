@@ -1,0 +1,145 @@
+// Deck entry -> tool of the package: one function each.
+#include "scene/DeckTool.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <variant>
+
+namespace atrapos {
+namespace {
+
+std::array<double, 3> unit(const deck::Vector3& v) {
+  const double length = std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+  return {v[0] / length, v[1] / length, v[2] / length};
+}
+
+void copy(const std::array<double, 3>& from, double (&to)[3]) { std::copy(from.begin(), from.end(), to); }
+
+double radians(double degrees) { return degrees * std::acos(-1.0) / 180; }
+
+contact::Plane tool(const deck::PlaneTool& t) {
+  contact::Plane plane;
+  copy(t.point, plane.point);
+  copy(unit(t.normal), plane.normal);
+  return plane;
+}
+
+contact::Cylinder tool(const deck::CylinderTool& t) {
+  contact::Cylinder cylinder;
+  copy(t.center, cylinder.center);
+  copy(unit(t.axis), cylinder.axis);
+  cylinder.radius = t.radius;
+  cylinder.inside = t.side == deck::Side::Inside;
+  return cylinder;
+}
+
+contact::Sphere tool(const deck::SphereTool& t) {
+  contact::Sphere sphere;
+  copy(t.center, sphere.center);
+  sphere.radius = t.radius;
+  sphere.inside = t.side == deck::Side::Inside;
+  return sphere;
+}
+
+contact::Cone tool(const deck::ConeTool& t) {
+  contact::Cone cone;
+  copy(t.apex, cone.apex);
+  copy(unit(t.axis), cone.axis);
+  cone.halfAngle = radians(t.halfAngle);
+  cone.inside = t.side == deck::Side::Inside;
+  return cone;
+}
+
+contact::Torus tool(const deck::TorusTool& t) {
+  contact::Torus torus;
+  copy(t.center, torus.center);
+  copy(unit(t.axis), torus.axis);
+  torus.radius = t.radius;
+  torus.tubeRadius = t.tubeRadius;
+  torus.inside = t.side == deck::Side::Inside;
+  return torus;
+}
+
+contact::TaperedRoll tool(const deck::TaperedRollTool& t) {
+  contact::TaperedRoll roll;
+  copy(t.center, roll.center);
+  copy(unit(t.axis), roll.axis);
+  roll.profile = {t.radius, t.flat, radians(t.angle), t.smoothing,
+                  t.ends == deck::TaperedRollTool::Ends::Both};
+  return roll;
+}
+
+contact::AnyTool tool(const deck::CrownedRollTool& t) {
+  const auto placed = [&](auto roll) -> contact::AnyTool {
+    copy(t.center, roll.center);
+    copy(unit(t.axis), roll.axis);
+    return roll;
+  };
+  if (t.coefficients.empty()) {
+    contact::TabulatedRoll roll;
+    roll.profile = contact::TableProfile::through(t.places, t.radii);
+    return placed(roll);
+  }
+  contact::CrownedRoll roll;
+  roll.profile = contact::PolynomialProfile::of(t.coefficients);
+  return placed(roll);
+}
+
+contact::Motion motion(const deck::ToolMotion& m) {
+  contact::Motion motion;
+  for (std::size_t k = 0; k < m.shift.size(); ++k) copy(m.shift[k], motion.shift[k + 1]);
+  for (std::size_t k = 0; k < m.angle.size(); ++k) motion.angle[k + 1] = radians(m.angle[k]);
+  copy(unit(m.axis), motion.axis);
+  copy(m.pivot, motion.pivot);
+  return motion;
+}
+
+std::vector<contact::BezierPatch> patches(const deck::SplineSurface& s) {
+  if (s.knots[0].empty() && s.knots[1].empty()) return {contact::BezierPatch{s.degree, s.points, s.weights}};
+  contact::NurbsSurface surface;
+  surface.degree = s.degree;
+  surface.knots = s.knots;
+  surface.points = s.points;
+  surface.weights = s.weights;
+  for (std::size_t d = 0; d < 2; ++d) {
+    if (s.knots[d].empty())
+      throw std::invalid_argument("knots_" + std::to_string(d + 1) +
+                                  " is missing beside the other direction's");
+    surface.count[d] = static_cast<int>(s.knots[d].size()) - s.degree[d] - 1;
+  }
+  return surface.patches();
+}
+
+std::shared_ptr<const contact::PatchSet> patchSet(const deck::PatchesTool& t) {
+  std::vector<contact::BezierPatch> all;
+  for (const deck::SplineSurface& surface : t.surfaces) try {
+      const auto pieces = patches(surface);
+      for (const contact::BezierPatch& piece : pieces) piece.validate();
+      all.insert(all.end(), pieces.begin(), pieces.end());
+    } catch (const std::invalid_argument& e) {
+      throw std::invalid_argument("surface '" + surface.name + "': " + e.what());
+    }
+  constexpr double unlimited = std::numeric_limits<double>::infinity();
+  return std::make_shared<contact::PatchSet>(std::move(all), t.reversed, t.thickness.value_or(unlimited));
+}
+
+}  // namespace
+
+std::unique_ptr<contact::RigidTool> makeTool(const deck::Tool& entry) {
+  std::optional<contact::Motion> moves;
+  if (entry.motion.moves()) moves = motion(entry.motion);
+  if (const auto* t = std::get_if<deck::PatchesTool>(&entry.surface))
+    return contact::rigidTool(patchSet(*t), moves);
+  const contact::AnyTool rigid = std::visit(
+      [](const auto& t) -> contact::AnyTool {
+        if constexpr (std::is_same_v<decltype(t), const deck::PatchesTool&>)
+          throw std::logic_error("makeTool: patches are made above");
+        else
+          return tool(t);
+      },
+      entry.surface);
+  return contact::rigidTool(rigid, moves);
+}
+
+}  // namespace atrapos

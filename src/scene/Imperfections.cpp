@@ -1,0 +1,117 @@
+#include "scene/Imperfections.hpp"
+
+#include <Tpetra_Vector.hpp>
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "machine/Interrupt.hpp"
+#include "commands/RunSettings.hpp"
+#include "atrapos/linear/OnAllRanks.hpp"
+#include "atrapos/path/Imperfect.hpp"
+#include "atrapos/path/PathFollower.hpp"
+
+namespace atrapos {
+namespace {
+
+/// The null vector with `size` as its largest entry: its own sign means nothing.
+path::RCP<path::Vector> scaled(const path::Vector& nullVector, double size) {
+  auto shape = Teuchos::rcp(new path::Vector(nullVector, Teuchos::Copy));
+  double largest = 0;
+  for (const double x : linear::onAllRanks(nullVector))
+    if (std::abs(x) > std::abs(largest)) largest = x;
+  shape->scale(size / largest);
+  return shape;
+}
+
+class Forward final : public path::Observer {
+ public:
+  Forward(Recorder& recorder, path::BranchProgress& progress) : recorder_(recorder), progress_(progress) {}
+  bool onStep(const path::StepReport& report, const path::Series& series) override {
+    const bool more = recorder_.onStep(progress_.current, report, series);
+    progress_.path = report.next;
+    recorder_.onProgress(progress_);
+    return more;
+  }
+  void onSearch(int found, int wanted) override { recorder_.onSearch(progress_.current, found, wanted); }
+
+ private:
+  Recorder& recorder_;
+  path::BranchProgress& progress_;
+};
+
+}  // namespace
+
+ImperfectCase::ImperfectCase(PathCase& perfect, const std::vector<int>& conditions,
+                             const path::CriticalPoint& point, double size)
+    : perfect_(perfect) {
+  if (point.nullVectors.empty())
+    throw std::runtime_error(
+        "path/imperfections: the null vector of the first bifurcation point, their shape, is not known");
+  const path::Vector& mode = *point.nullVectors[0];
+  if (perfect.deck().path.imperfectionsAs == deck::Path::Imperfection::Geometry) {
+    moved_ = perfect.moved(mode, size);
+    if (!moved_)
+      throw std::runtime_error("path/imperfections_as: geometry needs a mesh, a model problem has none");
+    return;
+  }
+  if (!conditions.empty()) perfect.problem().setConditions(conditions);
+  problem_ = std::make_unique<path::ImperfectProblem>(
+      perfect.problem(), path::forceOfShape(perfect.problem(), perfect.start(), *scaled(mode, size)));
+}
+
+ImperfectCase::~ImperfectCase() = default;
+
+path::Problem& ImperfectCase::problem() { return problem_ ? *problem_ : moved_->problem(); }
+
+std::unique_ptr<ImperfectCase> imperfectUnderWay(PathCase& pathCase, const std::vector<int>& conditions,
+                                                 const path::BranchProgress& progress) {
+  const double size = progress.diagram.branches[progress.current].imperfection;
+  if (size == 0) return nullptr;
+  return std::make_unique<ImperfectCase>(pathCase, conditions, progress.diagram.points.at(0).point, size);
+}
+
+void followImperfect(PathCase& pathCase, linear::TangentSolver& solver, const path::Options& settings,
+                     const std::vector<int>& conditions, std::unique_ptr<ImperfectCase> underWay,
+                     Recorder& recorder, path::BranchProgress& progress) {
+  auto& branches = progress.diagram.branches;
+  const auto& asked = pathCase.deck().path.imperfections;
+  std::vector<double> sizes(asked.begin(), asked.end());
+  sizes.erase(sizes.begin(),
+              sizes.begin() + std::count_if(branches.begin(), branches.end(),
+                                            [](const path::Branch& b) { return b.imperfection != 0; }));
+  const auto follow = [&](ImperfectCase& imperfect, const path::Start& from) {
+    // Another body has another graph of its tangent, or the same one in another place.
+    std::unique_ptr<linear::TangentSolver> own;
+    if (&imperfect.pathCase() != &pathCase) own = tangentSolver(imperfect.pathCase());
+    path::PathFollower follower(imperfect.problem(), own ? *own : solver, settings,
+                                imperfect.pathCase().stops());
+    follower.watch(imperfect.pathCase().functionals());
+    Forward forward(recorder, progress);
+    branches[progress.current].outcome = follower.runFrom(from, forward);
+    recorder.finish(branches[progress.current].start);
+    if (Interrupt::came()) return;
+    progress.path.reset();
+    recorder.onProgress(progress);
+  };
+  if (underWay && progress.path) follow(*underWay, *progress.path);
+  underWay.reset();
+  for (const double size : sizes) {
+    if (Interrupt::came()) return;
+    if (progress.diagram.points.empty())
+      throw std::runtime_error(
+          "path/imperfections: no bifurcation point was found, whose null vector is their shape");
+    ImperfectCase imperfect(pathCase, conditions, progress.diagram.points[0].point, size);
+    path::Branch branch;
+    branch.start = imperfect.pathCase().start();
+    branch.imperfection = size;
+    progress.current = static_cast<int>(branches.size());
+    branches.push_back(branch);
+    progress.path.emplace();
+    progress.path->state = branch.start;
+    recorder.beginImperfect(imperfect.pathCase(), imperfect.problem(), progress.current, size);
+    follow(imperfect, *progress.path);
+  }
+}
+
+}  // namespace atrapos

@@ -1,0 +1,197 @@
+#include "scene/Scene.hpp"
+
+#include <fmt/format.h>
+
+#include <Teuchos_DefaultMpiComm.hpp>
+#include <Tpetra_Map.hpp>
+#include <algorithm>
+#include <cmath>
+
+#include "scene/FollowerLoads.hpp"
+#include "machine/Ranks.hpp"
+#include "scene/Registry.hpp"
+#include "scene/Sets.hpp"
+#include "atrapos/fem/ReferenceCell.hpp"
+#include "atrapos/fem/RigidBody.hpp"
+#include "atrapos/fem/ShellFaces.hpp"
+#include "atrapos/solid/ShellResults.hpp"
+
+namespace atrapos {
+namespace {
+
+solid::PlaneSection planeSection(const deck::Plane& plane) {
+  using Kind = solid::PlaneSection::Kind;
+  switch (plane.kind) {
+    case deck::Plane::Kind::Strain:
+      return {Kind::strain, plane.thickness.value_or(1)};
+    case deck::Plane::Kind::Stress:
+      return {Kind::stress, plane.thickness.value_or(1)};
+    case deck::Plane::Kind::Axisymmetric:
+      return {Kind::axisymmetric, 1};
+  }
+  throw std::logic_error("planeSection: not a kind of plane bodies");
+}
+
+}  // namespace
+
+Scene::Scene(const deck::Deck& deck, DeckMesh mesh)
+    : deck_(deck), mesh_(std::move(mesh.mesh)), givenRanks_(std::move(mesh.ranks)) {
+  deck::checkAgainstMesh(deck_, mesh_);
+  shells_ = sceneShells(deck_, mesh_);
+  if (deck_.plane) plane_ = planeSection(*deck_.plane);
+  if (deck_.output.shells == deck::Output::Shells::Body) {
+    if (shells_.empty()) fail("output/shells", "the mesh has no shells, which alone have a body to write");
+    body_ = fem::shellBody(mesh_, shells_.geometry);
+  }
+  fem::FeModel model = makeModel();
+  requireSupport(model);
+  requireEffect(model);
+  problem_ = std::make_unique<fem::FeProblem>(std::move(model));
+  addMonitors();
+}
+
+fem::FeModel Scene::makeModel() {
+  bodies_.clear();
+  contacts_.clear();
+  fem::FeModel model;
+  model.comm = Teuchos::rcp(new Teuchos::MpiComm<int>(ranks::communicator()));
+  model.dofs = fem::DofMap::displacements(mesh_.numNodes(), mesh_.dimension);
+  model.dofs.addNodes(shells_.geometry.numDirectors(), fem::directorField());
+  addMaterials(model);
+  giveRanks(model);
+  addSupports(model);
+  addCouplings(model);
+  addLoads(model);
+  addFollowers(model);
+  addContacts(model);
+  model.dofName = [this, dofs = model.dofs](int dof) { return dofName(dofs, dof); };
+  return model;
+}
+
+void Scene::fail(const std::string& key, const std::string& problem) const {
+  deck::failAt(deck_, key, problem);
+}
+
+std::string Scene::dofName(const fem::DofMap& dofs, int dof) const {
+  const fem::ShellGeometry& g = shells_.geometry;
+  const fem::DofMap::Address at = dofs.addressOf(dof);
+  if (at.node >= g.numNodes()) return dofs.nameOf(dof);  // of rigid bodies and contact points
+  const int node = at.node < g.numMeshNodes ? at.node : g.meshNode[at.node - g.numMeshNodes];
+  const fem::Field& field = dofs.fields()[at.field];
+  return fmt::format("{} {} of node {}", field.name, field.components[at.component],
+                     mesh_.nodeIds.empty() ? static_cast<long long>(node) + 1 : mesh_.nodeIds[node]);
+}
+
+std::vector<int> Scene::nodesOf(const std::string& set) const { return atrapos::nodesOf(mesh_, set); }
+
+std::vector<int> Scene::elementRanks() const {
+  std::vector<int> all;
+  for (const BodyBlock& body : bodies_) {
+    const std::vector<int>& ofBlock = problem_->ranksOf(body.term);
+    all.insert(all.end(), ofBlock.begin(), ofBlock.end());
+  }
+  return all;
+}
+
+void Scene::giveRanks(fem::FeModel& model) const {
+  if (givenRanks_.empty()) return;
+  model.ranks.resize(model.terms.size());
+  auto first = givenRanks_.begin();
+  for (const BodyBlock& body : bodies_) {
+    const auto last = first + model.terms[body.term]->numEntities();
+    model.ranks[body.term].assign(first, last);
+    first = last;
+  }
+}
+
+void Scene::addMaterials(fem::FeModel& model) {
+  bodies_.resize(mesh_.blocks.size());
+  for (const deck::Material& material : deck_.materials)
+    for (const std::string& name : material.blocks) {
+      const int b = fem::findBlock(mesh_, name);
+      const fem::Block& block = mesh_.blocks[b];
+      try {
+        if (fem::isShell(block.topology)) {
+          bodies_[b] = addShell(material, shells_.find(b), model);
+          continue;
+        }
+        const auto cell = fem::tabulate(block.topology);
+        bodies_[b] = {static_cast<int>(model.terms.size()), -1, fem::extrapolation(block.topology, cell)};
+        model.terms.push_back(registry::materialTerm(material, materialPoints(block, cell), plane_));
+      } catch (const std::runtime_error& e) {
+        fail("mesh/file", e.what());
+      }
+    }
+}
+
+fem::PointSet Scene::materialPoints(const fem::Block& block, const fem::Tabulation& cell) const {
+  return plane_ ? solid::planePoints(mesh_, block, cell, *plane_) : fem::volumePoints(mesh_, block, cell);
+}
+
+BodyBlock Scene::addShell(const deck::Material& material, int shells, fem::FeModel& model) const {
+  BodyBlock body{static_cast<int>(model.terms.size()), shells, solid::shellPointsToNodes({})};
+  model.terms.push_back(registry::shellTerm(material, shells_.elements[shells], shells_.shear[shells]));
+  return body;
+}
+
+void Scene::addSupports(fem::FeModel& model) const {
+  for (const deck::Support& support : deck_.supports)
+    for (int node : nodesOf(support.set))
+      for (int i = 0; i < 3; ++i) try {
+          if (const auto& p = support.components[i]; p && i < mesh_.dimension)
+            model.prescribe(node, i, p->value, p->perLoadFactor);
+          if (const auto& p = support.director[i])
+            for (int director : shells_.geometry.directorNodes(node))
+              model.prescribe(director, i, p->value, p->perLoadFactor);
+        } catch (const std::invalid_argument&) {
+          fail("supports/" + support.name,
+               fmt::format("displacement {0} of node {1}, or of its director, is prescribed twice with "
+                           "different values",
+                           "xyz"[i], node + 1));
+        }
+}
+
+void Scene::requireSupport(const fem::FeModel& model) const {
+  std::vector<fem::HeldDirection> held;
+  if (plane_ && plane_->kind == solid::PlaneSection::Kind::axisymmetric)  // rings resist whatever is radial
+    for (int n = 0; n < mesh_.numNodes(); ++n) held.push_back({n, {1, 0, 0}});
+  for (const ContactPoints& contact : contacts_)
+    for (std::size_t t = 0; t < contact.points.size(); ++t) {
+      const fem::PointSet& points = contact.points[t];
+      const int N = points.nodesPerEntity, Q = points.pointsPerEntity;
+      for (std::size_t i = 0; i < points.nodes.size(); ++i) {
+        const int n = points.nodes[i];
+        if (n >= mesh_.numNodes()) continue;  // a director
+        // Hard contact holds what touches, as long as it is pressed; open points hold nothing.
+        const double* gaps = &contact.gaps[t][i / N * Q];
+        if (contact.pressure.hard &&
+            std::any_of(gaps, gaps + Q, [&](double h) { return h > contact.closedGaps[t][i / N * Q]; }))
+          continue;
+        const double* x = &mesh_.coordinates[3 * static_cast<std::size_t>(n)];
+        const double place[4] = {x[0], x[1], x[2], 0};
+        const contact::ToolProjection over = contact.tool->project(place);
+        if (std::isfinite(over.gap)) held.push_back({n, {over.normal[0], over.normal[1], over.normal[2]}});
+      }
+    }
+  for (const fem::FreeBody& body :
+       fem::freeBodies(mesh_, model.dofs, model.supports, held, &shells_.geometry, joinedNodes()))
+    fail("supports",
+         fmt::format("the body with block '{}' can still move freely in {} rigid motion{}: prescribe more "
+                     "displacements",
+                     body.block, body.motions, body.motions == 1 ? "" : "s"));
+}
+
+void Scene::requireEffect(const fem::FeModel& model) const {
+  if (model.supports.driven()) return;
+  for (const ContactPoints& contact : contacts_)
+    if (contact.tool->moves()) return;
+  for (const deck::Load& load : deck_.loads)
+    if (followers::isFollower(load) && !load.constant) return;
+  for (std::size_t dof = 0; dof < model.load.size(); ++dof)
+    if (model.load[dof] != 0 && !model.supports.fixed(static_cast<int>(dof))) return;
+  fail("loads", "without effect: all that depends on the load factor acts on supported displacements");
+}
+
+int Scene::numUnknowns() const { return static_cast<int>(problem_->map()->getGlobalNumElements()); }
+
+}  // namespace atrapos

@@ -1,0 +1,245 @@
+// The contacts of a deck made into terms: where points are over tools, and their reference gaps.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "scene/DeckTool.hpp"
+#include "machine/Ranks.hpp"
+#include "scene/Scene.hpp"
+#include "atrapos/fem/Loads.hpp"
+#include "atrapos/fem/ReferenceCell.hpp"
+#include "atrapos/fem/ShellFaces.hpp"
+
+namespace atrapos {
+
+std::vector<fem::PointSet> Scene::pointsOf(const deck::Contact& contact) const {
+  const double zeta = zetaOf(contact.at);
+  try {
+    if (contact.points == deck::Contact::Points::Nodes) {
+      fem::PointSet points = zeta == 0
+                                 ? fem::nodePoints(mesh_, nodesOf(contact.set))
+                                 : fem::shellNodePoints(mesh_, shells_.geometry, nodesOf(contact.set), zeta);
+      if (contact.shares == deck::Contact::Shares::DistributionFactors)
+        points.weights = mesh_.nodeSets[fem::findNodeSet(mesh_, contact.set)].factors;
+      return {std::move(points)};
+    }
+    const auto& set = mesh_.sideSets.at(fem::findSideSet(mesh_, contact.set));
+    if (plane_) return solid::planeEdgePoints(mesh_, set, *plane_, contact.quadratureDegree);
+    return zeta == 0 ? fem::facePoints(mesh_, set, contact.quadratureDegree)
+                     : fem::shellFacePoints(mesh_, shells_.geometry, set, zeta, contact.quadratureDegree);
+  } catch (const std::runtime_error& e) {
+    fail("contact/" + contact.name + "/set", e.what());
+  }
+}
+
+void Scene::makeTools() {
+  for (const deck::Tool& tool : deck_.tools) try {
+      tools_.push_back(makeTool(tool));
+    } catch (const std::invalid_argument& e) {
+      fail("tools/" + tool.name, e.what());
+    }
+}
+
+void Scene::addContacts(fem::FeModel& model) {
+  if (tools_.empty()) makeTools();
+  const BodySize body = bodySize();
+  // A body that only its contacts hold needs the law of far points too.
+  const bool heldByContacts =
+      !fem::freeBodies(mesh_, model.dofs, model.supports, {}, &shells_.geometry, joinedNodes()).empty();
+  for (const deck::Contact& contact : deck_.contacts) {
+    const auto position = std::find_if(deck_.tools.begin(), deck_.tools.end(),
+                                       [&](const deck::Tool& tool) { return tool.name == contact.tool; });
+    ContactPoints entry;
+    entry.name = contact.name;
+    entry.tool = tools_[position - deck_.tools.begin()].get();
+    entry.points = pointsOf(contact);
+    // A tool that moves may be all that drives the body; the steps of branches and imperfect paths are not
+    // made again.
+    const bool all = contact.carried == deck::Contact::Carried::All || heldByContacts ||
+                     entry.tool->moves() || deck_.path.branches != path::Follow::none ||
+                     !deck_.path.imperfections.empty();
+    measureGaps(contact, entry);
+    choosePressure(contact, body, entry);
+    entry.hardFaces = entry.pressure.hard && contact.points == deck::Contact::Points::Quadrature;
+    for (std::size_t t = 0; t < entry.points.size(); ++t) {
+      entry.terms.push_back(static_cast<int>(model.terms.size()));
+      const auto& references = entry.references[t];
+      if (entry.hardFaces) {
+        entry.tool->addHardFaces(model, entry.points[t]);
+      } else if (entry.pressure.hard) {
+        entry.tool->addHard(model, entry.points[t]);
+      } else if (contact.unknown == deck::Contact::Unknown::Curve) {
+        try {
+          entry.tool->addCurve(model, *entry.pressure.regularised, entry.points[t], references);
+        } catch (const std::invalid_argument& e) {
+          fail("contact/" + contact.name + "/reference_gap", e.what());
+        }
+      } else if (all) {
+        model.terms.push_back(entry.tool->term(entry.pressure.law, entry.points[t], references));
+      } else {
+        auto term = std::make_unique<contact::NearContact>(*entry.tool, entry.pressure.law, entry.points[t],
+                                                           references);
+        entry.near.push_back(term.get());
+        model.terms.push_back(std::move(term));
+      }
+    }
+    contacts_.push_back(std::move(entry));
+  }
+}
+
+/// Where the points are over the tool at the start, refusing places that cannot be.
+void Scene::measureGaps(const deck::Contact& contact, ContactPoints& entry) const {
+  entry.smallestGap = std::numeric_limits<double>::infinity();
+  for (const fem::PointSet& points : entry.points) {
+    std::vector<double> gaps, distances;
+    for (int p = 0; p < points.numPoints(); ++p) {
+      const double* x = &points.positions[3 * static_cast<std::size_t>(p)];
+      const double place[4] = {x[0], x[1], x[2], 0};
+      const std::string ambiguity = entry.tool->ambiguity(place);
+      const contact::ToolProjection over = entry.tool->project(place);
+      if (!ambiguity.empty() || std::isnan(over.gap))
+        fail("contact/" + contact.name,
+             fmt::format("the point ({:.6g}, {:.6g}, {:.6g}) has no unique projection on tool '{}'{}{}", x[0],
+                         x[1], x[2], contact.tool, ambiguity.empty() ? "" : ": it ", ambiguity));
+      if (plane_ && std::abs(over.normal[2]) > 1e-9)  // far above the rounding of unit vectors
+        fail("contact/" + contact.name,
+             fmt::format("the normal of tool '{}' leaves the plane z = 0 at ({:.6g}, {:.6g}): a plane body "
+                         "needs tools that go on along z",
+                         contact.tool, x[0], x[1]));
+      // Rounding of coordinates as large as the scene; anything deeper is meant.
+      const double rounding = 1e-12 * (1 + std::abs(x[0]) + std::abs(x[1]) + std::abs(x[2]));
+      if (over.gap < -rounding)
+        fail(
+            "contact/" + contact.name,
+            fmt::format("tool '{}' penetrates the body at the start: gap {:.6g} at ({:.6g}, {:.6g}, {:.6g}); "
+                        "move the tool or the mesh apart",
+                        contact.tool, over.gap, x[0], x[1], x[2]));
+      gaps.push_back(over.gap);
+      distances.push_back(over.distance);
+      entry.smallestGap = std::min(entry.smallestGap, over.gap);
+    }
+    entry.count += points.numPoints();
+    entry.gaps.push_back(std::move(gaps));
+    entry.references.push_back(std::move(distances));
+  }
+}
+
+/// The law and each point's reference gap; `references` holds distances on entry.
+void Scene::choosePressure(const deck::Contact& contact, BodySize body, ContactPoints& entry) const {
+  // Of the points that neither touch nor are beyond the tool; a thousandth of the thickness counts as a gap.
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const auto& distances : entry.references)
+    for (const double d : distances)
+      if (d > 1e-3 * body.thickness) smallest = std::min(smallest, d);
+  body.smallestGap = std::isfinite(smallest) ? smallest : 1e-3 * body.thickness;
+  if (contact.points == deck::Contact::Points::Nodes)
+    body.areaPerPoint /= std::accumulate(entry.points[0].weights.begin(), entry.points[0].weights.end(), 0.0);
+  else
+    body.areaPerPoint = 1;
+  const std::string key = "contact/" + contact.name;
+  try {
+    entry.pressure = contactPressure(contact, body);
+  } catch (const std::invalid_argument& e) {
+    fail(key, e.what());
+  }
+  for (std::size_t t = 0; t < entry.points.size(); ++t) {
+    std::vector<double> closed;
+    for (int p = 0; p < entry.points[t].numPoints(); ++p) {
+      double& reference = entry.references[t][p];
+      const double least = entry.pressure.leastReference;
+      if (contact.referenceGap) {
+        reference = *contact.referenceGap;
+        if (reference <= least / 2)
+          fail(key + "/reference_gap",
+               fmt::format("must be above eta/alpha = {:.6g}, got {:.6g}", least / 2, reference));
+      } else {
+        reference = std::max(reference, least);
+      }
+      if (!(reference > 0) && contact.isRigid()) {
+        const double* x = &entry.points[t].positions[3 * static_cast<std::size_t>(p)];
+        fail(key + "/reference_gap",
+             fmt::format("the body touches tool '{}' at ({:.6g}, {:.6g}, {:.6g}): a rigid contact needs a "
+                         "positive reference_gap there, give a number",
+                         contact.tool, x[0], x[1], x[2]));
+      }
+      entry.attracted += contact.referenceGap && entry.gaps[t][p] > reference;
+      closed.push_back(entry.pressure.closedGap < 0 ? 1e-3 * reference : entry.pressure.closedGap);
+    }
+    entry.closedGaps.push_back(std::move(closed));
+  }
+}
+
+BodySize Scene::bodySize() const {
+  BodySize body;
+  body.youngsModulus = deck::largestYoungsModulus(deck_);
+  double low[3], high[3], volume = 0;
+  for (int i = 0; i < 3; ++i) low[i] = high[i] = mesh_.coordinates[i];
+  for (std::size_t d = 0; d < mesh_.coordinates.size(); ++d) {
+    low[d % 3] = std::min(low[d % 3], mesh_.coordinates[d]);
+    high[d % 3] = std::max(high[d % 3], mesh_.coordinates[d]);
+  }
+  int element = 0;  // counted over all blocks
+  for (const fem::Block& block : mesh_.blocks) {
+    const int count = static_cast<int>(block.nodes.size()) / fem::nodesPerElement(block.topology);
+    if (fem::isShell(block.topology)) {
+      const int b = static_cast<int>(&block - mesh_.blocks.data());
+      const auto& directors = shells_.geometry.find(b)->directors;
+      double halves = 0;
+      for (std::size_t d = 0; d < directors.size(); d += 3)
+        halves += std::hypot(directors[d], directors[d + 1], directors[d + 2]);
+      fem::SideSet faces;
+      for (int e = 0; e < count; ++e) faces.sides.push_back({element + e, 0});
+      volume += fem::areaOf(mesh_, faces) * 2 * halves / (directors.size() / 3.0);
+      element += count;
+      continue;
+    }
+    element += count;
+    const auto points = materialPoints(block, fem::tabulate(block.topology));
+    volume += std::accumulate(points.weights.begin(), points.weights.end(), 0.0);
+  }
+  double extent[3] = {high[0] - low[0], high[1] - low[1], high[2] - low[2]};
+  if (plane_)
+    extent[2] = plane_->kind == solid::PlaneSection::Kind::axisymmetric ? 2 * std::acos(-1.0) * high[0]
+                                                                        : plane_->thickness;
+  std::sort(extent, extent + 3);
+  body.length = extent[2];
+  body.areaPerPoint = extent[1] * extent[2];  // of all points together so far
+  body.thickness = volume / body.areaPerPoint;
+  return body;
+}
+
+int Scene::numContactPoints() const {
+  return std::accumulate(contacts_.begin(), contacts_.end(), 0,
+                         [](int n, const ContactPoints& c) { return n + c.count; });
+}
+
+bool Scene::contactsGrow() const {
+  return std::any_of(contacts_.begin(), contacts_.end(),
+                     [](const ContactPoints& contact) { return !contact.near.empty(); });
+}
+
+bool Scene::othersAreNear(const path::Vector& u, double lambda) const {
+  const fem::ConstDofView state = problem_->onRank(u);
+  bool near = false;
+  for (const ContactPoints& contact : contacts_)
+    for (const contact::NearContact* term : contact.near) near = near || term->othersAreNear(state, lambda);
+  return ranks::any(near);
+}
+
+void Scene::grow(const path::Vector& u, double lambda) {
+  const fem::ConstDofView state = problem_->onRank(u);
+  for (const ContactPoints& contact : contacts_)
+    for (contact::NearContact* term : contact.near) term->grow(state, lambda);
+}
+
+int ContactPoints::numCarried() const {
+  if (near.empty()) return count;
+  return ranks::sum(std::accumulate(near.begin(), near.end(), 0, [](int n, const contact::NearContact* term) {
+    return n + term->numCarried();
+  }));
+}
+
+}  // namespace atrapos

@@ -1,0 +1,147 @@
+// The deck's couplings as linear couplings and rigid bodies.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "scene/Scene.hpp"
+#include "atrapos/fem/RigidBody.hpp"
+
+namespace atrapos {
+
+namespace {
+
+using Kind = deck::Coupling::Kind;
+
+/// v . n of all nodes is that of the first, and directors stay in the plane: w . n = 0.
+void addPlane(const deck::Vector3& normal, const std::vector<int>& nodes, const fem::ShellGeometry& shells,
+              fem::FeModel& model) {
+  fem::couplePlane(model.couplings, model.dofs, nodes, normal);
+  int pivot = 0;
+  for (int i = 1; i < 3; ++i)
+    if (std::abs(normal[i]) > std::abs(normal[pivot])) pivot = i;
+  for (int node : nodes)
+    for (int director : shells.directorNodes(node)) {
+      fem::Coupling c;
+      const int first = model.dofs.firstDof(director);
+      c.dof = first + pivot;
+      for (int i = 0; i < 3; ++i)
+        if (i != pivot && normal[i] != 0) c.masters.push_back({first + i, -normal[i] / normal[pivot]});
+      model.couplings.add(std::move(c));
+    }
+}
+
+/// The nodes and their directors on one rigid body about their centre.
+void addRigid(const fem::Mesh& mesh, const std::vector<int>& nodes, const fem::ShellGeometry& shells,
+              double youngsModulus, fem::FeModel& model) {
+  std::array<double, 3> centre{};
+  const auto X = [&](int node) { return &mesh.coordinates[3 * static_cast<std::size_t>(node)]; };
+  for (int node : nodes)
+    for (int i = 0; i < 3; ++i) centre[i] += X(node)[i] / static_cast<double>(nodes.size());
+  double size = 0;
+  const auto directorOf = [&](int director) {
+    return &shells.directors[3 * static_cast<std::size_t>(director - shells.numMeshNodes)];
+  };
+  for (int node : nodes) {
+    size = std::max(size, std::hypot(X(node)[0] - centre[0], X(node)[1] - centre[1], X(node)[2] - centre[2]));
+    for (int director : shells.directorNodes(node)) {
+      const double* D = directorOf(director);
+      size = std::max(size, std::hypot(D[0], D[1], D[2]));
+    }
+  }
+  const double arms = size > 0 ? size : 1.0;
+  const fem::RigidBody body(model, centre, arms, youngsModulus * arms);
+  for (int node : nodes) {
+    body.attach(model, node, {X(node)[0], X(node)[1], X(node)[2]});
+    for (int director : shells.directorNodes(node)) {
+      const double* D = directorOf(director);
+      body.attachDirector(model, director, {D[0], D[1], D[2]});
+    }
+  }
+}
+
+}  // namespace
+
+Scene::SolidSide Scene::solidNodesAt(const deck::Coupling& coupling, int director) const {
+  const fem::ShellGeometry& g = shells_.geometry;
+  const int shellNode = g.meshNode[director - g.numMeshNodes];
+  const double* D = &g.directors[3 * static_cast<std::size_t>(director - g.numMeshNodes)];
+  const double* X = &mesh_.coordinates[3 * static_cast<std::size_t>(shellNode)];
+  const double half = std::hypot(D[0], D[1], D[2]);
+  // A thousandth of the thickness: meshes of both parts are made to fit, up to rounding in their files.
+  const double near = 1e-3;
+  std::map<int, double> onDirector;  // node of a solid -> zeta
+  for (const fem::Block& block : mesh_.blocks) {
+    if (fem::isShell(block.topology)) continue;
+    for (int n : block.nodes) {
+      const double* Y = &mesh_.coordinates[3 * static_cast<std::size_t>(n)];
+      const double d[3] = {Y[0] - X[0], Y[1] - X[1], Y[2] - X[2]};
+      const double zeta = (d[0] * D[0] + d[1] * D[1] + d[2] * D[2]) / (half * half);
+      const double off = std::hypot(d[0] - zeta * D[0], d[1] - zeta * D[1], d[2] - zeta * D[2]);
+      if (off < near * half && std::abs(zeta) < 1 + near) onDirector[n] = zeta;
+    }
+  }
+  SolidSide side;
+  for (const auto& [node, zeta] : onDirector) {
+    if (zeta > 1 - near)
+      side.top = node;
+    else if (zeta < -1 + near)
+      side.bottom = node;
+    else if (node != shellNode)
+      side.between.push_back({node, zeta});
+  }
+  if (side.top < 0 || side.bottom < 0)
+    fail("couplings/" + coupling.name + "/set",
+         fmt::format("no node of a solid at the {} of the shell's node {}", side.top < 0 ? "top" : "bottom",
+                     shellNode + 1));
+  return side;
+}
+
+void Scene::addCouplings(fem::FeModel& model) const {
+  const fem::ShellGeometry& g = shells_.geometry;
+  for (const deck::Coupling& coupling : deck_.couplings) try {
+      const std::vector<int> nodes = nodesOf(coupling.set);
+      switch (coupling.kind) {
+        case Kind::Equal:
+          fem::coupleEqual(model.couplings, model.dofs, nodes);
+          break;
+        case Kind::Plane:
+          addPlane(*coupling.normal, nodes, g, model);
+          break;
+        case Kind::Rigid:
+          addRigid(mesh_, nodes, g, deck::largestYoungsModulus(deck_), model);
+          break;
+        case Kind::ShellOnSolid:
+          for (int node : nodes)
+            for (int director : g.directorNodes(node)) {
+              const SolidSide side = solidNodesAt(coupling, director);
+              fem::coupleShellToSolid(model.couplings, model.dofs, node, director, side.top, side.bottom);
+              for (const auto& [between, zeta] : side.between)
+                fem::coupleNode(model.couplings, model.dofs, between,
+                                {{side.top, 0.5 * (1 + zeta)}, {side.bottom, 0.5 * (1 - zeta)}});
+            }
+          break;
+      }
+      model.couplings.resolved(model.dofs,
+                               model.supports);  // each entry by itself, so that its name is known
+    } catch (const std::invalid_argument& e) {
+      fail("couplings/" + coupling.name, e.what());
+    }
+}
+
+std::vector<std::pair<int, int>> Scene::joinedNodes() const {
+  std::vector<std::pair<int, int>> joined;
+  for (const deck::Coupling& coupling : deck_.couplings) {
+    const std::vector<int> nodes = nodesOf(coupling.set);
+    if (coupling.kind == Kind::Rigid)
+      for (int node : nodes) joined.push_back({nodes[0], node});
+    if (coupling.kind == Kind::ShellOnSolid)
+      for (int node : nodes)
+        for (int director : shells_.geometry.directorNodes(node))
+          joined.push_back({node, solidNodesAt(coupling, director).top});
+  }
+  return joined;
+}
+
+}  // namespace atrapos

@@ -1,0 +1,102 @@
+#include "scene/FollowerLoads.hpp"
+#include "scene/Scene.hpp"
+#include "scene/Sets.hpp"
+#include "atrapos/fem/Loads.hpp"
+#include "atrapos/fem/ReferenceCell.hpp"
+#include "atrapos/fem/ShellFaces.hpp"
+#include "atrapos/solid/ShellLoads.hpp"
+
+// What acts on the body of a scene.
+namespace atrapos {
+namespace {
+
+/// Adds one dead load of the deck to nodal forces.
+struct DeadLoads {
+  const fem::Mesh& mesh;
+  const SceneShells& shells;
+  const std::optional<solid::PlaneSection>& plane;
+  std::vector<double>& force;
+
+  const fem::SideSet& sides(const std::string& set) const {
+    return mesh.sideSets.at(fem::findSideSet(mesh, set));
+  }
+
+  void operator()(const deck::NodalLoad& load) const {
+    const auto nodes = nodesOf(mesh, load.set);
+    deck::Vector3 each = load.force;
+    if (!load.perNode)
+      for (double& f : each) f /= static_cast<double>(nodes.size());
+    fem::addNodalLoad(nodes, each, force);
+  }
+
+  void operator()(const deck::SurfaceLoad& load) const {
+    const double zeta = zetaOf(load.at);
+    const auto faces =
+        plane       ? solid::planeEdgePoints(mesh, sides(load.set), *plane, fem::loadDegree)
+        : zeta == 0 ? fem::facePoints(mesh, sides(load.set), fem::loadDegree)
+                    : fem::shellFacePoints(mesh, shells.geometry, sides(load.set), zeta, fem::loadDegree);
+    deck::Vector3 perArea = load.vector;
+    switch (load.kind) {
+      case deck::SurfaceLoad::Kind::Total:
+        for (double& f : perArea) f /= fem::areaOf(faces);
+        return fem::addTraction(faces, perArea, force);
+      case deck::SurfaceLoad::Kind::Traction:
+        return fem::addTraction(faces, perArea, force);
+      case deck::SurfaceLoad::Kind::Pressure:
+        return fem::addPressure(faces, load.pressure, force);
+    }
+  }
+
+  void operator()(const deck::EdgeLoad& load) const {
+    deck::Vector3 perLength = load.vector;
+    if (load.kind == deck::EdgeLoad::Kind::Total)
+      for (double& f : perLength) f /= fem::edgeLength(mesh, sides(load.set));
+    fem::addEdgeForce(mesh, sides(load.set), perLength, force);
+  }
+
+  void operator()(const deck::VolumeLoad& load) const {
+    for (const std::string& name : load.blocks) {
+      const int block = fem::findBlock(mesh, name), i = shells.find(block);
+      if (plane)
+        fem::addTraction(
+            {solid::planeValuePoints(mesh, mesh.blocks[block],
+                                     fem::tabulate(mesh.blocks[block].topology, fem::loadDegree), *plane)},
+            load.force, force);
+      else if (i >= 0)
+        solid::addShellBodyForce(shells.elements[i], load.force, force);
+      else
+        fem::addBodyForce(mesh, mesh.blocks[block], load.force, force);
+    }
+  }
+};
+
+}  // namespace
+
+void Scene::addLoads(fem::FeModel& model) const {
+  const std::size_t size = 3 * static_cast<std::size_t>(model.dofs.numNodes());
+  std::vector<double> growing(size, 0.0), constant(size, 0.0);  // [3 node + component]
+  for (const deck::Load& load : deck_.loads) {
+    if (followers::isFollower(load)) continue;
+    std::vector<double>& force = load.constant ? constant : growing;
+    try {
+      std::visit(DeadLoads{mesh_, shells_, plane_, force}, load.load);
+    } catch (const std::runtime_error& e) {
+      fail("loads/" + load.name, e.what());
+    }
+  }
+  model.load = model.dofs.fromVectors(growing);
+  model.constantLoad = model.dofs.fromVectors(constant);
+}
+
+void Scene::addFollowers(fem::FeModel& model) const {
+  for (const deck::Load& load : deck_.loads) {
+    if (!followers::isFollower(load)) continue;
+    try {
+      for (auto& term : followers::terms(load, mesh_, shells_)) model.terms.push_back(std::move(term));
+    } catch (const std::invalid_argument& e) {
+      fail("loads/" + load.name, e.what());
+    }
+  }
+}
+
+}  // namespace atrapos

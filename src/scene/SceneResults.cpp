@@ -1,0 +1,190 @@
+#include <Tpetra_Vector.hpp>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "scene/Scene.hpp"
+#include "atrapos/linear/Dot.hpp"
+
+// What a scene watches along the path: stops, monitors, contact.
+namespace atrapos {
+namespace {
+
+int componentIndex(deck::Component c) { return static_cast<int>(c); }
+
+int nearestNode(const fem::Mesh& mesh, const std::vector<int>& nodes, const deck::Vector3& place) {
+  const auto distance = [&](int n) {
+    const double* x = &mesh.coordinates[3 * static_cast<std::size_t>(n)];
+    return std::hypot(x[0] - place[0], x[1] - place[1], x[2] - place[2]);
+  };
+  return *std::min_element(nodes.begin(), nodes.end(),
+                           [&](int a, int b) { return distance(a) < distance(b); });
+}
+
+/// Calls f(term of the contact, point, position) for all points.
+template <class F>
+void forEachPosition(const ContactPoints& contact, const F& f) {
+  for (std::size_t t = 0; t < contact.points.size(); ++t)
+    for (int p = 0; p < contact.points[t].numPoints(); ++p)
+      f(t, p, &contact.points[t].positions[3 * static_cast<std::size_t>(p)]);
+}
+
+/// [term][point] of a contact: the weights of the points that a monitor adds up, zero of all others.
+std::vector<std::vector<double>> weightsNear(const ContactPoints& contact,
+                                             const deck::ContactForceMonitor& monitor) {
+  const deck::Vector3& place = *monitor.near;
+  double nearest = std::numeric_limits<double>::infinity();
+  deck::Vector3 origin{};
+  forEachPosition(contact, [&](std::size_t, int, const double* x) {
+    const double distance = std::hypot(x[0] - place[0], x[1] - place[1], x[2] - place[2]);
+    if (!(distance < nearest)) return;
+    nearest = distance;
+    origin = {x[0], x[1], x[2]};
+  });
+  const deck::Vector3 a = monitor.along.value_or(deck::Vector3{});
+  const double length = std::hypot(a[0], a[1], a[2]);
+  std::vector<std::vector<double>> weights;
+  for (const fem::PointSet& points : contact.points) weights.emplace_back(points.numPoints(), 0.0);
+  bool found = false;
+  forEachPosition(contact, [&](std::size_t t, int p, const double* x) {
+    const double d[3] = {x[0] - origin[0], x[1] - origin[1], x[2] - origin[2]};
+    const double distance = std::hypot(d[0], d[1], d[2]);
+    if (!monitor.along && (distance > 0 || found)) return;  // one point, even where two are at a place
+    // Coordinates in a mesh file are exact to rounding, or to the six digits of a text that they came from.
+    if (monitor.along && std::hypot(a[1] * d[2] - a[2] * d[1], a[2] * d[0] - a[0] * d[2],
+                                    a[0] * d[1] - a[1] * d[0]) > 1e-5 * length * distance)
+      return;
+    weights[t][p] = contact.points[t].weights[p];
+    found = true;
+  });
+  return weights;
+}
+
+}  // namespace
+
+void Scene::addMonitors() {
+  displacementWeights_.clear();
+  contactWeights_.clear();
+  for (const deck::Monitor& monitor : deck_.output.monitors) {
+    linear::RCP<path::Vector> weights;
+    if (const auto* m = std::get_if<deck::DisplacementMonitor>(&monitor.quantity)) {
+      weights = linear::rcp(new path::Vector(problem_->map()));
+      auto nodes = nodesOf(m->set);
+      if (m->near) nodes = {nearestNode(mesh_, nodes, *m->near)};
+      const double each = m->reduce == deck::DisplacementMonitor::Reduce::Mean ? 1.0 / nodes.size() : 1.0;
+      const fem::DofMap& dofs = problem_->model().dofs;
+      for (int n : nodes) {
+        const linear::GlobalIndex dof = dofs.firstDof(n) + componentIndex(m->component);
+        if (problem_->map()->isNodeGlobalElement(dof)) weights->sumIntoGlobalValue(dof, each);
+      }
+    }
+    displacementWeights_.push_back(weights);
+    std::vector<std::vector<double>> points;
+    if (const auto* m = std::get_if<deck::ContactForceMonitor>(&monitor.quantity); m && m->near)
+      for (const ContactPoints& contact : contacts_)
+        if (contact.name == m->contact) points = weightsNear(contact, *m);
+    contactWeights_.push_back(std::move(points));
+  }
+}
+
+path::Stops Scene::stops() const {
+  path::Stops stops;
+  const deck::Stop& stop = deck_.path.stop;
+  stops.loadFactors = stop.loadFactors;
+  if (stop.pathLength) stops.pathLength = *stop.pathLength;
+  for (const auto& [name, values] : stop.monitors)
+    for (std::size_t i = 0; i < displacementWeights_.size(); ++i)
+      if (deck_.output.monitors[i].name == name)
+        for (const double value : values) stops.functionals.push_back({name, displacementWeights_[i], value});
+  return stops;
+}
+
+std::vector<std::string> Scene::monitorNames() const {
+  std::vector<std::string> names;
+  for (const deck::Monitor& monitor : deck_.output.monitors) names.push_back(monitor.name);
+  return names;
+}
+
+void Scene::forEachContactPoint(const ContactPoints& contact, const SceneState& state,
+                                const std::function<void(std::size_t, int, const double*)>& f) const {
+  for (std::size_t t = 0; t < contact.terms.size(); ++t) {
+    const fem::PointValues& observed = state.observed(contact.terms[t]);
+    const int M = static_cast<int>(observed.names.size());
+    for (int p = 0; p < contact.points[t].numPoints(); ++p)
+      f(t, p, &observed.values[static_cast<std::size_t>(p) * M]);
+  }
+}
+
+std::vector<path::Monitor> Scene::functionals() const {
+  std::vector<path::Monitor> list;
+  for (std::size_t i = 0; i < displacementWeights_.size(); ++i)
+    if (!displacementWeights_[i].is_null())
+      list.push_back({deck_.output.monitors[i].name, displacementWeights_[i]});
+  return list;
+}
+
+ContactState Scene::contactState(const ContactPoints& contact, const SceneState& at) const {
+  ContactState state;
+  forEachContactPoint(contact, at, [&](std::size_t t, int p, const double* gapAndPressure) {
+    const double gap = gapAndPressure[0], pressure = gapAndPressure[1];
+    // Around an active corner the mean gap vanishes, and the gaps of its points have both signs.
+    state.active += contact.hardFaces ? pressure > 0 : gap <= contact.closedGaps[t][p];
+    state.normalForce += contact.points[t].weights[p] * pressure;
+  });
+  return state;
+}
+
+double Scene::contactForce(const ContactPoints& contact, const std::vector<std::vector<double>>& weights,
+                           const SceneState& state) const {
+  double force = 0;
+  forEachContactPoint(contact, state, [&](std::size_t t, int p, const double* gapAndPressure) {
+    if (weights[t][p] != 0) force += weights[t][p] * gapAndPressure[1];
+  });
+  return force;
+}
+
+std::array<double, 3> Scene::contactResultant(const ContactPoints& contact, const SceneState& state) const {
+  std::array<double, 3> resultant{0, 0, 0};
+  for (int t : contact.terms) {
+    const auto& force = state.forces(t);
+    // Forces on the nodes of the mesh: those on directors are couples' arms.
+    for (std::size_t d = 0; d < mesh_.coordinates.size(); ++d) resultant[d % 3] -= force[d];
+  }
+  return resultant;
+}
+
+std::vector<double> Scene::monitors(const SceneState& state) const {
+  std::vector<double> result;
+  struct Evaluator {
+    const Scene& scene;
+    const SceneState& state;
+    const path::Vector* weights;
+    const std::vector<std::vector<double>>& contactWeights;
+    double operator()(const deck::DisplacementMonitor&) const { return linear::dot(*weights, state.u()); }
+    double operator()(const deck::ContactForceMonitor& m) const {
+      for (const ContactPoints& contact : scene.contacts_)
+        if (contact.name == m.contact)
+          return m.near ? scene.contactForce(contact, contactWeights, state)
+                 : m.component == deck::Component::Normal
+                     ? scene.contactState(contact, state).normalForce
+                     : scene.contactResultant(contact, state)[componentIndex(m.component)];
+      return 0;
+    }
+    double operator()(const deck::ReactionMonitor& m) const {
+      const auto& reactions = state.reactions();
+      const auto& support = *std::find_if(scene.deck_.supports.begin(), scene.deck_.supports.end(),
+                                          [&](const deck::Support& s) { return s.name == m.support; });
+      double sum = 0;
+      if (!support.components[componentIndex(m.component)]) return 0;
+      for (int n : scene.nodesOf(support.set)) sum += reactions[3 * n + componentIndex(m.component)];
+      return sum;
+    }
+  };
+  for (std::size_t i = 0; i < deck_.output.monitors.size(); ++i)
+    result.push_back(std::visit(Evaluator{*this, state, displacementWeights_[i].get(), contactWeights_[i]},
+                                deck_.output.monitors[i].quantity));
+  return result;
+}
+
+}  // namespace atrapos

@@ -1,0 +1,13 @@
+#include "scene/Sets.hpp"
+
+#include "atrapos/fem/PointSet.hpp"
+
+namespace atrapos {
+
+std::vector<int> nodesOf(const fem::Mesh& mesh, const std::string& set) {
+  const int n = fem::findNodeSet(mesh, set);
+  if (n >= 0) return mesh.nodeSets[n].nodes;
+  return fem::nodesOf(mesh, mesh.sideSets.at(fem::findSideSet(mesh, set)));
+}
+
+}  // namespace atrapos

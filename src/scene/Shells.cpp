@@ -1,0 +1,84 @@
+#include "scene/Shells.hpp"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+#include "atrapos/fem/PointSet.hpp"
+
+namespace atrapos {
+namespace {
+
+std::vector<fem::ShellSection> sectionsOf(const deck::Deck& deck, const fem::Mesh& mesh) {
+  std::vector<fem::ShellSection> sections;
+  for (int b = 0; b < static_cast<int>(mesh.blocks.size()); ++b)
+    if (fem::isShell(mesh.blocks[b].topology)) sections.push_back({b, std::nullopt});
+  for (const deck::ShellSection& section : deck.shells.sections)
+    for (const std::string& name : section.blocks)
+      for (fem::ShellSection& s : sections)
+        if (s.block == fem::findBlock(mesh, name)) s.thickness = section.thickness;
+  return sections;
+}
+
+deck::Shear shearOf(const deck::Deck& deck, const fem::Mesh& mesh, int block) {
+  for (const deck::ShellSection& section : deck.shells.sections)
+    for (const std::string& name : section.blocks)
+      if (section.shear && fem::findBlock(mesh, name) == block) return *section.shear;
+  return deck.shells.shear;
+}
+
+fem::ShellGeometry geometryOf(const deck::Deck& deck, const fem::Mesh& mesh) {
+  fem::ShellGeometryOptions options;
+  options.foldAngle = deck.shells.foldAngle;
+  try {
+    return fem::shellGeometry(mesh, sectionsOf(deck, mesh), options);
+  } catch (const std::invalid_argument& e) {
+    deck::failAt(deck, "shells", e.what());
+  }
+}
+
+}  // namespace
+
+int SceneShells::find(int block) const {
+  for (std::size_t i = 0; i < geometry.blocks.size(); ++i)
+    if (geometry.blocks[i].block == block) return static_cast<int>(i);
+  return -1;
+}
+
+SceneShells sceneShells(const deck::Deck& deck, const fem::Mesh& mesh) {
+  for (const fem::Block& block : mesh.blocks)
+    if (fem::isShell(block.topology) && block.topology != fem::Topology::Shell8)
+      deck::failAt(deck, "mesh/file",
+                   fmt::format("block '{}' has {}: the shell element has eight nodes; accepted is SHELL8",
+                               block.name, fem::topologyName(block.topology)));
+  SceneShells shells;
+  shells.geometry = geometryOf(deck, mesh);
+  for (const fem::ShellBlock& b : shells.geometry.blocks) {
+    shells.elements.push_back({b.nodes, b.midsurface, b.directors, b.directorScale});
+    shells.shear.push_back(shearOf(deck, mesh, b.block));
+  }
+  return shells;
+}
+
+double zetaOf(deck::ShellPlace place) {
+  switch (place) {
+    case deck::ShellPlace::Top:
+      return solid::topSurface;
+    case deck::ShellPlace::Middle:
+      return solid::midSurface;
+    case deck::ShellPlace::Bottom:
+      return solid::bottomSurface;
+  }
+  return solid::midSurface;
+}
+
+std::vector<solid::ShellEdge> shellEdges(const fem::Mesh& mesh, const fem::SideSet& set, int block) {
+  std::vector<solid::ShellEdge> edges;
+  for (const fem::Side& side : set.sides) {
+    const fem::ElementAddress at = fem::addressOf(mesh, side.element);
+    if (at.block == block) edges.push_back({at.element, side.side - 2});
+  }
+  return edges;
+}
+
+}  // namespace atrapos
