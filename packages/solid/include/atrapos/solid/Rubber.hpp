@@ -1,0 +1,150 @@
+#pragma once
+
+#include <Kokkos_Macros.hpp>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "atrapos/solid/Strain.hpp"
+#include "atrapos/taylor/FadFunctions.hpp"
+#include "atrapos/taylor/Law.hpp"
+
+/// What the laws of rubber share (docs/theory/rubber.md). Stresses are written in what changes from the body
+/// at rest, H = F - I, K = cof F - I, j = det F - 1: sums of terms that are small where strains are, so that
+/// small stresses are not differences of moduli.
+namespace atrapos::solid {
+
+namespace detail {
+
+/// sum of all A_ij^2
+constexpr auto listSquareTerms() {
+  taylor::detail::TermList<9> t;
+  for (int n = 0; n < 9; ++n) t.add(0, n, n);
+  return t.terms;
+}
+struct SquareTerms {
+  static constexpr bool ofOneBlock = true;
+  static constexpr int numLeft = 9, numRight = 9, numOut = 1;
+  static constexpr bool onlySquares(int) { return true; }
+  static constexpr auto list = listSquareTerms();
+};
+
+/// tr(F^T F) - 3
+template <class T>
+KOKKOS_FORCEINLINE_FUNCTION T firstInvariantChange(const taylor::Matrix3<T>& H) {
+  taylor::detail::Scalar<T> squares;
+  taylor::detail::bilinear<SquareTerms>(H, H, squares);
+  return 2.0 * trace(H) + squares.entry(0);
+}
+
+/// cof(I + H) - I
+template <class T>
+KOKKOS_FORCEINLINE_FUNCTION taylor::Matrix3<T> cofactorChange(const taylor::Matrix3<T>& H) {
+  return plusIdentity(cofactor(H) - transpose(H), trace(H));
+}
+template <class T>
+KOKKOS_FORCEINLINE_FUNCTION taylor::Symmetric3<T> cofactorChange(const taylor::Symmetric3<T>& A) {
+  return plusIdentity(cofactor(A) - A, trace(A));
+}
+
+/// det(I + H) - 1 from H and K = cofactorChange(H), by the first row.
+template <class T>
+KOKKOS_FORCEINLINE_FUNCTION T determinantChange(const taylor::Matrix3<T>& H, const taylor::Matrix3<T>& K) {
+  return H(0, 0) + K(0, 0) + determinant(H, K);
+}
+template <class T>
+KOKKOS_FORCEINLINE_FUNCTION T determinantChange(const taylor::Symmetric3<T>& A,
+                                                const taylor::Symmetric3<T>& K) {
+  return A(0, 0) + K(0, 0) + determinant(A, K);
+}
+
+inline void requirePositive(double x, const char* what) {
+  if (!(x > 0) || !std::isfinite(x)) throw std::invalid_argument(std::string(what) + " must be positive");
+}
+
+}  // namespace detail
+
+/// Base of a law of rubber: its shape, and the Cauchy stress that is shown.
+template <class Law>
+struct RubberLaw {
+  static constexpr int numInputs = 9, numOutputs = 9, numData = 0;
+  static constexpr bool symmetric = true;
+
+  static constexpr int numObserved = 6;
+  static std::vector<std::string> observedNames() {
+    return {"stress_xx", "stress_yy", "stress_zz", "stress_xy", "stress_yz", "stress_zx"};
+  }
+  /// Cauchy stress P F^T / det F.
+  KOKKOS_INLINE_FUNCTION void observe(const double* H, const double*, double* sigma) const {
+    double P[9];
+    static_cast<const Law&> (*this)(H, static_cast<const double*>(nullptr), P);
+    cauchyStress(P, H, sigma);
+  }
+};
+
+/// Laws whose energy is a function f of the first invariant of the isochoric part and the common volumetric
+/// one,
+///
+///     W = f(x) + (bulk/4) (J^2 - 1 - 2 ln J),   x = J^(-2/3) I_1 - 3,   J = det F > 0
+///
+/// Law: `template <class T> T slope(const T& x) const`, f'(x).
+template <class Law>
+struct FirstInvariantLaw : RubberLaw<Law> {
+  double bulk = 0;  ///< bulk modulus, stress units
+
+  /// S from the Green-Lagrange strain.
+  template <class T>
+  KOKKOS_FORCEINLINE_FUNCTION taylor::Symmetric3<T> secondPiola(const taylor::Symmetric3<T>& E) const {
+    using std::pow;
+    const taylor::Symmetric3<T> A = 2.0 * E;
+    const taylor::Symmetric3<T> K = detail::cofactorChange(A);
+    const T d = detail::determinantChange(A, K);
+    const T J2 = 1.0 + d;
+    const T m = pow(J2, -1.0 / 3);
+    const T i1 = trace(A);
+    T s, t;
+    factors(i1, d, J2, m, s, t);
+    return plusIdentity(scaled(K, t), s);
+  }
+
+  /// P of F and cof F, without C: fewer products than F S, and J itself, not J^2, must be positive.
+  template <class T>
+  KOKKOS_INLINE_FUNCTION void operator()(const T* in, const taylor::Passive<T>*, T* out) const {
+    using std::pow;
+    const taylor::Matrix3<T> H(in);
+    const taylor::Matrix3<T> K = detail::cofactorChange(H);
+    const T j = detail::determinantChange(H, K);
+    const T J = 1.0 + j;
+    const T d = j + j * J;
+    const T J2 = 1.0 + d;
+    const T m = pow(J, -2.0 / 3);
+    const T i1 = detail::firstInvariantChange(H);
+    T s, t;
+    factors(i1, d, J2, m, s, t);
+    // F (s I + t (cof C - I)) = (s - t) F + t J cof F
+    const T tj = t * j;
+    const T ofH = s - t;
+    const T ofK = t + tj;
+    const T ofI = s + tj;
+    const taylor::Matrix3<T> P = plusIdentity(scaled(H, ofH) + scaled(K, ofK), ofI);
+    P.store(out);
+  }
+
+ private:
+  /// S = s I + t (cof C - I) from i1 = I_1 - 3, d = J^2 - 1, J2 = J^2, m = J^(-2/3).
+  template <class T>
+  KOKKOS_FORCEINLINE_FUNCTION void factors(const T& i1, const T& d, const T& J2, const T& m, T& s,
+                                           T& t) const {
+    const T x = m * i1 + 3.0 * m - 3.0;
+    const T slope = static_cast<const Law&>(*this).slope(x);
+    const T n = m / J2;
+    const T q = 2.0 * (slope * n);
+    const T pressure = d / J2;
+    const T spherical = d - (1.0 / 3) * i1;
+    s = (0.5 * bulk) * pressure + q * spherical;
+    t = (0.5 * bulk) * pressure - q - (1.0 / 3) * (q * i1);
+  }
+};
+
+}  // namespace atrapos::solid

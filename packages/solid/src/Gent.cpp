@@ -1,0 +1,5 @@
+#include "atrapos/solid/Gent.hpp"
+
+#include "atrapos/fem/PointLawOf.hpp"
+
+ATRAPOS_MATERIAL(atrapos::solid::Gent)

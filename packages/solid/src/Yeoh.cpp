@@ -1,0 +1,5 @@
+#include "atrapos/solid/Yeoh.hpp"
+
+#include "atrapos/fem/PointLawOf.hpp"
+
+ATRAPOS_MATERIAL(atrapos::solid::Yeoh)
