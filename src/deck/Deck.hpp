@@ -48,9 +48,33 @@ struct SaintVenantKirchhoff {
   double poissonsRatio = 0;  ///< in (-1, 0.5)
 };
 
+/// Either Young's modulus and Poisson's ratio at rest, or the shear and the bulk modulus.
+struct NeoHookean {
+  std::optional<double> youngsModulus;  ///< pressure, > 0
+  std::optional<double> poissonsRatio;  ///< in (-1, 0.5)
+  std::optional<double> shearModulus;   ///< pressure, > 0
+  std::optional<double> bulkModulus;    ///< pressure, > 0
+};
+
+/// Pressures; c1 + c2 > 0, bulkModulus > 0.
+struct MooneyRivlin {
+  double c1 = 0, c2 = 0, bulkModulus = 0;
+};
+
+/// Pressures; c1 > 0, bulkModulus > 0.
+struct Yeoh {
+  double c1 = 0, c2 = 0, c3 = 0, bulkModulus = 0;
+};
+
+struct Gent {
+  double shearModulus = 0;  ///< pressure, > 0
+  double limit = 0;         ///< J_m, > 0
+  double bulkModulus = 0;   ///< pressure, > 0
+};
+
 struct Material {
   std::string name;
-  std::variant<SaintVenantKirchhoff> law;
+  std::variant<SaintVenantKirchhoff, NeoHookean, MooneyRivlin, Yeoh, Gent> law;
   std::vector<std::string> blocks;  ///< names or ids
 };
 
@@ -467,7 +491,7 @@ struct Deck {
   Output output;
 };
 
-/// Of all materials; a pressure in the deck's units.
+/// Of all materials at rest; a pressure in the deck's units.
 double largestYoungsModulus(const Deck& deck);
 
 /// Reads and validates a whole deck. Throws DeckError for the first thing that is wrong.

@@ -52,12 +52,23 @@ void readToolFiles(const Value& root, const std::filesystem::path& folder, Deck&
   }
 }
 
+// ------------------------------------------------------------------ Young's modulus at rest, one line each
+double isotropic(double shear, double bulk) { return 9 * shear / (3 + shear / bulk); }
+
+double youngsModulus(const SaintVenantKirchhoff& m) { return m.youngsModulus; }
+double youngsModulus(const NeoHookean& m) {
+  return m.youngsModulus ? *m.youngsModulus : isotropic(m.shearModulus.value(), m.bulkModulus.value());
+}
+double youngsModulus(const MooneyRivlin& m) { return isotropic(2 * (m.c1 + m.c2), m.bulkModulus); }
+double youngsModulus(const Yeoh& m) { return isotropic(2 * m.c1, m.bulkModulus); }
+double youngsModulus(const Gent& m) { return isotropic(m.shearModulus, m.bulkModulus); }
+
 }  // namespace
 
 double largestYoungsModulus(const Deck& deck) {
   double largest = 0;
   for (const Material& material : deck.materials) {
-    largest = std::max(largest, std::visit([](const auto& law) { return law.youngsModulus; }, material.law));
+    largest = std::max(largest, std::visit([](const auto& law) { return youngsModulus(law); }, material.law));
   }
   return largest;
 }

@@ -135,18 +135,58 @@ Field<Contact> contactStiffness() {
           }};
 }
 
+void requireElasticPair(const Value& map, const NeoHookean& m) {
+  const bool young = m.youngsModulus || m.poissonsRatio, moduli = m.shearModulus || m.bulkModulus;
+  const bool complete =
+      young ? m.youngsModulus && m.poissonsRatio : m.shearModulus.has_value() && m.bulkModulus.has_value();
+  if (young == moduli || !complete) {
+    map.fail("needs either youngs_modulus and poissons_ratio or shear_modulus and bulk_modulus");
+  }
+}
+
 }  // namespace
 
 const Variants<Material, decltype(Material::law)>& materialVariants() {
   using V = decltype(Material::law);
+  const std::string bulk = "kappa, a pressure";
   static const Variants<Material, V> variants{
       "law",
       &Material::law,
       {alternative<V, SaintVenantKirchhoff>(
-          "saint_venant_kirchhoff", {real("youngs_modulus", required, &SaintVenantKirchhoff::youngsModulus,
-                                          check::positive, "E, a pressure"),
-                                     real("poissons_ratio", required, &SaintVenantKirchhoff::poissonsRatio,
-                                          check::poissonsRatio, "nu")})},
+           "saint_venant_kirchhoff", {real("youngs_modulus", required, &SaintVenantKirchhoff::youngsModulus,
+                                           check::positive, "E, a pressure"),
+                                      real("poissons_ratio", required, &SaintVenantKirchhoff::poissonsRatio,
+                                           check::poissonsRatio, "nu")}),
+       alternative<V, NeoHookean>(
+           "neo_hookean",
+           {real("youngs_modulus", &NeoHookean::youngsModulus, check::positive, "E at rest, a pressure"),
+            real("poissons_ratio", &NeoHookean::poissonsRatio, check::poissonsRatio, "nu at rest"),
+            real("shear_modulus", &NeoHookean::shearModulus, check::positive, "mu, a pressure"),
+            real("bulk_modulus", &NeoHookean::bulkModulus, check::positive, bulk)},
+           requireElasticPair),
+       alternative<V, MooneyRivlin>(
+           "mooney_rivlin",
+           {real("c1", required, &MooneyRivlin::c1, check::any, "factor of the first invariant, a pressure"),
+            real("c2", required, &MooneyRivlin::c2, check::any, "of the second; c1 + c2 > 0"),
+            real("bulk_modulus", required, &MooneyRivlin::bulkModulus, check::positive, bulk)},
+           [](const Value& map, const MooneyRivlin& m) {
+             if (!(m.c1 + m.c2 > 0)) {
+               map.at("c2").fail(fmt::format(
+                   "c1 + c2, half the shear modulus at rest, must be positive, got {}", m.c1 + m.c2));
+             }
+           }),
+       alternative<V, Yeoh>(
+           "yeoh",
+           {real("c1", required, &Yeoh::c1, check::positive, "half the shear modulus at rest, a pressure"),
+            real("c2", required, &Yeoh::c2, check::any, "factor of the square, a pressure"),
+            real("c3", required, &Yeoh::c3, check::any, "factor of the cube, a pressure"),
+            real("bulk_modulus", required, &Yeoh::bulkModulus, check::positive, bulk)}),
+       alternative<V, Gent>(
+           "gent",
+           {real("shear_modulus", required, &Gent::shearModulus, check::positive, "at rest, a pressure"),
+            real("limit", required, &Gent::limit, check::positive,
+                 "J_m, what the first invariant cannot exceed 3 by"),
+            real("bulk_modulus", required, &Gent::bulkModulus, check::positive, bulk)})},
       {names("blocks", required, &Material::blocks, "blocks of the mesh that are made of it")}};
   return variants;
 }

@@ -4,7 +4,11 @@
 
 #include "atrapos/fem/EnhancedTerm.hpp"
 #include "atrapos/fem/LawTerm.hpp"
+#include "atrapos/solid/Gent.hpp"
+#include "atrapos/solid/MooneyRivlin.hpp"
+#include "atrapos/solid/NeoHookean.hpp"
 #include "atrapos/solid/SaintVenantKirchhoff.hpp"
+#include "atrapos/solid/Yeoh.hpp"
 
 namespace atrapos::registry {
 namespace {
@@ -12,6 +16,17 @@ namespace {
 // ------------------------------------------------------------------ deck entry -> law, one line each
 solid::SaintVenantKirchhoff law(const deck::SaintVenantKirchhoff& m) {
   return solid::SaintVenantKirchhoff::fromYoung(m.youngsModulus, m.poissonsRatio);
+}
+solid::NeoHookean law(const deck::NeoHookean& m) {
+  return m.youngsModulus ? solid::NeoHookean::fromYoung(*m.youngsModulus, m.poissonsRatio.value())
+                         : solid::NeoHookean::fromModuli(m.shearModulus.value(), m.bulkModulus.value());
+}
+solid::MooneyRivlin law(const deck::MooneyRivlin& m) {
+  return solid::MooneyRivlin::fromModuli(m.c1, m.c2, m.bulkModulus);
+}
+solid::Yeoh law(const deck::Yeoh& m) { return solid::Yeoh::fromModuli(m.c1, m.c2, m.c3, m.bulkModulus); }
+solid::Gent law(const deck::Gent& m) {
+  return solid::Gent::fromModuli(m.shearModulus, m.limit, m.bulkModulus);
 }
 
 }  // namespace

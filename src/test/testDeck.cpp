@@ -1028,6 +1028,57 @@ TEST(BadDeck, tools) {
           "tools/roll/coefficients: expected a list of finite numbers", {"big"});
 }
 
+TEST(Deck, rubberLaws) {
+  const auto law = [](const std::string& keys) {
+    std::stringstream printed;
+    describe(
+        readDeckText(changed("law: saint_venant_kirchhoff, youngs_modulus: 220000, poissons_ratio: 0", keys),
+                     "x.yaml"),
+        printed);
+    return readDeckText(printed.str(), "printed.yaml");
+  };
+  Deck deck = law("law: neo_hookean, youngs_modulus: 2.1, poissons_ratio: 0.4");
+  EXPECT_EQ(std::get<NeoHookean>(deck.materials[0].law).youngsModulus, 2.1);
+  EXPECT_EQ(largestYoungsModulus(deck), 2.1);
+  // E = 9 kappa mu/(3 kappa + mu)
+  const double E = 9 * 5.0 * 0.8 / (3 * 5 + 0.8);
+  deck = law("law: neo_hookean, shear_modulus: 0.8, bulk_modulus: 5");
+  EXPECT_FALSE(std::get<NeoHookean>(deck.materials[0].law).youngsModulus);
+  EXPECT_DOUBLE_EQ(largestYoungsModulus(deck), E);
+  deck = law("law: mooney_rivlin, c1: 0.5, c2: -0.1, bulk_modulus: 5");
+  EXPECT_EQ(std::get<MooneyRivlin>(deck.materials[0].law).c2, -0.1);
+  EXPECT_DOUBLE_EQ(largestYoungsModulus(deck), E);
+  deck = law("law: yeoh, c1: 0.4, c2: -0.05, c3: 0.01, bulk_modulus: 5");
+  EXPECT_EQ(std::get<Yeoh>(deck.materials[0].law).c3, 0.01);
+  EXPECT_DOUBLE_EQ(largestYoungsModulus(deck), E);
+  deck = law("law: gent, shear_modulus: 0.8, limit: 40, bulk_modulus: 5");
+  EXPECT_EQ(std::get<Gent>(deck.materials[0].law).limit, 40);
+  EXPECT_DOUBLE_EQ(largestYoungsModulus(deck), E);
+}
+
+TEST(BadDeck, rubberLaws) {
+  const auto refused = [](const std::string& keys, const std::string& message) {
+    expectError("law: saint_venant_kirchhoff, youngs_modulus: 220000, poissons_ratio: 0", keys, message, {});
+  };
+  const std::string pair =
+      "materials/steel: needs either youngs_modulus and poissons_ratio or shear_modulus and bulk_modulus";
+  refused("law: neo_hookean", pair);
+  refused("law: neo_hookean, youngs_modulus: 1", pair);
+  refused("law: neo_hookean, youngs_modulus: 1, bulk_modulus: 1", pair);
+  refused("law: neo_hookean, youngs_modulus: 1, poissons_ratio: 0.3, shear_modulus: 1, bulk_modulus: 1",
+          pair);
+  refused("law: neo_hookean, shear_modulus: -1, bulk_modulus: 1",
+          "materials/steel/shear_modulus: must be positive, got -1");
+  refused("law: mooney_rivlin, c1: 0.1, c2: -0.1, bulk_modulus: 1",
+          "materials/steel/c2: c1 + c2, half the shear modulus at rest, must be positive, got 0");
+  refused("law: mooney_rivlin, c1: 0.1, c2: 0.1", "materials/steel/bulk_modulus: is missing");
+  refused("law: yeoh, c1: 0, c2: 1, c3: 1, bulk_modulus: 1", "materials/steel/c1: must be positive, got 0");
+  refused("law: gent, shear_modulus: 1, limit: 0, bulk_modulus: 1",
+          "materials/steel/limit: must be positive, got 0");
+  refused("law: gent, shear_modulus: 1, limit: 5, bulk_modulus: 0",
+          "materials/steel/bulk_modulus: must be positive, got 0");
+}
+
 TEST(BadDeck, choices) {
   expectError("type: cylinder", "type: cilinder", "tools/roll/type: 'cilinder' is not a choice here",
               {"did you mean 'cylinder'?",
