@@ -13,20 +13,20 @@
 #include <utility>
 #include <vector>
 
+#include "Version.hpp"
+#include "atrapos/exodus/MeshFile.hpp"
+#include "atrapos/fem/Processor.hpp"
 #include "commands/Check.hpp"
 #include "commands/JoinCommand.hpp"
 #include "commands/MapCommand.hpp"
 #include "commands/MeshCommand.hpp"
 #include "commands/ModelCase.hpp"
-#include "machine/Ranks.hpp"
 #include "commands/Run.hpp"
-#include "machine/Runtime.hpp"
 #include "commands/SceneCase.hpp"
 #include "commands/SplitCommand.hpp"
+#include "machine/Ranks.hpp"
+#include "machine/Runtime.hpp"
 #include "machine/Threads.hpp"
-#include "Version.hpp"
-#include "atrapos/exodus/MeshFile.hpp"
-#include "atrapos/fem/Processor.hpp"
 
 namespace {
 

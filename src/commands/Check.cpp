@@ -4,13 +4,13 @@
 
 #include <ostream>
 
-#include "machine/Memory.hpp"
+#include "atrapos/linear/Choice.hpp"
 #include "commands/MeshCommand.hpp"
-#include "machine/Ranks.hpp"
 #include "commands/RunSettings.hpp"
 #include "commands/SceneCase.hpp"
+#include "machine/Memory.hpp"
+#include "machine/Ranks.hpp"
 #include "machine/Threads.hpp"
-#include "atrapos/linear/Choice.hpp"
 
 namespace atrapos {
 namespace {

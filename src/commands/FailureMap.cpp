@@ -8,11 +8,11 @@
 #include <ostream>
 #include <stdexcept>
 
+#include "atrapos/path/PathFollower.hpp"
+#include "commands/RunSettings.hpp"
+#include "deck/DeckTables.hpp"
 #include "output/PathTable.hpp"
 #include "output/ReferencePath.hpp"
-#include "commands/RunSettings.hpp"
-#include "atrapos/path/PathFollower.hpp"
-#include "deck/DeckTables.hpp"
 
 namespace atrapos {
 namespace {

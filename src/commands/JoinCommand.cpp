@@ -5,8 +5,8 @@
 #include <ostream>
 #include <stdexcept>
 
-#include "commands/MeshCommand.hpp"
 #include "atrapos/exodus/JoinedResults.hpp"
+#include "commands/MeshCommand.hpp"
 
 namespace atrapos {
 namespace {

@@ -2,9 +2,9 @@
 
 #include <string>
 
-#include "scene/DeckMesh.hpp"
 #include "atrapos/fem/Mesh.hpp"
 #include "deck/Deck.hpp"
+#include "scene/DeckMesh.hpp"
 
 namespace atrapos {
 

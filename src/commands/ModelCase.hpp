@@ -1,7 +1,7 @@
 #pragma once
 
-#include "commands/PathCase.hpp"
 #include "atrapos/models/Models.hpp"
+#include "commands/PathCase.hpp"
 
 namespace atrapos {
 

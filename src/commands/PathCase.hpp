@@ -6,13 +6,13 @@
 #include <utility>
 #include <vector>
 
-#include "restart/RestartRecord.hpp"
 #include "atrapos/linear/TangentSolver.hpp"
 #include "atrapos/path/Monitor.hpp"
 #include "atrapos/path/Options.hpp"
 #include "atrapos/path/Series.hpp"
 #include "atrapos/path/Stops.hpp"
 #include "deck/Deck.hpp"
+#include "restart/RestartRecord.hpp"
 
 namespace atrapos {
 

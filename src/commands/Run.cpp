@@ -8,17 +8,17 @@
 #include <optional>
 #include <ostream>
 
+#include "atrapos/path/PathFollower.hpp"
+#include "commands/RunSettings.hpp"
+#include "machine/Interrupt.hpp"
+#include "machine/Ranks.hpp"
 #include "output/FieldFiles.hpp"
 #include "output/Files.hpp"
-#include "scene/Imperfections.hpp"
-#include "machine/Interrupt.hpp"
 #include "output/PathPlot.hpp"
-#include "machine/Ranks.hpp"
 #include "output/Recorder.hpp"
-#include "restart/RestartFile.hpp"
-#include "commands/RunSettings.hpp"
 #include "output/RunSummary.hpp"
-#include "atrapos/path/PathFollower.hpp"
+#include "restart/RestartFile.hpp"
+#include "scene/Imperfections.hpp"
 
 namespace atrapos {
 namespace {

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <ostream>
 
-#include "machine/Memory.hpp"
 #include "atrapos/linear/MakeTangentSolver.hpp"
+#include "machine/Memory.hpp"
 
 namespace atrapos {
 

@@ -3,10 +3,10 @@
 #include <iosfwd>
 #include <memory>
 
-#include "commands/PathCase.hpp"
 #include "atrapos/linear/TangentSolver.hpp"
 #include "atrapos/path/Branches.hpp"
 #include "atrapos/path/NewtonFollower.hpp"
+#include "commands/PathCase.hpp"
 
 namespace atrapos {
 

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "scene/ContactEvents.hpp"
-#include "output/FieldFiles.hpp"
-#include "machine/Memory.hpp"
-#include "scene/Sharpen.hpp"
 #include "atrapos/linear/OnAllRanks.hpp"
+#include "machine/Memory.hpp"
+#include "output/FieldFiles.hpp"
+#include "scene/ContactEvents.hpp"
+#include "scene/Sharpen.hpp"
 
 namespace atrapos {
 

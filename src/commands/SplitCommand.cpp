@@ -6,10 +6,10 @@
 #include <set>
 #include <stdexcept>
 
-#include "commands/MeshCommand.hpp"
 #include "atrapos/exodus/Decomposition.hpp"
 #include "atrapos/exodus/MeshFile.hpp"
 #include "atrapos/fem/Partition.hpp"
+#include "commands/MeshCommand.hpp"
 
 namespace atrapos {
 

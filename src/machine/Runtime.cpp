@@ -6,9 +6,9 @@
 #include <Tpetra_Core.hpp>
 #include <cstdlib>
 
+#include "atrapos/linear/BlasThreads.hpp"
 #include "machine/Ranks.hpp"
 #include "machine/Threads.hpp"
-#include "atrapos/linear/BlasThreads.hpp"
 
 namespace atrapos {
 

@@ -11,11 +11,11 @@
 #include <stdexcept>
 #include <unordered_map>
 
-#include "machine/Ranks.hpp"
 #include "atrapos/exodus/Decomposition.hpp"
 #include "atrapos/exodus/JoinedResults.hpp"
 #include "atrapos/exodus/ResultReader.hpp"
 #include "atrapos/exodus/ResultWriter.hpp"
+#include "machine/Ranks.hpp"
 
 namespace atrapos {
 namespace {

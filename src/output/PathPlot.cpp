@@ -4,9 +4,9 @@
 
 #include <cmath>
 
+#include "machine/Ranks.hpp"
 #include "output/Files.hpp"
 #include "output/Gnuplot.hpp"
-#include "machine/Ranks.hpp"
 
 namespace atrapos {
 namespace {

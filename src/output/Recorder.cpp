@@ -9,9 +9,9 @@
 #include <limits>
 #include <ostream>
 
-#include "output/FieldFiles.hpp"
 #include "machine/Interrupt.hpp"
 #include "machine/Ranks.hpp"
+#include "output/FieldFiles.hpp"
 
 namespace atrapos {
 namespace {
@@ -170,8 +170,8 @@ void Recorder::onSearch(int /*branch*/, int found, int wanted) {
   constexpr double patience = 5;  // s
   if (!progress_ || seconds() - printed_ < patience) return;
   printed_ = seconds();
-  *progress_ << fmt::format("      {} eigenvalue(s) changed sign, the places of {} are found, {:.2f} s", wanted,
-                            found, printed_)
+  *progress_ << fmt::format("      {} eigenvalue(s) changed sign, the places of {} are found, {:.2f} s",
+                            wanted, found, printed_)
              << std::endl;
 }
 

@@ -6,10 +6,10 @@
 #include <optional>
 #include <string>
 
+#include "atrapos/path/Branches.hpp"
 #include "commands/PathCase.hpp"
 #include "output/PathTable.hpp"
 #include "restart/RestartFile.hpp"
-#include "atrapos/path/Branches.hpp"
 
 namespace atrapos {
 

@@ -6,13 +6,13 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "machine/Memory.hpp"
-#include "machine/Ranks.hpp"
 #include "Version.hpp"
 #include "atrapos/fem/Processor.hpp"
 #include "atrapos/linear/Choice.hpp"
 #include "atrapos/linear/Iterations.hpp"
 #include "deck/DeckTables.hpp"
+#include "machine/Memory.hpp"
+#include "machine/Ranks.hpp"
 
 namespace atrapos {
 namespace {

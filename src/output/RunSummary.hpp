@@ -3,10 +3,10 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
-#include "commands/PathCase.hpp"
-#include "output/Recorder.hpp"
 #include "atrapos/linear/TangentSolver.hpp"
 #include "atrapos/path/Branches.hpp"
+#include "commands/PathCase.hpp"
+#include "output/Recorder.hpp"
 
 namespace atrapos {
 

@@ -7,9 +7,9 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "commands/SceneCase.hpp"
 #include "atrapos/fem/Multipliers.hpp"
 #include "atrapos/taylor/Implicit.hpp"
+#include "commands/SceneCase.hpp"
 
 namespace atrapos {
 namespace {

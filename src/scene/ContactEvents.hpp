@@ -3,10 +3,10 @@
 #include <string>
 #include <vector>
 
+#include "atrapos/path/Series.hpp"
 #include "commands/PathCase.hpp"
 #include "output/PathTable.hpp"
 #include "scene/Scene.hpp"
-#include "atrapos/path/Series.hpp"
 
 namespace atrapos {
 

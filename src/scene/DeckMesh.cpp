@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "machine/PartExchange.hpp"
-#include "machine/Ranks.hpp"
 #include "atrapos/exodus/JoinedMesh.hpp"
 #include "atrapos/exodus/MeshFile.hpp"
+#include "machine/PartExchange.hpp"
+#include "machine/Ranks.hpp"
 
 namespace atrapos {
 namespace {

@@ -3,8 +3,8 @@
 #include <memory>
 #include <vector>
 
-#include "scene/Shells.hpp"
 #include "atrapos/fem/Term.hpp"
+#include "scene/Shells.hpp"
 
 /// Loads of the deck whose nodal forces depend on the displacements: terms of the problem. Those are
 /// pressures that follow, forces that follow an edge, and moments on edges, also dead ones.

@@ -5,11 +5,11 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "machine/Interrupt.hpp"
-#include "commands/RunSettings.hpp"
 #include "atrapos/linear/OnAllRanks.hpp"
 #include "atrapos/path/Imperfect.hpp"
 #include "atrapos/path/PathFollower.hpp"
+#include "commands/RunSettings.hpp"
+#include "machine/Interrupt.hpp"
 
 namespace atrapos {
 namespace {

@@ -7,14 +7,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scene/FollowerLoads.hpp"
-#include "machine/Ranks.hpp"
-#include "scene/Registry.hpp"
-#include "scene/Sets.hpp"
 #include "atrapos/fem/ReferenceCell.hpp"
 #include "atrapos/fem/RigidBody.hpp"
 #include "atrapos/fem/ShellFaces.hpp"
 #include "atrapos/solid/ShellResults.hpp"
+#include "machine/Ranks.hpp"
+#include "scene/FollowerLoads.hpp"
+#include "scene/Registry.hpp"
+#include "scene/Sets.hpp"
 
 namespace atrapos {
 namespace {
@@ -78,7 +78,8 @@ std::string Scene::dofName(const fem::DofMap& dofs, int dof) const {
   if (at.node >= g.numNodes()) return dofs.nameOf(dof);  // of rigid bodies and contact points
   const int node = at.node < g.numMeshNodes ? at.node : g.meshNode[at.node - g.numMeshNodes];
   const fem::Field& field = dofs.fields()[at.field];
-  return fmt::format("{} {} of node {}", field.name, field.components[at.component],
+  return fmt::format("{} {} {} node {}", field.name, field.components[at.component],
+                     at.node < g.numMeshNodes ? "of" : "at",
                      mesh_.nodeIds.empty() ? static_cast<long long>(node) + 1 : mesh_.nodeIds[node]);
 }
 

@@ -8,10 +8,6 @@
 #include <utility>
 #include <vector>
 
-#include "scene/ContactPressure.hpp"
-#include "scene/DeckMesh.hpp"
-#include "scene/SceneState.hpp"
-#include "scene/Shells.hpp"
 #include "atrapos/contact/NearContact.hpp"
 #include "atrapos/contact/RigidTool.hpp"
 #include "atrapos/fem/FeProblem.hpp"
@@ -22,6 +18,10 @@
 #include "atrapos/path/Stops.hpp"
 #include "atrapos/solid/PlaneBody.hpp"
 #include "deck/Deck.hpp"
+#include "scene/ContactPressure.hpp"
+#include "scene/DeckMesh.hpp"
+#include "scene/SceneState.hpp"
+#include "scene/Shells.hpp"
 
 namespace atrapos {
 

@@ -6,12 +6,12 @@
 #include <limits>
 #include <numeric>
 
-#include "scene/DeckTool.hpp"
-#include "machine/Ranks.hpp"
-#include "scene/Scene.hpp"
 #include "atrapos/fem/Loads.hpp"
 #include "atrapos/fem/ReferenceCell.hpp"
 #include "atrapos/fem/ShellFaces.hpp"
+#include "machine/Ranks.hpp"
+#include "scene/DeckTool.hpp"
+#include "scene/Scene.hpp"
 
 namespace atrapos {
 

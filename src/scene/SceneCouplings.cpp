@@ -5,8 +5,8 @@
 #include <cmath>
 #include <map>
 
-#include "scene/Scene.hpp"
 #include "atrapos/fem/RigidBody.hpp"
+#include "scene/Scene.hpp"
 
 namespace atrapos {
 

@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "atrapos/solid/ShellResults.hpp"
 #include "scene/Scene.hpp"
 #include "scene/ShellFields.hpp"
-#include "atrapos/solid/ShellResults.hpp"
 
 // What the result file holds of a state.
 namespace atrapos {

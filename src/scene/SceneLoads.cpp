@@ -1,10 +1,10 @@
-#include "scene/FollowerLoads.hpp"
-#include "scene/Scene.hpp"
-#include "scene/Sets.hpp"
 #include "atrapos/fem/Loads.hpp"
 #include "atrapos/fem/ReferenceCell.hpp"
 #include "atrapos/fem/ShellFaces.hpp"
 #include "atrapos/solid/ShellLoads.hpp"
+#include "scene/FollowerLoads.hpp"
+#include "scene/Scene.hpp"
+#include "scene/Sets.hpp"
 
 // What acts on the body of a scene.
 namespace atrapos {

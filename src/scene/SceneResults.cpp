@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "scene/Scene.hpp"
 #include "atrapos/linear/Dot.hpp"
+#include "scene/Scene.hpp"
 
 // What a scene watches along the path: stops, monitors, contact.
 namespace atrapos {

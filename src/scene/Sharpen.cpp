@@ -8,8 +8,8 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "output/PathTable.hpp"
 #include "atrapos/fem/FeProblem.hpp"
+#include "output/PathTable.hpp"
 
 namespace atrapos {
 namespace {

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "scene/Scene.hpp"
 #include "atrapos/linear/TangentSolver.hpp"
 #include "atrapos/path/PathFollower.hpp"
+#include "scene/Scene.hpp"
 
 namespace atrapos {
 

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "scene/Shells.hpp"
 #include "atrapos/fem/Term.hpp"
+#include "scene/Shells.hpp"
 
 /// What the result file shows of shells; `u` is the problem's state, [3 node + component].
 namespace atrapos {

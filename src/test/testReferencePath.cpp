@@ -4,10 +4,10 @@
 #include <Tpetra_Vector.hpp>
 #include <cmath>
 
-#include "output/ReferencePath.hpp"
 #include "atrapos/linear/MakeTangentSolver.hpp"
 #include "atrapos/models/Models.hpp"
 #include "atrapos/path/PathFollower.hpp"
+#include "output/ReferencePath.hpp"
 
 namespace atrapos::test {
 namespace {

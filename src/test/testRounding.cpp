@@ -9,11 +9,11 @@
 #include <map>
 #include <tuple>
 
-#include "scene/DeckMesh.hpp"
 #include "commands/MeshCommand.hpp"
 #include "commands/ModelCase.hpp"
 #include "commands/RunSettings.hpp"
 #include "commands/SceneCase.hpp"
+#include "scene/DeckMesh.hpp"
 #include "support/RoundedProblem.hpp"
 
 namespace atrapos::test {

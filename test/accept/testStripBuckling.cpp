@@ -75,7 +75,7 @@ TEST(StripBuckling, HardContactBucklesToo) {
   const auto load = run.column("load_factor"), q = buckle(run);
   EXPECT_EQ(load.back(), 27);
   EXPECT_LE(run.summary.at("worst_residual"), 1e-6);
-  EXPECT_LT(run.summary.at("steps"), 35);  // 26 measured
+  EXPECT_LT(run.summary.at("steps"), 35);         // 26 measured
   EXPECT_NEAR(sharpestBend(load, q), 12.2, 0.5);  // what other series and libraries of linear algebra change
   // The deck's law gives -0.36, a mesh twice as fine with a tenth of its eta -0.42.
   EXPECT_NEAR(interpolate(load, q, 20), -0.40, 0.03);

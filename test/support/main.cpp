@@ -1,7 +1,7 @@
 // The main of every test executable: MPI and Kokkos live from before the first test to after the last.
-#include <Kokkos_Core.hpp>
 #include <gtest/gtest.h>
 #include <mpi.h>
+#include <Kokkos_Core.hpp>
 
 #include <algorithm>
 #include <cstdlib>
@@ -9,8 +9,8 @@
 
 namespace {
 
-/// Threads of this rank: its share of the machine's processors, where the environment does not say. Ranks that
-/// each take all of them make a small problem a hundred times slower.
+/// Threads of this rank: its share of the machine's processors, where the environment does not say. Ranks
+/// that each take all of them make a small problem a hundred times slower.
 int threadsOfRank() {
   if (std::getenv("OMP_NUM_THREADS") != nullptr) return -1;  // Kokkos reads it
   int ranks = 1;

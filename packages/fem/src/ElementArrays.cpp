@@ -122,7 +122,8 @@ void ElementArrays::keep(const TermPart& part) {
     if (!p.view.shared) p.shape = upload("shape", packedOf(part, p.shape.data(), Q * p.view.N * C));
     if (p.view.mapped) p.map = upload("map", packedOf(part, p.map.data(), Q * C * C));
   }
-  if (offset_.size() > 0) offset_ = upload("offset", packedOf(part, offset_.data(), Q * components()));
+  if (offset_.size() > 0)
+    offset_ = upload("offset", packedOf(part, offset_.data(), Q * parts_.front().components));
   numEntities_ = static_cast<int>(part.entities.size());
   entityNodes_ = part.nodes;
   kept_ = part.entities;
@@ -185,7 +186,7 @@ void ElementArrays::gather(int b, const double* u, int stride, double* in) const
 
 void ElementArrays::addOffset(int b, int stride, double* in) const {
   if (offset_.size() == 0) return;
-  const int D = components();
+  const int D = parts_.front().components;
   const double* x = offset_.data() + static_cast<std::size_t>(b) * Q_ * D * kLanes;
   for (int q = 0; q < Q_; ++q)
     for (int i = 0; i < D * kLanes; ++i) in[q * stride * kLanes + i] += x[q * D * kLanes + i];

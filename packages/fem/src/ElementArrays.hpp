@@ -24,13 +24,10 @@ class ElementArrays {
   /// [entity][node] of all fields; those that several fields have at the same nodes once.
   const std::vector<int>& nodes() const { return entityNodes_; }
   int nodesPerEntity() const { return P_; }
-  /// Entities of the whole term, where this is a part; empty where all are there.
-  const std::vector<int>& kept() const { return kept_; }
   int numFields() const { return static_cast<int>(parts_.size()); }
   int inputs() const { return inputs_; }        ///< B u at a point, of all fields
   int localDofs() const { return localDofs_; }  ///< of an entity, field after field
-  /// Of the first field: its components, and nodes.
-  int components() const { return parts_.front().components; }
+  /// Nodes of the first field.
   int numNodes() const { return parts_.front().view.N; }
 
   /// Number of an entity, from 0, in the whole term.
@@ -58,8 +55,6 @@ class ElementArrays {
   double squares(int b, int count, const double* force) const;
   /// The weights of a batch, [q][lane].
   const double* weights(int b) const { return weight_.data() + static_cast<std::size_t>(b) * Q_ * kLanes; }
-  /// The first component of the shape function of the first field's node n at point q of a batch.
-  double value(int b, int q, int n, int lane) const { return shapeAt(parts_.front(), b, q, n, 0, lane); }
   /// The unknowns of the first field: its first component at a node of an entity.
   int dof(std::size_t entity, int node) const {
     return parts_.front().dofs(entity * parts_.front().view.N + node);
@@ -104,7 +99,8 @@ class ElementArrays {
   int stride_ = 0;  ///< nodes a row of positions_
   int inputs_ = 0, localDofs_ = 0;
   std::vector<Part> parts_;
-  std::vector<int> entityNodes_, kept_;
+  std::vector<int> entityNodes_;
+  std::vector<int> kept_;  ///< entities of the whole term, where this is a part; empty: all
   Batches batches_;
   View<int*> positions_;
   View<double*> weight_, offset_;

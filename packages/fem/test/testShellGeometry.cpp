@@ -444,7 +444,6 @@ TEST(ShellGeometry, SurfacesHaveNoVolumePoints) {
     facePoints(mesh, sideSet(mesh, "x_max"), 2);
     FAIL();
   } catch (const std::runtime_error& e) {
-    EXPECT_STREQ(e.what(),
-                 "side set 'x_max': side 4 of element 3 is an edge of a shell, where a face is needed");
+    EXPECT_STREQ(e.what(), "side set 'x_max': side 4 of element 3 is an edge, where a face is needed");
   }
 }

@@ -1,4 +1,4 @@
-#include "commands/PathCase.hpp"
+#include "PathCase.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -16,7 +16,7 @@
 #include <exception>
 #include <fstream>
 
-#include "commands/PathCase.hpp"
+#include "PathCase.hpp"
 #include "PathSamples.hpp"
 #include "atrapos/linear/BlasThreads.hpp"
 #include "atrapos/linear/MakeTangentSolver.hpp"

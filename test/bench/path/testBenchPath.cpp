@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "CsvRows.hpp"
-#include "commands/PathCase.hpp"
+#include "PathCase.hpp"
 #include "PathSamples.hpp"
 #include "atrapos/linear/MakeTangentSolver.hpp"
 #include "atrapos/path/PathFollower.hpp"

@@ -21,13 +21,13 @@
 
 #include "CsvCells.hpp"
 #include "Families.hpp"
-#include "machine/Memory.hpp"
 #include "commands/MeshCommand.hpp"
-#include "machine/Ranks.hpp"
 #include "commands/Run.hpp"
 #include "commands/RunSettings.hpp"
-#include "machine/Runtime.hpp"
 #include "commands/SceneCase.hpp"
+#include "machine/Memory.hpp"
+#include "machine/Ranks.hpp"
+#include "machine/Runtime.hpp"
 
 namespace {
 

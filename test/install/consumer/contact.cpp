@@ -1,4 +1,5 @@
-// Gap and pressure of a point over a cylinder, from the installed headers: law (15) with Delta = h gives R = 0.
+// Gap and pressure of a point over a cylinder, from the installed headers: law (15) with Delta = h gives R =
+// 0.
 #include <cmath>
 #include <cstdio>
 
