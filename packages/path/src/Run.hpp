@@ -55,6 +55,15 @@ class Run {
     std::vector<int> events;  ///< event functions that are zero there, and breaks
   };
 
+  /// An end that a series may reach with fewer orders.
+  struct NearEnd {
+    int nextLook = 0;            ///< order at which it is looked for again
+    Trial trial;                 ///< the step to it
+    std::vector<double> small;   ///< what event functions may be off by there
+    bool silent = false;         ///< the orders of one of them say nothing about what comes behind them
+    std::vector<double> offset;  ///< what is left of those that are zero at the start
+  };
+
   /// What the tangent at a step's end tells.
   struct EndTangent {
     std::optional<linear::Inertia> inertia;
@@ -95,15 +104,25 @@ class Run {
   bool loadTurned(const EndTangent& end) const;
 
   // RunEvents.cpp: where the Problem changes.
-  std::vector<double> falls(const Series& series, double end) const;
-  void limit(const Series& series, Trial& trial) const;
+  std::vector<double> falls(const Series& series, double end, const std::vector<int>& zero) const;
+  void limit(const Series& series, Trial& trial) const { limit(series, trial, applied_); }
+  void limit(const Series& series, Trial& trial, const std::vector<int>& zero) const;
   std::vector<int> falling(const Series& series, const std::vector<int>& candidates, double sense);
   std::vector<int> overdue(const Series& series) const;
-  Series seriesOfChoice(const std::vector<int>& chosen = {});
+  Series seriesOfChoice(const std::vector<int>& zero, const std::vector<int>& chosen = {});
   bool passesStop(const State& from, const State& to) const;
   bool passJump();
   Series seriesAfterEvents(StepReport& report);
   Series seriesAfterRestart();
+
+  // RunOrders.cpp: how many orders a series has.
+  Series seriesTo(SeriesRequest request, const std::vector<int>& zero);
+  std::optional<Series> admissible(const Series& series, const std::vector<int>& zero);
+  bool reachesEnd(const Series& soFar, const std::vector<int>& zero, NearEnd& end);
+  bool tellsEvents(const Series& series, const std::vector<int>& zero, NearEnd& end) const;
+  bool eventsHold(const NearEnd& end);
+  /// Whether the series ended before the highest order, for an end that it reaches.
+  bool endsEarly(const Series& series) const { return series.order() < order_; }
 
   // RunTrial.cpp: how far it goes.
   double longestLength() const;
@@ -118,7 +137,7 @@ class Run {
   bool astray(const Trial& trial);
   bool endAtBreak(const Series& series, Trial& trial);
   double startPart(double a) const;
-  double shorterBy(double a, double residual) const;
+  double shorterBy(double a, double residual, int order) const;
   void correct(const Series& series, Trial& trial, StepReport& report, double above);
   Border borderAt(const Series& series, double a, const std::optional<StopHit>& stop);
 
@@ -166,6 +185,9 @@ class Run {
   int counted_ = 0;           ///< eigenvalues with negative real part when they were counted last
   int expected_ = 0;          ///< counted_ before that
 };
+
+/// Event function i without its value at the start where that is a known root (one of `zero`).
+Polynomial eventPolynomial(const Series& series, int i, const std::vector<int>& zero);
 
 /// A length with the first 7 bits of its mantissa. Step lengths come from the highest orders, whose last
 /// digits are rounding; taken as they are, two runs that round differently (another machine, compiler, number

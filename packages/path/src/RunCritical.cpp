@@ -16,7 +16,8 @@ namespace atrapos::path {
 /// are a geometric progression; its pole, ahead or behind.
 std::optional<double> Run::progressionPole(const Series& series) const {
   // Nothing but what a restart knows: it has to decide the same.
-  if (!options_.criticalPoints || !tangent_ || series.eventCount() > 0) return std::nullopt;
+  if (!options_.criticalPoints || !tangent_ || series.eventCount() > 0 || endsEarly(series))
+    return std::nullopt;
   constexpr double shrinks = 0.6, ratioBound = 1e-3, perpBound = 0.3;
   if (!(series.radius(options_.delta) < shrinks * lastLength_)) return std::nullopt;
   return geometricProgression(calls_.problem(), series, ratioBound, perpBound);

@@ -15,13 +15,6 @@ namespace atrapos::path {
 
 namespace {
 
-/// The event function without its value at the start where that is a known root.
-Polynomial known(const Series& series, int i, const std::vector<int>& applied) {
-  auto c = series.eventCoefficients(i);
-  if (std::find(applied.begin(), applied.end(), i) != applied.end()) c[0] = 0;
-  return Polynomial(std::move(c));
-}
-
 /// max |c_k| length^k over k >= 1.
 double size(const std::vector<double>& c, double length) {
   double largest = 0, power = length;
@@ -49,11 +42,17 @@ std::vector<int> difference(const std::vector<int>& a, const std::vector<int>& b
 
 }  // namespace
 
+Polynomial eventPolynomial(const Series& series, int i, const std::vector<int>& zero) {
+  auto c = series.eventCoefficients(i);
+  if (std::find(zero.begin(), zero.end(), i) != zero.end()) c[0] = 0;
+  return Polynomial(std::move(c));
+}
+
 /// Where each event function falls through zero first on (0, end]; infinity where it does not.
-std::vector<double> Run::falls(const Series& series, double end) const {
+std::vector<double> Run::falls(const Series& series, double end, const std::vector<int>& zero) const {
   std::vector<double> at(series.eventCount(), std::numeric_limits<double>::infinity());
   for (int i = 0; i < series.eventCount(); ++i) {
-    const Polynomial p = known(series, i, applied_);
+    const Polynomial p = eventPolynomial(series, i, zero);
     Rational g = series.scalar(p.coefficients());
     if (p.coefficients()[0] == 0) g = g.withoutRootAtZero();
     const auto slope = g.numerator().derivative();  // the root taken out at 0 does not change its sign
@@ -68,7 +67,7 @@ std::vector<double> Run::falls(const Series& series, double end) const {
 
 /// Shortens the trial to the first stop or event; those just behind its end are taken now, not by a tiny next
 /// step.
-void Run::limit(const Series& series, Trial& trial) const {
+void Run::limit(const Series& series, Trial& trial, const std::vector<int>& zero) const {
   trial.events.clear();
   trial.stop = firstStop(stops_, series, outcome_.pathLength, 1.001 * trial.a, !tangent_);
   if (trial.stop) trial.a = trial.stop->a;
@@ -78,7 +77,7 @@ void Run::limit(const Series& series, Trial& trial) const {
   double first = trial.a;
   std::vector<double> at;
   for (double end = 1.001 * trial.a;; end = 1.001 * first) {
-    at = falls(series, end);
+    at = falls(series, end, zero);
     const double next = *std::min_element(at.begin(), at.end());
     if (!(next < 0.9 * first)) {
       first = next;
@@ -168,8 +167,9 @@ bool Run::passJump() {
   return false;
 }
 
-/// The series of the Problem as it is, in the sense that led here; `chosen` has just been applied.
-Series Run::seriesOfChoice(const std::vector<int>& chosen) {
+/// The series of the Problem as it is, in the sense that led here; the functions `zero` are zero here,
+/// `chosen` have just been applied.
+Series Run::seriesOfChoice(const std::vector<int>& zero, const std::vector<int>& chosen) {
   relaxOver_ = 0;
   jump_ = 0;
   residual_ = calls_.residual(outcome_.final, *r_).relative();
@@ -184,12 +184,7 @@ Series Run::seriesOfChoice(const std::vector<int>& chosen) {
                          ": the state does not solve the problem as an event has changed it (relative "
                          "residual ",
                          residual_, ')'));
-  SeriesRequest request;
-  request.order = order_;
-  request.weight = weight_;
-  request.direction = options_.direction;
-  request.previous = tangent_ ? &*tangent_ : nullptr;
-  return buildSeries(calls_, outcome_.final, request);
+  return seriesTo({}, zero);
 }
 
 /// The Problem changes at the state. Of the functions that are zero there (`due_`) all are applied; where the
@@ -238,7 +233,7 @@ Series Run::seriesAfterEvents(StepReport& report) {
     };
     calls_.applyEvent(chosen, before);
     try {
-      const Series series = seriesOfChoice(chosen);
+      const Series series = seriesOfChoice(candidates, chosen);
       for (int s = 0; s < senses && !found; ++s) {
         choice.falls[s] = falling(series, candidates, s == 0 ? 1 : -1);
         if (choice.falls[s].empty()) found = s == 0 ? series : series.reversed();
@@ -303,7 +298,7 @@ Series Run::seriesAfterEvents(StepReport& report) {
 
 /// A path that goes on from a state where events have been applied: the sense in which their functions rise.
 Series Run::seriesAfterRestart() {
-  Series series = seriesOfChoice();
+  Series series = seriesOfChoice(applied_);
   if (falling(series, applied_, 1).empty()) return series;
   return series.reversed();
 }
@@ -313,7 +308,7 @@ std::vector<int> Run::overdue(const Series& series) const {
   const double reach = std::min(series.radius(options_.delta), options_.maxStep);
   std::vector<int> due;
   for (int i = 0; i < series.eventCount(); ++i) {
-    const Polynomial p = known(series, i, applied_);
+    const Polynomial p = eventPolynomial(series, i, applied_);
     if (p.coefficients()[0] < 0 && !rises(p.coefficients(), 1, reach, 0)) due.push_back(i);
   }
   return due;

@@ -83,17 +83,13 @@ Series Run::nextSeries(StepReport& report) {
 Series Run::smoothSeries(StepReport& report) {
   for (int attempt = 1;;) {
     SeriesRequest request;
-    request.order = order_;
-    request.weight = weight_;
-    request.direction = options_.direction;
-    request.previous = tangent_ ? &*tangent_ : nullptr;
     relaxOver_ = options_.relaxResidual ? lastLength_ : 0;
     if (relaxOver_ > 0) {
       request.residual = r_.get();
       request.relaxOver = relaxOver_;
     }
     try {
-      Series series = buildSeries(calls_, outcome_.final, request);
+      Series series = seriesTo(request, {});
       if (!tangent_ || directionAgrees(series, *tangent_)) return series;
     } catch (const PathError& error) {
       if (error.reason() != EndReason::singularTangent) throw;

@@ -72,13 +72,13 @@ bool Run::endAtBreak(const Series& series, Trial& trial) {
 }
 
 /// Factor for the next trial length: the truncation error of the residual grows like a^(K+1).
-double Run::shorterBy(double a, double residual) const {
+double Run::shorterBy(double a, double residual, int order) const {
   if (!std::isfinite(residual)) return 0.5;
   const double start = startPart(a);
   const double truncation = residual - start;
   const double room = 0.5 * (correctAbove() - start);
   if (truncation <= 0 || room <= 0) return 0.5;
-  return std::clamp(std::pow(room / truncation, 1.0 / (order_ + 1)), 0.1, 0.9);
+  return std::clamp(std::pow(room / truncation, 1.0 / (order + 1)), 0.1, 0.9);
 }
 
 Run::Trial Run::acceptedTrial(Series& series, StepReport& report) {
@@ -134,7 +134,7 @@ bool Run::polynomialReaches(Series& series, double a) {
 /// The end of the step by the rational form, where that goes further than the polynomial and its residual
 /// passes, at the end and inside; or by the polynomial, where that reaches a stop or an event.
 std::optional<Run::Trial> Run::padeTrial(Series& series, StepReport& report) {
-  if (options_.pade == PadeUse::off || order_ < 4) return std::nullopt;
+  if (options_.pade == PadeUse::off || order_ < 4 || endsEarly(series)) return std::nullopt;
   const bool automatic = options_.pade == PadeUse::automatic;
   if (automatic && padeWait_ > 0) {
     --padeWait_;
@@ -175,7 +175,8 @@ std::optional<Run::Trial> Run::padeTrial(Series& series, StepReport& report) {
         return trial;
       }
       ++report.cutBacks;
-      trial.a = rounded(shorterBy(trial.a, std::max(trial.residual, inside.residual)) * trial.a);
+      trial.a =
+          rounded(shorterBy(trial.a, std::max(trial.residual, inside.residual), series.order()) * trial.a);
     }
     series.setForm(nullptr);
   }
@@ -208,7 +209,7 @@ Run::Trial Run::polynomialTrial(const Series& series, StepReport& report) {
         return trial;
       }
     }
-    const double factor = shorterBy(trial.a, ofSeries);
+    const double factor = shorterBy(trial.a, ofSeries, series.order());
     if (trial.residual <= bound() && !wrong) {
       const bool shorten = !shortened && !trial.stop && trial.events.empty() && factor >= worthKeeping &&
                            startPart(factor * trial.a) < correctAbove();

@@ -88,6 +88,7 @@ Series buildSeries(Calls& calls, const State& start, const SeriesRequest& reques
     calls.completeOrder(k, *Xk.u, lambdaK);
     series.append(std::move(Xk), lambdaK, norm);
     series.appendEvents(calls.eventOrder(k));
+    if (k < request.order && request.enough && request.enough(series)) break;
   }
   return series;
 }

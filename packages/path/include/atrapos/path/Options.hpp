@@ -15,7 +15,10 @@ enum class PadeUse {
 /// The knobs of path following. Lengths are lengths of the path parameter a, which at the start of the path
 /// changes by sqrt(2) times the change of lambda unless `weight` is given.
 struct Options {
-  int order = 20;  ///< K, the order of the series, >= 1
+  int order = 20;  ///< K, the highest order of the series, >= 1
+  /// A series whose step ends near (an event, a stop, the longest length allowed) has as many orders as that
+  /// end asks for (docs/theory/path.md). False: all of them, always.
+  bool fewerOrders = true;
   /// K is chosen while running, in [5, 40], from the measured seconds of a factorization and of an order;
   /// `order` is that of the first step. Paths then depend on the machine and its load.
   bool autoOrder = false;

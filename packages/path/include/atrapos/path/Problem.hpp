@@ -37,7 +37,8 @@ class Pieces;
 ///     F_k = -[order k of R(U(a), lambda(a)) with U_k = 0 and lambda_k = 0].
 ///
 /// One step calls tangent, beginSeries, then for k = 1, 2, ...: orderRhs(k), [internalOrder(k, ...)],
-/// completeOrder(k, U_k, lambda_k). Vectors live on map().
+/// completeOrder(k, U_k, lambda_k). residual may be called between two orders, and leaves the series as it
+/// is. A series may end before maxOrder. Vectors live on map().
 class Problem {
  public:
   virtual ~Problem() = default;

@@ -89,7 +89,7 @@ struct Start {
 /// What happened in one step.
 struct StepReport {
   int step = 0;       ///< from 1
-  int order = 0;      ///< of the series
+  int order = 0;      ///< of the series; below Options::order where its end is near (Options::fewerOrders)
   double radius = 0;  ///< eq. (36); infinity where the series terminates or has order 1
   double length = 0;  ///< accepted length a
   int cutBacks = 0;   ///< trial lengths rejected by the residual

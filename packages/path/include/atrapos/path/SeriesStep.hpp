@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <optional>
 
 #include "atrapos/path/Calls.hpp"
@@ -8,7 +9,9 @@ namespace atrapos::path {
 
 /// What one series is asked to be.
 struct SeriesRequest {
-  int order = 20;                ///< K
+  int order = 20;  ///< K, the highest order
+  /// Asked after every order below K: whether those computed so far are enough. Empty: all are computed.
+  std::function<bool(const Series&)> enough;
   std::optional<double> weight;  ///< w; empty: 1 / <Xhat, Xhat>
   double direction = 1;          ///< sign of lambda_1 where `previous` is null
   /// The tangent at the end of the previous step, whose sense is kept; null at the start of a path.
@@ -21,7 +24,8 @@ struct SeriesRequest {
   bool factored = false;  ///< the tangent solver holds K_T of the start already
 };
 
-/// The Taylor series of the path at a state: one factorization, one solve per order.
+/// The Taylor series of the path at a state, to the highest order or as far as is enough: one factorization,
+/// one solve per order.
 ///
 /// With K_T Uhat = F, K_T V_k = F_k and hats for the pair (unknowns, internal variables), which the Problem's
 /// inner product takes:
