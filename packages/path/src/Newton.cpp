@@ -113,4 +113,28 @@ NewtonResult newton(Calls& calls, State& state, Vector& residual, const Border& 
   return result;
 }
 
+NewtonResult newtonAtHand(Calls& calls, State& state, Vector& residual, const RCP<Vector>& Uhat,
+                          const Border& border, double tolerance, int maxIterations) {
+  NewtonResult result;
+  result.residual = calls.residual(state, residual).relative();
+  auto x = calls.newVector(), r = calls.newVector();
+  bool helps = true;
+  while (helps && result.residual > tolerance && result.iterations < maxIterations) {
+    ++result.iterations;
+    calls.solve(residual, *x);
+    const double dLambda = border.c(x) / (border.c(Uhat) + border.cLambda);
+    x->update(dLambda, *Uhat, -1);
+    State trial{linear::rcp(new Vector(*state.u, Teuchos::Copy)), state.lambda + dLambda};
+    trial.u->update(1, *x, 1);
+    const double value = calls.residual(trial, *r).relative();
+    helps = value <= 0.5 * result.residual;
+    if (!(value < result.residual)) break;
+    state = trial;
+    Tpetra::deep_copy(residual, *r);
+    result.residual = value;
+  }
+  result.converged = result.residual <= tolerance;
+  return result;
+}
+
 }  // namespace atrapos::path

@@ -34,4 +34,10 @@ struct NewtonResult {
 NewtonResult newton(Calls& calls, State& state, Vector& residual, const Border& border, double tolerance,
                     int maxIterations, int maxHalvings);
 
+/// Newton iterations with the factorization that the solver holds, of a tangent near the state, and Uhat =
+/// K^-1 F of it: two residuals and a solve each, no factorization. They go on while one makes the residual at
+/// most half as large; the last one may do less.
+NewtonResult newtonAtHand(Calls& calls, State& state, Vector& residual, const RCP<Vector>& Uhat,
+                          const Border& border, double tolerance, int maxIterations);
+
 }  // namespace atrapos::path

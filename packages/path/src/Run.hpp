@@ -112,6 +112,7 @@ class Run {
   Series seriesOfChoice(const std::vector<int>& zero, const std::vector<int>& chosen = {});
   bool passesStop(const State& from, const State& to) const;
   bool passJump();
+  void correctBehindEvents();
   Series seriesAfterEvents(StepReport& report);
   Series seriesAfterRestart();
 

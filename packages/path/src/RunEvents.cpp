@@ -184,7 +184,41 @@ Series Run::seriesOfChoice(const std::vector<int>& zero, const std::vector<int>&
                          ": the state does not solve the problem as an event has changed it (relative "
                          "residual ",
                          residual_, ')'));
+  if (residual_ > bound() && options_.maxCorrections > 0) correctBehindEvents();
   return seriesTo({}, zero);
+}
+
+/// The state does not quite solve the Problem that an event has changed: what its series left out of the
+/// event function, and rounding, are a residual there, which no shorter step would take away. Newton
+/// iterations in the plane normal to the new direction, or at fixed load where they would miss a stop, with
+/// one factorization; the series then has its own.
+void Run::correctBehindEvents() {
+  auto F = calls_.newVector(), Uhat = calls_.newVector();
+  calls_.factor(outcome_.final, *F);
+  calls_.solve(*F, *Uhat);
+  ++outcome_.corrections;
+  if (pending_) ++pending_->corrections;
+  std::vector<Border> borders = {holdLoad()};
+  if (weight_)
+    borders.insert(borders.begin(), holdPathParameter(calls_.problem(), *weight_, {{Uhat, {}}, 1}));
+  constexpr int maxIterations = 10;
+  double best = residual_;
+  for (const Border& border : borders) {
+    State state{copy(*outcome_.final.u), outcome_.final.lambda};
+    auto r = calls_.newVector();
+    const double residual =
+        newtonAtHand(calls_, state, *r, Uhat, border, correctAbove(), maxIterations).residual;
+    best = std::min(best, residual);
+    if (residual > bound() || passesStop(outcome_.final, state)) continue;
+    outcome_.final = state;
+    r_ = r;
+    residual_ = residual;
+    return;
+  }
+  throw PathError(EndReason::stepTooSmall,
+                  line("at lambda = ", outcome_.final.lambda, ": behind an event the relative residual ",
+                       residual_, " is over the bound ", bound(), ", and Newton corrections lead to ", best,
+                       best > bound() ? " only: ask for a larger bound" : " but past a stop"));
 }
 
 /// The Problem changes at the state. Of the functions that are zero there (`due_`) all are applied; where the

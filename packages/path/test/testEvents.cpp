@@ -169,8 +169,8 @@ TEST(Events, OfTwoThatCoincideOnlyOneMayBeAdmissible) {
   f.expectAdmissible(1e-6);
 }
 
-/// Twelve masses in a row, each on a spring of its own and with springs between them: more events at once than
-/// all choices of them could be tried.
+/// Twelve masses in a row, each on a spring of its own and with springs between them: more events at once
+/// than all choices of them could be tried.
 struct Row : Body {
   static constexpr int n = 12;
   std::vector<double> load = {1, 0.6, -0.4, 0.9, 1.2, -0.7, -0.1, 0.8, 0.5, -0.3, 1.1, 0.2};
@@ -338,6 +338,69 @@ TEST(Events, AChangeThatTheStateDoesNotSolveIsNamed) {
   EXPECT_EQ(outcome.reason, EndReason::problemFailed);
   EXPECT_NE(outcome.text.find("does not solve the problem as an event has changed it"), std::string::npos)
       << outcome.text;
+}
+
+/// Rounding makes an event a little early: the state behind it is over the bound.
+struct Early : UnilateralProblem<OneMass> {
+  using UnilateralProblem::UnilateralProblem;
+  void eventOrder(int k, std::vector<double>& g) const override {
+    UnilateralProblem::eventOrder(k, g);
+    if (k == 0 && !law().touched[0]) g[0] -= 3e-7;
+  }
+};
+
+TEST(Events, AStateBehindOneIsCorrected) {
+  for (const int order : {5, 20}) {
+    Early problem(WithStops<OneMass>(OneMass{}, {1}));
+    SymmetricDenseSolver solver;
+    Record record;
+    Options options;
+    options.order = order;
+    Stops stops;
+    stops.loadFactors = {3};
+    const auto outcome = PathFollower(problem, solver, options, stops).run({problem.vector({}), 0}, record);
+    EXPECT_EQ(outcome.reason, EndReason::stopReached) << outcome.text;
+    EXPECT_EQ(outcome.events, 1);
+    EXPECT_EQ(outcome.corrections, 1);
+    EXPECT_EQ(outcome.factorizations, outcome.steps + outcome.corrections + outcome.closings);
+    EXPECT_LE(outcome.worstResidual, options.residualBound);
+    EXPECT_NEAR(outcome.final.u->getData()[0], 1, 1e-12);
+    EXPECT_NEAR(outcome.final.u->getData()[1], 1, 1e-12);
+  }
+}
+
+/// A stop so near behind the event that a correction in the plane normal to the path would miss it.
+TEST(Events, ACorrectionBehindOneMissesNoStop) {
+  Early problem(WithStops<OneMass>(OneMass{}, {1}));
+  SymmetricDenseSolver solver;
+  Record record;
+  Stops stops;
+  stops.loadFactors = {2 - 8e-7};
+  const auto outcome = PathFollower(problem, solver, Options{}, stops).run({problem.vector({}), 0}, record);
+  EXPECT_EQ(outcome.reason, EndReason::stopReached) << outcome.text;
+  EXPECT_EQ(outcome.final.lambda, 2 - 8e-7);
+}
+
+/// One whose residual rounding does not let fall below the bound: that is said.
+struct Rough : UnilateralProblem<OneMass> {
+  using UnilateralProblem::UnilateralProblem;
+  ResidualNorm residual(const Vector& u, double lambda, Vector& r) override {
+    auto n = UnilateralProblem::residual(u, lambda, r);
+    if (changes > 0) n.norm += 3e-7;
+    return n;
+  }
+};
+
+TEST(Events, AStateThatCorrectionsDoNotHelpIsNamed) {
+  Rough problem(WithStops<OneMass>(OneMass{}, {1}));
+  SymmetricDenseSolver solver;
+  Record record;
+  Stops stops;
+  stops.loadFactors = {3};
+  const auto outcome = PathFollower(problem, solver, Options{}, stops).run({problem.vector({}), 0}, record);
+  EXPECT_EQ(outcome.reason, EndReason::stepTooSmall);
+  EXPECT_NE(outcome.text.find("behind an event the relative residual 3"), std::string::npos) << outcome.text;
+  EXPECT_NE(outcome.text.find("ask for a larger bound"), std::string::npos) << outcome.text;
 }
 
 }  // namespace
