@@ -2,6 +2,7 @@
 // disk.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <numeric>
@@ -140,14 +141,17 @@ TEST_F(StripOnRoll, ResultFileHoldsEveryStep) {
   EXPECT_EQ(r.elementNames(), element);
 
   const auto times = r.times(), length = column("path_length"), load = column("load_factor");
+  double highest = 0;
   for (int s = 0; s <= steps(); ++s) {
     ASSERT_GT(times[s], s > 0 ? times[s - 1] : -1.0);
     // The last row of a step is the state in the result file, to the digit.
     ASSERT_EQ(times[s], length[5 * s]);
     ASSERT_EQ(r.global(s, "load_factor"), load[5 * s]);
     ASSERT_EQ(r.global(s, "path_parameter"), times[s]);
+    highest = std::max(highest, r.global(s, "series_order"));
   }
-  EXPECT_EQ(r.global(steps(), "series_order"), 20);
+  EXPECT_EQ(highest, 20);
+  EXPECT_LT(r.global(steps(), "series_order"), 20);  // its end, the stop, is near
   EXPECT_EQ(r.global(steps(), "negative_pivots"), 0);  // the path is stable
   EXPECT_GT(r.global(steps(), "active_contacts"), 0);
 }
