@@ -173,7 +173,9 @@ TEST_F(CommandTest, ResidualsAreThoseOfStepEndsOrOfAllPoints) {
   double worst = 0;
   for (std::size_t i = 0; i < ends.size(); ++i) {
     EXPECT_EQ(std::isnan(ends[i]), i % 2 == 1) << i;  // the start, then two rows a step
-    if (i % 2 == 0) EXPECT_EQ(ends[i], points[i]) << i;
+    if (i % 2 == 0) {
+      EXPECT_EQ(ends[i], points[i]) << i;
+    }
     EXPECT_LE(points[i], 1e-8) << i;
     if (i > 0) worst = std::max(worst, points[i]);
   }

@@ -84,7 +84,9 @@ TEST(PathExamples, PointsAndWhatTheyCost) {
   for (const std::string& name : decks) {
     SCOPED_TRACE(name);
     const ExampleRun run("path/" + name + ".yaml");
-    if (kWithoutLimitPoints.count(name)) EXPECT_EQ(run.summary.at("limit_points"), 0);
+    if (kWithoutLimitPoints.count(name)) {
+      EXPECT_EQ(run.summary.at("limit_points"), 0);
+    }
     checkCosts(run, kInVain.count(name) ? kInVain.at(name) : 0);
     std::vector<double> found, known;
     for (const auto& point : run.summary.at("points")) found.push_back(point.at("load_factor"));

@@ -367,9 +367,10 @@ TEST(StructuredShell, TangentPlaneContinuesACylinder) {
     // The plane's elements are exact; the arc's are those without it.
     EXPECT_NEAR(area(mesh, "outer"), area(shellCylinderMesh(cylinder(cell)), "outer") + 5 * 7, 1e-11);
     for (const NodeSet& set : mesh.nodeSets)
-      if (set.name == "theta_max")
+      if (set.name == "theta_max") {
         for (int n : set.nodes)
           EXPECT_NEAR(mesh.coordinates[3 * n] * c - mesh.coordinates[3 * n + 2] * s, 5, 1e-13);
+      }
   }
 }
 

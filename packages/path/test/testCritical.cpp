@@ -249,7 +249,9 @@ TEST(Critical, ALongSearchTellsItsProgress) {
   ASSERT_FALSE(observer.told.empty());
   for (std::size_t i = 0; i < observer.told.size(); ++i) {
     EXPECT_EQ(observer.told[i].second, 6);
-    if (i > 0) EXPECT_GE(observer.told[i].first, observer.told[i - 1].first);
+    if (i > 0) {
+      EXPECT_GE(observer.told[i].first, observer.told[i - 1].first);
+    }
   }
   EXPECT_EQ(observer.told.back().first, 6);
 }

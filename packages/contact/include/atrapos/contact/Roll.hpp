@@ -20,8 +20,8 @@ namespace atrapos::contact {
 /// (derivation: docs/theory/contact.md; paper (37) measures h and n across the axis, see RadialRoll).
 /// A point of the axis, or at a centre of curvature of a hollow profile, has no projection.
 ///
-/// Profile: template <class T> void operator()(const T& z, T& r, T& slope) const;  void validate() const.
-/// r must be a series in z: no branch on z.
+/// Profile: `template <class T> void operator()(const T& z, T& r, T& slope) const` and `void validate()
+/// const`. r must be a series in z: no branch on z.
 template <class Profile>
 struct Roll {
   static constexpr int numUnknowns = 4;
