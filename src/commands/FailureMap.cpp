@@ -48,15 +48,12 @@ class Judge final : public path::Observer {
   Judge(const Reference& reference, path::Problem& problem)
       : walker_(reference.path, kOnPath * reference.extent),
         problem_(problem),
-        u_(Teuchos::rcp(new path::Vector(problem.map()))),
         r_(Teuchos::rcp(new path::Vector(problem.map()))) {}
 
   bool onStep(const path::StepReport& report, const path::Series& series) override {
     points += static_cast<int>(report.criticalPoints.size());
     for (int j = 1; j <= kRunSamples; ++j) {
-      const double lambda = j < kRunSamples ? series.evaluate(report.length * j / kRunSamples, *u_) : 0;
-      const bool end = j == kRunSamples;
-      look(end ? *report.end.u : *u_, end ? report.end.lambda : lambda, report.step);
+      look(j < kRunSamples ? series.state(report.length * j / kRunSamples) : report.end, report.step);
     }
     return true;
   }
@@ -68,20 +65,20 @@ class Judge final : public path::Observer {
   double worstResidual = 0;
 
  private:
-  void look(const path::Vector& u, double lambda, int step) {
-    worstResidual = std::max(worstResidual, problem_.residual(u, lambda, *r_).relative());
+  void look(const path::State& state, int step) {
+    worstResidual = std::max(worstResidual, problem_.residual(state, *r_).relative());
     if (!outcome.empty()) return;
-    const auto place = walker_.go(u, lambda);
+    const auto place = walker_.go(*state.u, state.lambda);
     if (place == ReferencePath::Walker::Place::on) return;
     outcome = place == ReferencePath::Walker::Place::off ? "jumped" : "turned";
-    where =
-        fmt::format("{} in step {} at load factor {:.4g}",
-                    place == ReferencePath::Walker::Place::off ? "left the path" : "went back", step, lambda);
+    where = fmt::format("{} in step {} at load factor {:.4g}",
+                        place == ReferencePath::Walker::Place::off ? "left the path" : "went back", step,
+                        state.lambda);
   }
 
   ReferencePath::Walker walker_;
   path::Problem& problem_;
-  path::RCP<path::Vector> u_, r_;
+  path::RCP<path::Vector> r_;
 };
 
 Reference referenceOf(PathCase& pathCase) {

@@ -65,8 +65,8 @@ std::vector<std::string> ModelCase::monitorNames() const {
   return names;
 }
 
-std::unique_ptr<CaseState> ModelCase::at(const path::Vector& u, double /*lambda*/) const {
-  return std::make_unique<ModelState>(setup_, u);
+std::unique_ptr<CaseState> ModelCase::at(const path::State& state) const {
+  return std::make_unique<ModelState>(setup_, *state.u);
 }
 
 std::vector<std::pair<std::string, long long>> ModelCase::sizes() const {

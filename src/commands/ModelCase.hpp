@@ -18,7 +18,7 @@ class ModelCase final : public PathCase {
   path::Stops stops() const override { return setup_.stops; }
   double direction() const override { return setup_.direction; }
   std::vector<std::string> monitorNames() const override;
-  std::unique_ptr<CaseState> at(const path::Vector& u, double lambda) const override;
+  std::unique_ptr<CaseState> at(const path::State& state) const override;
   std::vector<path::Monitor> functionals() const override { return setup_.monitors; }
   std::vector<std::pair<std::string, long long>> sizes() const override;
 

@@ -54,8 +54,8 @@ class FieldFile {
 class StepWatch {
  public:
   virtual ~StepWatch() = default;
-  /// The problem is that of the step, `end` the state at its end, of the case that made the watch; `events`:
-  /// what changes the problem there (path::StepReport).
+  /// `end`: the state at the end of the step, before the `events` there change the problem
+  /// (path::StepReport), of the case that made the watch.
   virtual void onStep(int branch, int step, double pathLengthStart, double length, const path::Series& series,
                       const CaseState& end, const std::vector<int>& events) = 0;
   /// Takes over what an earlier run wrote up to the step `last`. Throws std::invalid_argument, one line,
@@ -77,7 +77,7 @@ class PathCase {
   virtual double direction() const { return 1; }
 
   virtual std::vector<std::string> monitorNames() const = 0;
-  virtual std::unique_ptr<CaseState> at(const path::Vector& u, double lambda) const = 0;
+  virtual std::unique_ptr<CaseState> at(const path::State& state) const = 0;
 
   /// The monitors that are linear functionals of the unknowns: their limit points are reported.
   virtual std::vector<path::Monitor> functionals() const = 0;

@@ -153,13 +153,12 @@ RunResult runPath(PathCase& pathCase, const RunOptions& options) {
   const auto solver = tangentSolver(pathCase, options.progress);
   const path::Options settings = pathOptions(pathCase);
   const path::Stops stops = pathCase.stops();
-  const std::vector<int> conditions = problem.conditions();
   path::PathFollower follower(problem, *solver, settings, stops);
   path::BranchFollower tree(problem, *solver, settings, stops, branchOptions(deck.path));
   follower.watch(pathCase.functionals());
   tree.watch(pathCase.functionals());
   auto continued = continuedRun(pathCase, options);
-  auto imperfect = continued ? imperfectUnderWay(pathCase, conditions, continued->progress) : nullptr;
+  auto imperfect = continued ? imperfectUnderWay(pathCase, continued->progress) : nullptr;
   ranks::wait();  // all have read what the first one is going to replace
 
   prepareFolder(options.directory, {"path.csv", "points.csv", "events.csv", "branches.csv", "results.exo",
@@ -193,7 +192,7 @@ RunResult runPath(PathCase& pathCase, const RunOptions& options) {
   const path::BranchDiagram& diagram = progress.diagram;
   std::string trouble;
   try {
-    followImperfect(pathCase, *solver, settings, conditions, std::move(imperfect), recorder, progress);
+    followImperfect(pathCase, *solver, settings, std::move(imperfect), recorder, progress);
   } catch (const std::runtime_error& e) {
     trouble = e.what();  // what has been found stays
   }

@@ -56,13 +56,12 @@ std::vector<std::string> SceneCase::remarks() const {
 bool SceneCase::changedOn(double length, const path::Series& series) {
   if (!scene_.contactsGrow()) return false;
   constexpr int places = 8;
-  path::Vector u(scene_.problem().map());
   bool changed = false;
   for (int j = 1; j <= places; ++j) {
-    const double lambda = series.evaluate(length * j / places, u);
-    if (!scene_.othersAreNear(u, lambda)) continue;
+    const path::State state = series.state(length * j / places);
+    if (!scene_.othersAreNear(state)) continue;
     changed = true;
-    scene_.grow(u, lambda);
+    scene_.grow(state);
   }
   takenBack_ += changed ? 1 : 0;
   return changed;

@@ -8,8 +8,7 @@ namespace atrapos {
 /// A state of a scene.
 class SceneCaseState final : public CaseState {
  public:
-  SceneCaseState(const Scene& scene, const path::Vector& u, double lambda)
-      : scene_(scene), state_(scene.at(u, lambda)) {}
+  SceneCaseState(const Scene& scene, const path::State& state) : scene_(scene), state_(scene.at(state)) {}
 
   const SceneState& state() const { return state_; }
   std::vector<double> monitors() const override { return scene_.monitors(state_); }
@@ -32,8 +31,8 @@ class SceneCase final : public PathCase {
   path::State start() const override;
   path::Stops stops() const override { return scene_.stops(); }
   std::vector<std::string> monitorNames() const override { return scene_.monitorNames(); }
-  std::unique_ptr<CaseState> at(const path::Vector& u, double lambda) const override {
-    return std::make_unique<SceneCaseState>(scene_, u, lambda);
+  std::unique_ptr<CaseState> at(const path::State& state) const override {
+    return std::make_unique<SceneCaseState>(scene_, state);
   }
   std::vector<path::Monitor> functionals() const override { return scene_.functionals(); }
   std::unique_ptr<FieldFile> makeFieldFile(const std::string& file) const override;

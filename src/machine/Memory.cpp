@@ -73,7 +73,7 @@ MemoryEstimate estimateMemory(path::Problem& problem, const path::State& start, 
                               linear::TangentSolver& solver, double historyBytes) {
   MemoryEstimate estimate;
   path::Vector F(problem.map());
-  const auto K = problem.tangent(*start.u, start.lambda, F);
+  const auto K = problem.tangent(start, F);
   const double rows = static_cast<double>(K->getGlobalNumRows());
   const double entries = static_cast<double>(K->getGlobalNumEntries());
   estimate.matrix = entries * (sizeof(double) + sizeof(linear::LocalIndex)) + rows * sizeof(std::size_t);

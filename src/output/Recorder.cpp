@@ -32,7 +32,6 @@ Recorder::Recorder(PathCase& pathCase, path::Problem& problem, std::string direc
       progress_(progress),
       path_(file("path.csv") + (continued ? kBeside : ""), pathHeader(case_->monitorNames())),
       points_(file("points.csv") + (continued ? kBeside : ""), pointHeader(case_->monitorNames())),
-      work_(Teuchos::rcp(new path::Vector(case_->problem().map()))),
       residual_(Teuchos::rcp(new path::Vector(case_->problem().map()))),
       start_(std::chrono::steady_clock::now()) {
   const std::string beside = continued ? kBeside : "";
@@ -137,22 +136,17 @@ bool Recorder::onStep(int branch, const path::StepReport& report, const path::Se
   const double before = seconds();
   branch_ = branch;
   const auto negativeAt = [&](double a) { return report.negativeAt(a).value_or(-1); };
-  // The step is one of the problem before the events at its end.
-  const auto changeBack = [&] {
-    if (!report.events.empty()) case_->problem().applyEvent(report.events, *report.end.u, report.end.lambda);
-  };
-  changeBack();
-  if (!started_) writeStart(*series.coefficient(0).u, series.lambdaCoefficient(0), negativeAt(0));
+  if (!started_) writeStart(series.state(0), negativeAt(0));
   const int points = case_->deck().output.pointsPerStep;
   for (int j = 1; j < points; ++j) {
     const double a = report.length * j / points;
-    const double lambda = series.evaluate(a, *work_);
-    writeRow(report.step, report.pathLengthStart + a, lambda, *case_->at(*work_, lambda), negativeAt(a),
-             case_->deck().output.residuals == deck::Output::Residuals::Points ? residualAt(*work_, lambda)
-                                                                               : kNotEvaluated);
+    const path::State state = series.state(a);
+    const bool wanted = case_->deck().output.residuals == deck::Output::Residuals::Points;
+    writeRow(report.step, report.pathLengthStart + a, state.lambda, *case_->at(state), negativeAt(a),
+             wanted ? residualAt(state) : kNotEvaluated);
   }
   const long long negative = negativeAt(report.length);
-  const auto end = case_->at(*report.end.u, report.end.lambda);
+  const auto end = case_->at(report.end);
   writeRow(report.step, report.pathLengthEnd, report.end.lambda, *end, negative, report.residual);
   writePoints(report, series);
   if (watch_)
@@ -161,7 +155,6 @@ bool Recorder::onStep(int branch, const path::StepReport& report, const path::Se
     fields_->write(*end, {report.end.lambda, report.pathLengthEnd, report.radius, report.residual,
                           report.order, negative, branch_});
   printStep(report, *end);
-  changeBack();
   outputSeconds_ += seconds() - before;
   return !Interrupt::agree();
 }
@@ -180,19 +173,19 @@ void Recorder::onProgress(const path::BranchProgress& progress) {
 }
 
 void Recorder::finish(const path::State& start) {
-  if (!started_) writeStart(*start.u, start.lambda, -1);
+  if (!started_) writeStart(start, -1);
 }
 
-void Recorder::writeStart(const path::Vector& u, double lambda, long long negative) {
+void Recorder::writeStart(const path::State& start, long long negative) {
   started_ = true;
-  const auto state = case_->at(u, lambda);
-  const double residual = residualAt(u, lambda);
-  writeRow(0, 0.0, lambda, *state, negative, residual);
-  if (fields_) fields_->write(*state, {lambda, 0, 0, residual, 0, negative, branch_});
+  const auto state = case_->at(start);
+  const double residual = residualAt(start);
+  writeRow(0, 0.0, start.lambda, *state, negative, residual);
+  if (fields_) fields_->write(*state, {start.lambda, 0, 0, residual, 0, negative, branch_});
 }
 
-double Recorder::residualAt(const path::Vector& u, double lambda) {
-  return problem_->residual(u, lambda, *residual_).relative();
+double Recorder::residualAt(const path::State& state) {
+  return problem_->residual(state, *residual_).relative();
 }
 
 void Recorder::writeRow(int step, double pathLength, double lambda, const CaseState& state,
@@ -204,23 +197,22 @@ void Recorder::writeRow(int step, double pathLength, double lambda, const CaseSt
 void Recorder::writePoints(const path::StepReport& report, const path::Series& series) {
   std::vector<PointRow> rows;
   for (const path::LimitPoint& p : report.limitPoints) {
-    series.evaluate(p.a, *work_);
     PointRow row{report.step, branch_, report.pathLengthStart + p.a, p.lambda,
                  p.maximum ? "maximum" : "minimum"};
-    row.monitors = case_->at(*work_, p.lambda)->monitors();
+    row.monitors = case_->at(series.state(p.a))->monitors();
     rows.push_back(row);
   }
   for (const path::Extremum& e : report.extrema) {
-    series.evaluate(e.a, *work_);
+    const path::State state = series.state(e.a);
     // A monitor that is zero by symmetry turns at random: what it changes by must be more than the residual
     // bound leaves open.
     const path::Vector& weights = *functionals_[e.monitor].weights;
     const auto value = series.functional(weights);
     const double change = std::max(std::abs(e.value - value(0)), std::abs(e.value - value(report.length)));
-    if (!(change > case_->deck().path.residual * weights.norm2() * work_->norm2())) continue;
+    if (!(change > case_->deck().path.residual * weights.norm2() * state.u->norm2())) continue;
     PointRow row{report.step, branch_, report.pathLengthStart + e.a, e.lambda,
                  (e.maximum ? "maximum:" : "minimum:") + functionals_[e.monitor].name};
-    row.monitors = case_->at(*work_, e.lambda)->monitors();
+    row.monitors = case_->at(state)->monitors();
     rows.push_back(row);
   }
   limitPoints_ += static_cast<int>(report.limitPoints.size());
@@ -229,7 +221,7 @@ void Recorder::writePoints(const path::StepReport& report, const path::Series& s
     row.negativeChange = p.negativeChange;
     row.nullity = p.nullity;
     row.uncertainty = p.uncertainty;
-    row.monitors = case_->at(*p.state.u, p.state.lambda)->monitors();
+    row.monitors = case_->at(p.state)->monitors();
     rows.push_back(row);
   }
   unexplained_ += report.unexplained;

@@ -49,14 +49,14 @@ class Recorder final : public path::BranchObserver {
   std::string file(const std::string& name) const { return directory_ + "/" + name; }
   void begin(int branch);
   void goOn(const Continued& continued);
-  void writeStart(const path::Vector& u, double lambda, long long negative);
+  void writeStart(const path::State& state, long long negative);
   void writeRow(int step, double pathLength, double lambda, const CaseState& state, long long negative,
                 double residual);
   /// Whether the state at the end of a step goes into the result file.
   bool hasFields(int step, bool atStop) const;
   /// How many of them do, up to this step.
   int numFieldStates(int steps, bool atStop) const;
-  double residualAt(const path::Vector& u, double lambda);
+  double residualAt(const path::State& state);
   void writePoints(const path::StepReport& report, const path::Series& series);
   void printHead() const;
   void printStep(const path::StepReport& report, const CaseState& end);
@@ -70,7 +70,7 @@ class Recorder final : public path::BranchObserver {
   std::optional<RestartFile> restart_;
   std::unique_ptr<FieldFile> fields_;  ///< of the branch under way
   std::unique_ptr<StepWatch> watch_;
-  path::RCP<path::Vector> work_, residual_;
+  path::RCP<path::Vector> residual_;
   std::chrono::steady_clock::time_point start_;
   int branch_ = 0;
   bool started_ = false;  ///< the start of the branch under way is written

@@ -45,7 +45,7 @@ nlohmann::ordered_json pointsOf(const PathCase& pathCase, const path::BranchDiag
                                 {"negative_change", p.negativeChange},
                                 {"residual", p.residual},
                                 {"uncertainty", p.uncertainty}};
-    const auto values = pathCase.at(*p.state.u, p.state.lambda)->monitors();
+    const auto values = pathCase.at(p.state)->monitors();
     for (std::size_t m = 0; m < names.size(); ++m) json["monitors"][names[m]] = values[m];
     list.push_back(json);
   }

@@ -15,7 +15,7 @@ namespace {
 /// At the head of the file: the format's name and version, and a number that tells another byte order.
 struct Head {
   char name[16] = "atrapos restart";
-  std::uint32_t version = 4, byteOrder = 0x01020304;
+  std::uint32_t version = 5, byteOrder = 0x01020304;
 };
 
 /// Fowler, Noll and Vo's hash (FNV-1a, 64 bits): sees a record that was cut or damaged.

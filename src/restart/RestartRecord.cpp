@@ -2,9 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <Teuchos_CommHelpers.hpp>
 #include <Tpetra_Vector.hpp>
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
+#include <memory>
+#include <numeric>
 #include <stdexcept>
 #include <type_traits>
 
@@ -32,6 +36,24 @@ class Packer {
     if (s.u == Teuchos::null) return;
     put(s.lambda);
     put(*s.u);
+    const path::Memory none, &memory = s.memory ? *s.memory : none;
+    put(memory.conditions);
+    putShares(memory.variables, *s.u->getMap()->getComm());
+  }
+  /// What every rank has of its own, with how much that is.
+  void putShares(const std::vector<double>& own, const Teuchos::Comm<int>& comm) {
+    const int ranks = comm.getSize(), rank = comm.getRank();
+    std::vector<std::uint64_t> counts(ranks, 0), mine(ranks, 0);
+    mine[rank] = own.size();
+    Teuchos::reduceAll(comm, Teuchos::REDUCE_SUM, ranks, mine.data(), counts.data());
+    put(counts);
+    const auto before = std::accumulate(counts.begin(), counts.begin() + rank, std::uint64_t{0});
+    const auto total = std::accumulate(counts.begin(), counts.end(), std::uint64_t{0});
+    std::vector<double> all(total, 0.0), share(total, 0.0);
+    std::copy(own.begin(), own.end(), share.begin() + static_cast<std::ptrdiff_t>(before));
+    if (total > 0)
+      Teuchos::reduceAll(comm, Teuchos::REDUCE_SUM, static_cast<int>(total), share.data(), all.data());
+    put(all);
   }
   void put(const path::PathTangent& t) {
     put(t.x.u != Teuchos::null);
@@ -81,6 +103,33 @@ class Unpacker {
     if (!yes()) return;
     get(s.lambda);
     get(s.u);
+    auto memory = std::make_shared<path::Memory>();
+    get(memory->conditions);
+    getShare(memory->variables);
+    if (memory->conditions.empty() && memory->variables.empty()) return;
+    if (!memory->variables.empty()) {
+      memory->u = Teuchos::rcp(new path::Vector(*s.u, Teuchos::Copy));
+      memory->lambda = s.lambda;
+    }
+    s.memory = std::move(memory);
+  }
+  /// This rank's part of what Packer::putShares wrote.
+  void getShare(std::vector<double>& own) {
+    std::vector<std::uint64_t> counts;
+    std::vector<double> all;
+    get(counts);
+    get(all);
+    if (all.empty()) return;
+    const auto& comm = *map_->getComm();
+    const std::size_t ranks = comm.getSize(), rank = comm.getRank();
+    if (counts.size() != ranks ||
+        std::accumulate(counts.begin(), counts.end(), std::uint64_t{0}) != all.size())
+      throw std::invalid_argument(
+          fmt::format("{}: internal variables of {} rank(s) go on with as many, not with {}", file_,
+                      counts.size(), ranks));
+    const auto first = all.begin() + static_cast<std::ptrdiff_t>(std::accumulate(
+                                         counts.begin(), counts.begin() + rank, std::uint64_t{0}));
+    own.assign(first, first + static_cast<std::ptrdiff_t>(counts[rank]));
   }
   void get(path::PathTangent& t) {
     if (!yes()) return;
@@ -115,12 +164,12 @@ class Unpacker {
 /// ways.
 template <class Start, class F>
 void plainMembers(Start& s, path::Start*, const F& f) {
-  f(s.steps), f(s.pathLength), f(s.length), f(s.events), f(s.due), f(s.conditions);
+  f(s.steps), f(s.pathLength), f(s.length), f(s.events), f(s.due);
   f(s.order), f(s.padeFailures), f(s.padeWait), f(s.expectedNegative), f(s.stop);
 }
 template <class Point, class F>
 void plainMembers(Point& p, path::CriticalPoint*, const F& f) {
-  f(p.a), f(p.stepLength), f(p.kind), f(p.residual), f(p.conditions), f(p.uncertainty);
+  f(p.a), f(p.stepLength), f(p.kind), f(p.residual), f(p.uncertainty);
   f(p.negativeChange), f(p.nullity);
 }
 template <class Outcome, class F>

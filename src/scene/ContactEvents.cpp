@@ -255,10 +255,9 @@ void ContactEvents::findCorners(std::size_t c, const path::Series& series, doubl
   if (changes.empty()) return;
   const ContactPoints& contact = scene_.contacts()[c];
   const fem::FeProblem& problem = scene_.problem();
-  path::Vector state(problem.map());
-  const double lambda = series.evaluate(length, state);
-  const auto u = problem.model().dofs.vectors(fem::FeProblem::values(state));
-  const std::vector<int> active = problem.conditions();
+  const path::State state = series.state(length);
+  const auto u = problem.model().dofs.vectors(fem::FeProblem::values(*state.u));
+  const std::vector<int> active = problem.conditionsAt(state);
   int number = 0;  // of the term's first corner
   for (std::size_t t = 0; t < contact.terms.size(); ++t) {
     const std::vector<int> corners = fem::cornersOf(contact.points[t]);
@@ -268,7 +267,7 @@ void ContactEvents::findCorners(std::size_t c, const path::Series& series, doubl
       if (i < 0 || i >= count) continue;
       ContactEvent event;
       event.a = length;
-      event.loadFactor = lambda;
+      event.loadFactor = state.lambda;
       event.closes = active[change] == 0;
       event.contact = static_cast<int>(c);
       event.point = number + i;

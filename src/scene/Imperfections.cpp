@@ -42,8 +42,7 @@ class Forward final : public path::Observer {
 
 }  // namespace
 
-ImperfectCase::ImperfectCase(PathCase& perfect, const std::vector<int>& conditions,
-                             const path::CriticalPoint& point, double size)
+ImperfectCase::ImperfectCase(PathCase& perfect, const path::CriticalPoint& point, double size)
     : perfect_(perfect) {
   if (point.nullVectors.empty())
     throw std::runtime_error(
@@ -55,7 +54,6 @@ ImperfectCase::ImperfectCase(PathCase& perfect, const std::vector<int>& conditio
       throw std::runtime_error("path/imperfections_as: geometry needs a mesh, a model problem has none");
     return;
   }
-  if (!conditions.empty()) perfect.problem().setConditions(conditions);
   problem_ = std::make_unique<path::ImperfectProblem>(
       perfect.problem(), path::forceOfShape(perfect.problem(), perfect.start(), *scaled(mode, size)));
 }
@@ -64,16 +62,15 @@ ImperfectCase::~ImperfectCase() = default;
 
 path::Problem& ImperfectCase::problem() { return problem_ ? *problem_ : moved_->problem(); }
 
-std::unique_ptr<ImperfectCase> imperfectUnderWay(PathCase& pathCase, const std::vector<int>& conditions,
-                                                 const path::BranchProgress& progress) {
+std::unique_ptr<ImperfectCase> imperfectUnderWay(PathCase& pathCase, const path::BranchProgress& progress) {
   const double size = progress.diagram.branches[progress.current].imperfection;
   if (size == 0) return nullptr;
-  return std::make_unique<ImperfectCase>(pathCase, conditions, progress.diagram.points.at(0).point, size);
+  return std::make_unique<ImperfectCase>(pathCase, progress.diagram.points.at(0).point, size);
 }
 
 void followImperfect(PathCase& pathCase, linear::TangentSolver& solver, const path::Options& settings,
-                     const std::vector<int>& conditions, std::unique_ptr<ImperfectCase> underWay,
-                     Recorder& recorder, path::BranchProgress& progress) {
+                     std::unique_ptr<ImperfectCase> underWay, Recorder& recorder,
+                     path::BranchProgress& progress) {
   auto& branches = progress.diagram.branches;
   const auto& asked = pathCase.deck().path.imperfections;
   std::vector<double> sizes(asked.begin(), asked.end());
@@ -101,7 +98,7 @@ void followImperfect(PathCase& pathCase, linear::TangentSolver& solver, const pa
     if (progress.diagram.points.empty())
       throw std::runtime_error(
           "path/imperfections: no bifurcation point was found, whose null vector is their shape");
-    ImperfectCase imperfect(pathCase, conditions, progress.diagram.points[0].point, size);
+    ImperfectCase imperfect(pathCase, progress.diagram.points[0].point, size);
     path::Branch branch;
     branch.start = imperfect.pathCase().start();
     branch.imperfection = size;

@@ -15,10 +15,8 @@ namespace atrapos {
 /// whose nodes are moved by it. The largest entry, or displacement, is `size`.
 class ImperfectCase {
  public:
-  /// `conditions`: of the case's problem at its start, which it goes back to. Throws std::runtime_error, one
-  /// line, where the point has no null vector.
-  ImperfectCase(PathCase& perfect, const std::vector<int>& conditions, const path::CriticalPoint& point,
-                double size);
+  /// Throws std::runtime_error, one line, where the point has no null vector.
+  ImperfectCase(PathCase& perfect, const path::CriticalPoint& point, double size);
   ~ImperfectCase();
 
   PathCase& pathCase() { return moved_ ? *moved_ : perfect_; }
@@ -31,14 +29,13 @@ class ImperfectCase {
 };
 
 /// The imperfect case that a continued run is under way with; null where it is not.
-std::unique_ptr<ImperfectCase> imperfectUnderWay(PathCase& pathCase, const std::vector<int>& conditions,
-                                                 const path::BranchProgress& progress);
+std::unique_ptr<ImperfectCase> imperfectUnderWay(PathCase& pathCase, const path::BranchProgress& progress);
 
 /// Follows the paths of imperfect structures after the perfect one's, those that are not done yet, the one
 /// under way first. They become further branches of the diagram, without a parent. Throws std::runtime_error,
 /// one line, where the diagram has no bifurcation point.
 void followImperfect(PathCase& pathCase, linear::TangentSolver& solver, const path::Options& settings,
-                     const std::vector<int>& conditions, std::unique_ptr<ImperfectCase> underWay,
-                     Recorder& recorder, path::BranchProgress& progress);
+                     std::unique_ptr<ImperfectCase> underWay, Recorder& recorder,
+                     path::BranchProgress& progress);
 
 }  // namespace atrapos

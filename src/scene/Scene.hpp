@@ -87,8 +87,8 @@ class Scene {
   bool contactsGrow() const;
   /// Whether points that carry no contact law so far are near their tool in a state; with `grow` they carry
   /// it from then on.
-  bool othersAreNear(const path::Vector& u, double lambda) const;
-  void grow(const path::Vector& u, double lambda);
+  bool othersAreNear(const path::State& state) const;
+  void grow(const path::State& state);
 
   /// The body at this load factor, which stays, with contacts whose regularisation falls: eta exp(-s), s in
   /// place of the load factor in all members from now on. States of the problem before go on as
@@ -99,7 +99,7 @@ class Scene {
   path::Stops stops() const;
 
   /// What there is to see at a state of the problem, which must stay meanwhile.
-  SceneState at(const path::Vector& u, double lambda) const { return {*problem_, u, lambda}; }
+  SceneState at(const path::State& state) const { return {*problem_, state}; }
 
   std::vector<std::string> monitorNames() const;
   /// Values of the monitors, in the deck's order.

@@ -221,18 +221,18 @@ bool Scene::contactsGrow() const {
                      [](const ContactPoints& contact) { return !contact.near.empty(); });
 }
 
-bool Scene::othersAreNear(const path::Vector& u, double lambda) const {
-  const fem::ConstDofView state = problem_->onRank(u);
+bool Scene::othersAreNear(const path::State& state) const {
+  const fem::ConstDofView u = problem_->onRank(state);
   bool near = false;
   for (const ContactPoints& contact : contacts_)
-    for (const contact::NearContact* term : contact.near) near = near || term->othersAreNear(state, lambda);
+    for (const contact::NearContact* term : contact.near) near = near || term->othersAreNear(u, state.lambda);
   return ranks::any(near);
 }
 
-void Scene::grow(const path::Vector& u, double lambda) {
-  const fem::ConstDofView state = problem_->onRank(u);
+void Scene::grow(const path::State& state) {
+  const fem::ConstDofView u = problem_->onRank(state);
   for (const ContactPoints& contact : contacts_)
-    for (contact::NearContact* term : contact.near) term->grow(state, lambda);
+    for (contact::NearContact* term : contact.near) term->grow(u, state.lambda);
 }
 
 int ContactPoints::numCarried() const {

@@ -9,38 +9,38 @@
 namespace atrapos {
 
 /// What a problem shows at one state: each evaluated when it is first asked for, and once, whoever asks.
-/// Refers to both; the problem must stay as it is meanwhile. Collective.
+/// Refers to the problem. Collective.
 class SceneState {
  public:
-  SceneState(const fem::FeProblem& problem, const path::Vector& u, double lambda)
-      : problem_(problem), u_(u), lambda_(lambda) {}
+  SceneState(const fem::FeProblem& problem, path::State state)
+      : problem_(problem), state_(std::move(state)) {}
 
-  const path::Vector& u() const { return u_; }
-  double lambda() const { return lambda_; }
+  const path::Vector& u() const { return *state_.u; }
+  double lambda() const { return state_.lambda; }
 
   // Vectors in space of all nodes (DofMap::vectors), [3 node + component]:
 
   /// displacements, and changes of directors,
   const std::vector<double>& displacements() const {
-    if (!displacements_) displacements_ = vectors(fem::FeProblem::values(u_));
+    if (!displacements_) displacements_ = vectors(fem::FeProblem::values(*state_.u));
     return *displacements_;
   }
   /// FeProblem::reactions
   const std::vector<double>& reactions() const {
-    if (!reactions_) reactions_ = vectors(problem_.reactions(u_, lambda_));
+    if (!reactions_) reactions_ = vectors(problem_.reactions(state_));
     return *reactions_;
   }
   /// FeProblem::observe
   const fem::PointValues& observed(int term) const {
     const auto found = observed_.find(term);
     if (found != observed_.end()) return found->second;
-    return observed_[term] = problem_.observe(term, u_, lambda_);
+    return observed_[term] = problem_.observe(term, state_);
   }
   /// and FeProblem::forces of a term.
   const std::vector<double>& forces(int term) const {
     const auto found = forces_.find(term);
     if (found != forces_.end()) return found->second;
-    return forces_[term] = vectors(problem_.forces(problem_.term(term), u_, lambda_));
+    return forces_[term] = vectors(problem_.forces(problem_.term(term), state_));
   }
 
  private:
@@ -49,8 +49,7 @@ class SceneState {
   }
 
   const fem::FeProblem& problem_;
-  const path::Vector& u_;
-  double lambda_;
+  path::State state_;
   mutable std::optional<std::vector<double>> displacements_, reactions_;
   mutable std::map<int, fem::PointValues> observed_;
   mutable std::map<int, std::vector<double>> forces_;

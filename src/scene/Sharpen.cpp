@@ -29,7 +29,17 @@ class TermAtLoadFactor final : public fem::Term {
   void connect(const fem::DofMap& dofs, const std::vector<int>& positions) override {
     term_.connect(dofs, positions);
   }
-  double addResidual(const fem::ConstDofView& u, double, const fem::DofView& f) const override {
+  std::vector<double> startVariables() const override { return term_.startVariables(); }
+  void remember(const double* variables, const fem::ConstDofView& u, double) override {
+    term_.remember(variables, u, loadFactor_);
+  }
+  std::vector<double> variablesAt(const fem::ConstDofView& u, double) const override {
+    return term_.variablesAt(u, loadFactor_);
+  }
+  std::vector<std::vector<double>> variableOrders(const fem::ConstDofView& last, double) override {
+    return term_.variableOrders(last, 0);
+  }
+  fem::OwnForces addResidual(const fem::ConstDofView& u, double, const fem::DofView& f) const override {
     return term_.addResidual(u, loadFactor_, f);
   }
   void addTangent(const fem::ConstDofView& u, double, const fem::TangentSink& sink) const override {
@@ -73,7 +83,7 @@ class Writer final : public path::Observer {
   }
 
   void write(const path::State& state, double residual) {
-    monitors_ = scene_.monitors(scene_.at(*state.u, state.lambda));
+    monitors_ = scene_.monitors(scene_.at(state));
     std::string row = fmt::format("{:.17g}", std::exp(-state.lambda));
     for (const double m : monitors_) row += fmt::format(",{:.17g}", m);
     table_.append(row + fmt::format(",{:.3e}", residual));

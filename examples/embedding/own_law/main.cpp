@@ -87,20 +87,20 @@ class ForceLimit : public path::Observer {
   double travel = 0;  ///< load factor where the limit is reached
 
   bool onStep(const path::StepReport& report, const path::Series& series) override {
-    if (force(*report.end.u, report.end.lambda) < limit_) return true;
-    auto u = Teuchos::rcp(new path::Vector(problem_.map()));
+    if (force(report.end) < limit_) return true;
     double from = 0, to = report.length;
     for (int i = 0; i < 60; ++i) {  // bisection: no solve, the series is the path
       const double a = 0.5 * (from + to);
-      travel = series.evaluate(a, *u);
-      (force(*u, travel) < limit_ ? from : to) = a;
+      const path::State state = series.state(a);
+      travel = state.lambda;
+      (force(state) < limit_ ? from : to) = a;
     }
     return false;
   }
 
   /// Vertical force of the tool on the block.
-  double force(const path::Vector& u, double lambda) const {
-    const auto forces = problem_.forces(problem_.term(1), u, lambda);
+  double force(const path::State& state) const {
+    const auto forces = problem_.forces(problem_.term(1), state);
     double sum = 0;
     for (std::size_t i = 2; i < forces.size(); i += 3) sum -= forces[i];
     return sum;
@@ -155,9 +155,9 @@ static int press() {
               outcome.text.c_str(), outcome.steps, observer.travel, outcome.final.lambda);
   // Equilibrium: the tool's force is what the supports of the upper face bear.
   double support = 0;
-  const auto reactions = problem.reactions(*outcome.final.u, outcome.final.lambda);
+  const auto reactions = problem.reactions(outcome.final);
   for (std::size_t i = 2; i < reactions.size(); i += 3) support -= reactions[i];
-  const double force = observer.force(*outcome.final.u, outcome.final.lambda);
+  const double force = observer.force(outcome.final);
   const bool good = outcome.reason == path::EndReason::observerStopped && observer.travel > 0.1 &&
                     observer.travel <= outcome.final.lambda && force >= 1.0 &&
                     std::abs(support - force) < 1e-4 * force;  // the residual bound, 1e-6 of larger forces

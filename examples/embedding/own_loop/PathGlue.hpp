@@ -10,15 +10,15 @@ class PathGlue : public atrapos::path::Problem {
 
   Teuchos::RCP<const host::Map> map() const override { return app_.map(); }
 
-  atrapos::path::ResidualNorm residual(const host::Vector& u, double lambda, host::Vector& r) override {
-    app_.residual(u, lambda, r);
+  atrapos::path::ResidualNorm residual(const atrapos::path::State& at, host::Vector& r) override {
+    app_.residual(*at.u, at.lambda, r);
     return {r.norm2(), app_.forceScale()};
   }
-  Teuchos::RCP<const host::Matrix> tangent(const host::Vector& u, double lambda, host::Vector& F) override {
-    return app_.jacobian(u, lambda, F);
+  Teuchos::RCP<const host::Matrix> tangent(const atrapos::path::State& at, host::Vector& F) override {
+    return app_.jacobian(*at.u, at.lambda, F);
   }
-  void beginSeries(const host::Vector& u, double lambda, int maxOrder) override {
-    app_.import(u, lambda);
+  void beginSeries(const atrapos::path::State& at, int maxOrder) override {
+    app_.import(*at.u, at.lambda);
     series_.begin(maxOrder, [&](int e, double* in) { app_.gather(e, in); });
   }
   void orderRhs(int k, host::Vector& Fk) override {

@@ -108,8 +108,9 @@ std::vector<double> NearContact::places(const fem::ConstDofView& u, double lambd
   return all_->places(u, lambda);
 }
 
-double NearContact::addResidual(const fem::ConstDofView& u, double lambda, const fem::DofView& f) const {
-  if (!near_) return 0;
+fem::OwnForces NearContact::addResidual(const fem::ConstDofView& u, double lambda,
+                                        const fem::DofView& f) const {
+  if (!near_) return {};
   lendPieces();
   return near_->addResidual(u, lambda, f);
 }

@@ -34,8 +34,8 @@ TEST(Block, SupportsCarryTheContactForce) {
     const auto outcome = follow(problem, {problem.initialState(0), 0.0}, 0.2, tightOptions(bound));
     const auto& u = *outcome.final.u;
     const Numbers values = fem::FeProblem::values(u);
-    const Numbers contact = problem.forces(problem.term(1), u, 0.2);  // minus the forces on the body
-    const Numbers reactions = problem.reactions(u, 0.2);
+    const Numbers contact = problem.forces(problem.term(1), outcome.final);  // minus the forces on the body
+    const Numbers reactions = problem.reactions(outcome.final);
     const auto norm = fem::test::residual(problem, values, 0.2).norm;
     EXPECT_LE(norm.relative(), bound);
     // The free rows leave a residual of this norm; a sum of n of its entries is at most sqrt(n) of it. Lever
@@ -48,8 +48,8 @@ TEST(Block, SupportsCarryTheContactForce) {
     EXPECT_GT(-resultant(contact)[2], 0.1);  // pressed: E A strain is about 6 if all of it were compressed
     EXPECT_GT(std::abs(resultant(contact)[0]), 100 * tolerance);  // and not only upwards
 
-    const Numbers pressures = observed(problem, 1, u, "contact_pressure");
-    const Numbers gaps = observed(problem, 1, u, "contact_gap");
+    const Numbers pressures = observed(problem, 1, outcome.final, "contact_pressure");
+    const Numbers gaps = observed(problem, 1, outcome.final, "contact_gap");
     EXPECT_GT(*std::max_element(pressures.begin(), pressures.end()), 0.1 * share);
     EXPECT_GT(*std::max_element(gaps.begin(), gaps.end()), 0.05);  // the edges are still off the tool
   }
@@ -65,7 +65,7 @@ Numbers flatPressures(fem::Topology cell, Where where) {
   addContact(model, contactPoints(mesh, "z_min", where), Plane{}, {1e-2, 1e-2}, 0);
   fem::FeProblem problem(std::move(model));
   const auto outcome = follow(problem, {problem.initialState(0), 0.0}, 0.2);
-  return observed(problem, 1, *outcome.final.u, "contact_pressure");
+  return observed(problem, 1, outcome.final, "contact_pressure");
 }
 
 double spread(const Numbers& x) {
@@ -106,9 +106,9 @@ TEST(Block, HeldByContactOnly) {
     const auto outcome = follow(problem, {problem.initialState(0), 0.0}, 0.1);
     EXPECT_NEAR(outcome.final.lambda, 0.1, 1e-14);
     const double R = 0.1 * E, h = (law.eta * Delta - law.compliance * R * R) / (R + law.eta);
-    for (const double r : observed(problem, 1, *outcome.final.u, "contact_pressure")) EXPECT_NEAR(r, R, 1e-8);
+    for (const double r : observed(problem, 1, outcome.final, "contact_pressure")) EXPECT_NEAR(r, R, 1e-8);
     // Residual 1e-10 of forces of about 1 over the stiffness dR/dh, which is above 1 here, and E.
-    for (const double g : observed(problem, 1, *outcome.final.u, "contact_gap")) EXPECT_NEAR(g, h, 1e-8);
+    for (const double g : observed(problem, 1, outcome.final, "contact_gap")) EXPECT_NEAR(g, h, 1e-8);
     const Numbers u = fem::FeProblem::values(*outcome.final.u);
     const double s = 1 + u[3 * fem::test::nodesOfSet(mesh, "z_max")[0] + 2] - (h - Delta);
     EXPECT_NEAR(s * (s * s - 1) / 2, -0.1, 1e-8);

@@ -41,17 +41,13 @@ class Watch : public path::Observer {
   }
 
   bool onStep(const path::StepReport& report, const path::Series& series) override {
-    auto u = fem::test::zeroVector(*column_.problem);
     const auto w = series.functional(*foot_);
     for (const Row& row : rows_)
-      for (const double a : w.minus(row.u).roots(report.length)) {
-        const double lambda = series.evaluate(a, *u);
-        compare(row, lambda, *u);
-      }
+      for (const double a : w.minus(row.u).roots(report.length)) compare(row, series.state(a));
     for (int i = 1; i <= 10; ++i) {
-      const double lambda = series.evaluate(0.1 * i * report.length, *u);
-      const double size = 1 + std::abs(lambda);
-      worst = std::max(worst, std::abs(column_.imbalance(column_.w(*u), lambda)) / size);
+      const path::State at = series.state(0.1 * i * report.length);
+      const double size = 1 + std::abs(at.lambda);
+      worst = std::max(worst, std::abs(column_.imbalance(column_.w(*at.u), at.lambda)) / size);
     }
     return true;
   }
@@ -60,14 +56,15 @@ class Watch : public path::Observer {
   double worst = 0;  ///< imbalance of the closed form, relative to 1 + |lambda|
 
  private:
-  void compare(const Row& row, double lambda, const path::Vector& u) {
+  void compare(const Row& row, const path::State& at) {
+    const double lambda = at.lambda;
     // The table's spring is linear, k = 1; the bar is not: the difference is known.
     const double expected = row.lambda - row.u + column_.barForce(row.u, lambda);
     // The residual bound 1e-10 is relative to about 2 lambda; the table has 12 digits.
     EXPECT_NEAR(lambda, expected, 1e-9 * (1 + expected)) << row.u;
     // Rounding of the gap, 2e-16, times the law's slope, which is below alpha = 1e6.
-    EXPECT_NEAR(column_.assembledForce(u), row.R, 1e-9 * (1 + row.R)) << row.u;
-    const Numbers gaps = observed(*column_.problem, 1, u, "contact_gap");
+    EXPECT_NEAR(column_.assembledForce(at), row.R, 1e-9 * (1 + row.R)) << row.u;
+    const Numbers gaps = observed(*column_.problem, 1, at, "contact_gap");
     for (const double h : gaps) EXPECT_NEAR(h, row.h, 1e-12) << row.u;  // flat: every point has the same gap
     ++compared;
   }
@@ -102,11 +99,10 @@ class Unloaded : public path::Observer {
  public:
   explicit Unloaded(const Column& column) : column_(column) {}
   bool onStep(const path::StepReport& report, const path::Series& series) override {
-    auto u = fem::test::zeroVector(*column_.problem);
     for (const double a : series.lambdaFunction().roots(report.length)) {
-      series.evaluate(a, *u);
-      EXPECT_NEAR(column_.w(*u), 0.0, 1e-9);
-      EXPECT_NEAR(column_.assembledForce(*u), 0.0, 1e-9);
+      const path::State at = series.state(a);
+      EXPECT_NEAR(column_.w(*at.u), 0.0, 1e-9);
+      EXPECT_NEAR(column_.assembledForce(at), 0.0, 1e-9);
       ++passages;
     }
     return true;
@@ -124,7 +120,7 @@ TEST_P(OnPlane, OpensAgainWithoutAForceLeft) {
     Column column(law, GetParam(), 0, 1);
     Unloaded watch(column);
     const auto closed = follow(*column.problem, column.start(), 1.5, watch);
-    const double pressed = column.assembledForce(*closed.final.u);
+    const double pressed = column.assembledForce(closed.final);
     EXPECT_GT(pressed, 0.4);  // about (1.5 - 1) times a stiffness just below 1
 
     // Back through the start: w = 0, R = 0. The residual bound 1e-10 of the forces at the ends of that step,
@@ -133,7 +129,7 @@ TEST_P(OnPlane, OpensAgainWithoutAForceLeft) {
     ASSERT_EQ(watch.passages, 1);
 
     // Farther than at the start: the law's far field, between -eta and 0, and nothing else.
-    const double w = column.w(*far.final.u), force = column.assembledForce(*far.final.u);
+    const double w = column.w(*far.final.u), force = column.assembledForce(far.final);
     EXPECT_GT(column.gap - w, 3.0);
     EXPECT_LT(force, 0.0);
     EXPECT_GT(force, -law.eta);
@@ -146,11 +142,11 @@ TEST_P(OnPlane, ReactionPlusLoadEqualsContactForce) {
   Column column({1e-5, 1e-3}, GetParam());
   const auto outcome = follow(*column.problem, column.start(), 3.0);
   const auto& u = *outcome.final.u;
-  const double reaction = resultant(column.problem->reactions(u, 3.0))[2];
+  const double reaction = resultant(column.problem->reactions(outcome.final))[2];
   // 1e-10 of forces of about 5, over 8 nodes.
-  EXPECT_NEAR(reaction + column.assembledForce(u) - 3.0, 0.0, 5e-9);
+  EXPECT_NEAR(reaction + column.assembledForce(outcome.final) - 3.0, 0.0, 5e-9);
   EXPECT_NEAR(reaction, column.barForce(column.w(u), 3.0), 5e-9);
-  EXPECT_GT(column.assembledForce(u), 1.5);  // the bar holds about 1.2 when it touches
+  EXPECT_GT(column.assembledForce(outcome.final), 1.5);  // the bar holds about 1.2 when it touches
 }
 
 INSTANTIATE_TEST_SUITE_P(, OnPlane, testing::Values(Where::Nodes, Where::Quadrature), [](const auto& info) {

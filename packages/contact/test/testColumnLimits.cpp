@@ -33,8 +33,8 @@ struct Contact {
 Contact contactAt(double load, double compliance, double eta) {
   Column column({compliance, eta}, Where::Quadrature);
   const auto outcome = follow(*column.problem, column.start(), load, tightOptions(1e-11));
-  return {observed(*column.problem, 1, *outcome.final.u, "contact_gap")[0],
-          column.assembledForce(*outcome.final.u)};
+  return {observed(*column.problem, 1, outcome.final, "contact_gap")[0],
+          column.assembledForce(outcome.final)};
 }
 
 /// log10 of the ratio of errors one decade of the parameter apart.

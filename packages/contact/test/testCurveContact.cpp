@@ -46,9 +46,9 @@ Result followed(const fem::Mesh& mesh, fem::FeModel model, double lambda) {
   Result result;
   result.outcome = follow(problem, {problem.initialState(0), 0.0}, lambda, seen);
   result.negative = seen.negative;
-  const auto& u = *result.outcome.final.u;
-  result.w = -fem::FeProblem::values(u)[3 * fem::test::nodesOfSet(mesh, "z_min").at(0) + 2];
-  result.force = -resultant(problem.forces(problem.term(1), u, lambda))[2];
+  result.w =
+      -fem::FeProblem::values(*result.outcome.final.u)[3 * fem::test::nodesOfSet(mesh, "z_min").at(0) + 2];
+  result.force = -resultant(problem.forces(problem.term(1), result.outcome.final))[2];
   return result;
 }
 
@@ -139,7 +139,7 @@ TEST(CurveContact, SameRollAsPatches) {
   fem::FeProblem a(std::move(implicit)), b(std::move(patches));
   const auto endA = follow(a, {a.initialState(0), 0.0}, 1.0), endB = follow(b, {b.initialState(0), 0.0}, 1.0);
   EXPECT_NEAR(endA.steps, endB.steps, 1);
-  EXPECT_GT(-resultant(a.forces(a.term(1), *endA.final.u, 1))[2], 0.1);
+  EXPECT_GT(-resultant(a.forces(a.term(1), endA.final))[2], 0.1);
   const Numbers u = bodyOf(mesh, endA), v = bodyOf(mesh, endB);
   for (std::size_t i = 0; i < u.size(); ++i) EXPECT_NEAR(v[i], u[i], 1e-8);  // bound of the residual: 1e-10
 }
@@ -180,9 +180,9 @@ TEST(CurveContact, PatchesAsWithThePressureCondensed) {
     if (aside > 0) {
       EXPECT_GE(breaks.count, 1);
     }
-    const auto R = observed(b, 1, *endB.final.u, "contact_pressure"),
-               h = observed(b, 1, *endB.final.u, "contact_gap");
-    const auto R1 = observed(a, 1, *endA.final.u, "contact_pressure");
+    const auto R = observed(b, 1, endB.final, "contact_pressure"),
+               h = observed(b, 1, endB.final, "contact_gap");
+    const auto R1 = observed(a, 1, endA.final, "contact_pressure");
     EXPECT_EQ(std::count_if(h.begin(), h.end(), [](double gap) { return std::isinf(gap); }), 4);
     for (std::size_t p = 0; p < R.size(); ++p) EXPECT_NEAR(R[p], R1[p], 1e-6);  // see below; stiffness is 10
     const Numbers u = bodyOf(mesh, endA), v = bodyOf(mesh, endB);

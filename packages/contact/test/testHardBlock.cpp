@@ -51,17 +51,16 @@ fem::FeModel onTool(const fem::Mesh& mesh, const Tool& tool, Where where) {
 }
 
 /// Every other condition is active.
-void alternate(fem::FeProblem& problem) {
-  auto conditions = problem.conditions();
+fem::test::Memory alternating(const fem::FeProblem& problem) {
+  auto conditions = problem.conditionsAt({});
   for (std::size_t i = 0; i < conditions.size(); ++i) conditions[i] = i % 2 == 0;
-  problem.setConditions(conditions);
+  return problem.memoryOf(conditions);
 }
 
 /// Displacements and multipliers of some size; those of free conditions are zero, as on any path.
-Numbers someState(const fem::FeProblem& problem, const fem::Mesh& mesh) {
+Numbers someState(const fem::FeProblem& problem, const fem::Mesh& mesh, const std::vector<int>& conditions) {
   const std::size_t dofs = fem::FeProblem::values(*problem.initialState(0)).size();
   Numbers u = fem::test::randomNumbers(dofs, 0.08, 5);
-  const auto conditions = problem.conditions();
   for (std::size_t p = 0; p < conditions.size(); ++p) {
     if (conditions[p] == 0) u[mesh.coordinates.size() + p] = 0;
   }
@@ -73,12 +72,12 @@ void tangentIsDerivative(const Tool& tool, bool symmetric, Where where) {
   const auto mesh = fem::test::distorted(fem::test::box(fem::Topology::Hex20, {2, 2, 2}, {1, 1, 1}), 0.02);
   fem::FeProblem problem(onTool(mesh, tool, where));
   EXPECT_EQ(problem.symmetric(), symmetric);
-  alternate(problem);
+  const auto memory = alternating(problem);
   const double lambda = 0.3;
-  const Numbers u = someState(problem, mesh);
-  const auto conditions = problem.conditions();
+  const auto& conditions = memory->conditions;
+  const Numbers u = someState(problem, mesh, conditions);
 
-  const auto K = fem::test::tangent(problem, u, lambda);
+  const auto K = fem::test::tangent(problem, u, lambda, memory);
   const double largest = fem::test::largest(K.value);
   if (symmetric) {
     for (std::size_t i = 0; i + 1 < K.start.size(); ++i)
@@ -95,7 +94,7 @@ void tangentIsDerivative(const Tool& tool, bool symmetric, Where where) {
     for (std::size_t p = 0; p < conditions.size(); ++p) {
       if (conditions[p] == 0) v[mesh.coordinates.size() + p] = 0;
     }
-    expectDerivative(problem, K, u, lambda, v, 0.7, 4e-3);
+    expectDerivative(problem, K, u, lambda, v, 0.7, 4e-3, memory);
   }
 }
 
@@ -124,10 +123,13 @@ TEST(HardBlock, SeriesAndEventFunctions) {
   const int active = problem.constraintPivots();
   EXPECT_GE(active, 3);
   EXPECT_LT(active, problem.eventCount());
-  const Numbers u = fem::test::equilibrium(problem, 0.06, fem::FeProblem::values(*start.final.u), 1e-12).u;
-  expectEventFunctions(problem, u, 0.06, mesh.coordinates.size(), [&](const fem::PointValues& shown) {
-    Numbers gaps;
-    for (int p = 0; p < problem.eventCount(); ++p) gaps.push_back(shown.values[2 * p]);
-    return gaps;
-  });
+  const Numbers u =
+      fem::test::equilibrium(problem, 0.06, fem::FeProblem::values(*start.final.u), 1e-12, start.final.memory)
+          .u;
+  expectEventFunctions(problem, u, 0.06, start.final.memory, mesh.coordinates.size(),
+                       [&](const fem::PointValues& shown) {
+                         Numbers gaps;
+                         for (int p = 0; p < problem.eventCount(); ++p) gaps.push_back(shown.values[2 * p]);
+                         return gaps;
+                       });
 }

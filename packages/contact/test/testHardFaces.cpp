@@ -17,8 +17,8 @@ using namespace atrapos::contact::test;
 
 namespace {
 
-int activeOf(const fem::FeProblem& problem) {
-  const auto conditions = problem.conditions();
+int activeOf(const fem::FeProblem& problem, const path::State& state) {
+  const auto conditions = problem.conditionsAt(state);
   return static_cast<int>(std::count(conditions.begin(), conditions.end(), 1));
 }
 
@@ -37,8 +37,8 @@ struct Flat {
     addHardFaceContact(model, contactPoints(mesh, "z_min", Where::Quadrature), Plane{});
     fem::FeProblem problem(std::move(model));
     outcome = follow(problem, {problem.initialState(0), 0.0}, 1.0, tightOptions(1e-8));
-    pressures = observed(problem, 1, *outcome.final.u, "contact_pressure");
-    active = activeOf(problem);
+    pressures = observed(problem, 1, outcome.final, "contact_pressure");
+    active = activeOf(problem, outcome.final);
     conditions = problem.eventCount();
   }
   /// Saint Venant-Kirchhoff under the stretch l of its height 1: E l (l^2 - 1)/2 per undeformed area.
@@ -81,21 +81,24 @@ TEST(HardFaces, SeriesAndEventFunctions) {
     for (int i = 0; i < 3; ++i) model.prescribe(n, i, 0, i == 2 ? -1.0 : 0.3);
   fem::FeProblem problem(std::move(model));
   auto start = follow(problem, {problem.initialState(0), 0.0}, 0.06, tightOptions(1e-9));
-  EXPECT_GE(activeOf(problem), 2);
-  EXPECT_LT(activeOf(problem), problem.eventCount());
-  const Numbers u = fem::test::equilibrium(problem, 0.06, fem::FeProblem::values(*start.final.u), 1e-12).u;
-  expectEventFunctions(problem, u, 0.06, mesh.coordinates.size(), [&](const fem::PointValues& shown) {
-    const int Q = points.pointsPerEntity, M = faces.conditions;
-    Numbers gaps(problem.eventCount(), 0.0), area(problem.eventCount(), 0.0);
-    for (int p = 0; p < points.numPoints(); ++p)
-      for (int m = 0; m < M; ++m) {
-        const int c = faces.multipliers[p / Q * M + m] - mesh.numNodes();
-        area[c] += points.weights[p] * faces.functions[p * M + m];
-        gaps[c] += points.weights[p] * faces.functions[p * M + m] * shown.values[2 * p];
-      }
-    for (std::size_t c = 0; c < gaps.size(); ++c) gaps[c] /= area[c];
-    return gaps;
-  });
+  EXPECT_GE(activeOf(problem, start.final), 2);
+  EXPECT_LT(activeOf(problem, start.final), problem.eventCount());
+  const Numbers u =
+      fem::test::equilibrium(problem, 0.06, fem::FeProblem::values(*start.final.u), 1e-12, start.final.memory)
+          .u;
+  expectEventFunctions(problem, u, 0.06, start.final.memory, mesh.coordinates.size(),
+                       [&](const fem::PointValues& shown) {
+                         const int Q = points.pointsPerEntity, M = faces.conditions;
+                         Numbers gaps(problem.eventCount(), 0.0), area(problem.eventCount(), 0.0);
+                         for (int p = 0; p < points.numPoints(); ++p)
+                           for (int m = 0; m < M; ++m) {
+                             const int c = faces.multipliers[p / Q * M + m] - mesh.numNodes();
+                             area[c] += points.weights[p] * faces.functions[p * M + m];
+                             gaps[c] += points.weights[p] * faces.functions[p * M + m] * shown.values[2 * p];
+                           }
+                         for (std::size_t c = 0; c < gaps.size(); ++c) gaps[c] /= area[c];
+                         return gaps;
+                       });
 }
 
 namespace {
@@ -157,10 +160,10 @@ struct Hertz {
     options.order = 12;
     const auto outcome = follow(problem, {problem.initialState(0), 0.0}, 1.0, options);
     factorizations = outcome.factorizations;
-    active = activeOf(problem);
-    const Numbers forces = problem.forces(problem.term(1), *outcome.final.u, 1.0);  // minus those on the body
+    active = activeOf(problem, outcome.final);
+    const Numbers forces = problem.forces(problem.term(1), outcome.final);  // minus those on the body
     forceError = 4 * resultant(forces)[2] / load() - 1;
-    const Numbers pressure = observed(problem, 1, *outcome.final.u, "contact_pressure");
+    const Numbers pressure = observed(problem, 1, outcome.final, "contact_pressure");
     double sum = 0, all = 0;
     for (std::size_t p = 0; p < pressure.size(); ++p) {
       const double r = std::hypot(points.positions[3 * p], points.positions[3 * p + 1]);

@@ -72,7 +72,7 @@ struct Path {
     stops.loadFactors = {1.0};
     outcome = path::PathFollower(*problem, *solver, tightOptions(), stops).runFrom(start, seen);
     u = fem::FeProblem::values(*outcome.final.u);
-    force = -resultant(problem->forces(problem->term(1), *outcome.final.u, outcome.final.lambda))[2];
+    force = -resultant(problem->forces(problem->term(1), outcome.final))[2];
   }
   int changes() const {  // of the contact set
     int n = 0;
@@ -145,10 +145,10 @@ TEST_P(HardPatches, OverAJumpOfTheCurvature) {
     EXPECT_GE(run->changes(), 3);
     // No node is inside, none is pulled; over faces it is the mean gaps that are not negative.
     if (!faces()) {
-      for (const double h : observed(*run->problem, 1, *run->outcome.final.u, "contact_gap"))
+      for (const double h : observed(*run->problem, 1, run->outcome.final, "contact_gap"))
         EXPECT_GT(h, -1e-8);
     }
-    for (const double R : observed(*run->problem, 1, *run->outcome.final.u, "contact_pressure"))
+    for (const double R : observed(*run->problem, 1, run->outcome.final, "contact_pressure"))
       EXPECT_GT(R, -1e-8);
   }
   EXPECT_GT(a.force, 0.05);
@@ -179,7 +179,7 @@ TEST_P(HardPatches, PathsEndAtAnEdge) {
   EXPECT_NE(run.outcome.text.find("slides over an edge of its tool while it is pressed"), std::string::npos)
       << run.outcome.text;
   EXPECT_GE(run.outcome.steps, 2);
-  const auto h = observed(*run.problem, 1, *run.outcome.final.u, "contact_gap");
+  const auto h = observed(*run.problem, 1, run.outcome.final, "contact_gap");
   EXPECT_GT(std::count_if(h.begin(), h.end(), [](double gap) { return std::isinf(gap); }), 0);
   const auto places = run.problem->term(1).places(fem::field(*run.outcome.final.u), 1);
   double nearest = 1;
@@ -247,29 +247,32 @@ TEST_F(OverAnEdge, SeriesAndEventFunctions) {
   addHardFaceContact(model, faces, searchOf({plate(-1, 0.65)}));
   fem::FeProblem problem(std::move(model));
   const auto end = follow(problem, {problem.initialState(0), 0.0}, 0.09, tightOptions(1e-9));
-  const auto conditions = problem.conditions();
+  const auto conditions = problem.conditionsAt(end.final);
   const auto active = std::count(conditions.begin(), conditions.begin() + problem.eventCount(), 1);
   EXPECT_GE(active, 2);
   EXPECT_LE(active, 7);  // of nine corners that touch the plate
-  const Numbers u = fem::test::equilibrium(problem, 0.09, fem::FeProblem::values(*end.final.u), 1e-12).u;
-  expectEventFunctions(problem, u, 0.09, mesh.coordinates.size(), [&](const fem::PointValues& shown) {
-    const int Q = faces.pointsPerEntity, M = own.conditions;
-    Numbers gaps(problem.eventCount(), 0.0), area(problem.eventCount(), 0.0);
-    int beyond = 0;
-    for (int p = 0; p < faces.numPoints(); ++p) {
-      if (std::isinf(shown.values[2 * p])) {
-        ++beyond;
-        continue;
-      }
-      for (int m = 0; m < M; ++m) {
-        const int c = own.multipliers[p / Q * M + m] - mesh.numNodes();
-        area[c] += faces.weights[p] * own.functions[p * M + m];
-        gaps[c] += faces.weights[p] * own.functions[p * M + m] * shown.values[2 * p];
-      }
-    }
-    EXPECT_EQ(beyond, 2 * Q);
-    EXPECT_EQ(std::count(area.begin(), area.end(), 0.0), 3);
-    for (std::size_t c = 0; c < gaps.size(); ++c) gaps[c] = area[c] > 0 ? gaps[c] / area[c] : 1;
-    return gaps;
-  });
+  const Numbers u =
+      fem::test::equilibrium(problem, 0.09, fem::FeProblem::values(*end.final.u), 1e-12, end.final.memory).u;
+  expectEventFunctions(problem, u, 0.09, end.final.memory, mesh.coordinates.size(),
+                       [&](const fem::PointValues& shown) {
+                         const int Q = faces.pointsPerEntity, M = own.conditions;
+                         Numbers gaps(problem.eventCount(), 0.0), area(problem.eventCount(), 0.0);
+                         int beyond = 0;
+                         for (int p = 0; p < faces.numPoints(); ++p) {
+                           if (std::isinf(shown.values[2 * p])) {
+                             ++beyond;
+                             continue;
+                           }
+                           for (int m = 0; m < M; ++m) {
+                             const int c = own.multipliers[p / Q * M + m] - mesh.numNodes();
+                             area[c] += faces.weights[p] * own.functions[p * M + m];
+                             gaps[c] += faces.weights[p] * own.functions[p * M + m] * shown.values[2 * p];
+                           }
+                         }
+                         EXPECT_EQ(beyond, 2 * Q);
+                         EXPECT_EQ(std::count(area.begin(), area.end(), 0.0), 3);
+                         for (std::size_t c = 0; c < gaps.size(); ++c)
+                           gaps[c] = area[c] > 0 ? gaps[c] / area[c] : 1;
+                         return gaps;
+                       });
 }

@@ -52,7 +52,7 @@ struct Followed final : path::Observer {
     if (!report.events.empty() && (events.empty() || report.lambdaEnd > (1 + 1e-6) * events.back()))
       events.push_back(report.lambdaEnd);
     std::vector<char> active(StripOnRoll::stations, 0);
-    const auto conditions = problem.conditions();
+    const auto conditions = problem.conditionsAt(report.next.state);
     for (std::size_t p = 0; p < conditions.size(); ++p)
       if (conditions[p] == 1) active[strip.station[p]] = 1;
     mostActive = std::max<std::size_t>(mostActive, std::count(active.begin(), active.end(), 1));

@@ -36,8 +36,8 @@ TEST(MovingColumn, SamePathAsTheMovingBody) {
     const auto b = follow(*rising, {rising->initialState(0), 0.0}, lambda);
     // Both paths are corrected to a relative residual of 1e-10; the stiffness at the foot is one or more.
     EXPECT_NEAR(driven.w(*a.final.u) - lambda, driven.w(*b.final.u), 1e-8);
-    EXPECT_NEAR(driven.assembledForce(*a.final.u),
-                -resultant(rising->forces(rising->term(1), *b.final.u, lambda))[2], 1e-8);
+    EXPECT_NEAR(driven.assembledForce(a.final), -resultant(rising->forces(rising->term(1), b.final))[2],
+                1e-8);
     EXPECT_NEAR(driven.imbalance(driven.w(*b.final.u) + lambda, lambda), 0, 1e-8);
   }
 }

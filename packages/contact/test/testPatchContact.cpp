@@ -62,7 +62,7 @@ Result pathEnd(fem::FeModel model) {
   Result result;
   result.u = fem::FeProblem::values(*outcome.final.u);
   result.steps = outcome.steps;
-  result.force = -resultant(problem.forces(problem.term(1), *outcome.final.u, outcome.final.lambda))[2];
+  result.force = -resultant(problem.forces(problem.term(1), outcome.final))[2];
   return result;
 }
 
@@ -100,8 +100,8 @@ TEST(PatchContact, PointsBeyondTheEdgeCarryNothing) {
   fem::FeProblem problem(std::move(model));
   const path::State start{problem.initialState(0), 0.0};
   const auto outcome = follow(problem, start, 0.8);
-  const auto gap = observed(problem, 1, *outcome.final.u, "contact_gap");
-  const auto R = observed(problem, 1, *outcome.final.u, "contact_pressure");
+  const auto gap = observed(problem, 1, outcome.final, "contact_gap");
+  const auto R = observed(problem, 1, outcome.final, "contact_pressure");
   int over = 0, pressed = 0, beyond = 0;
   for (std::size_t p = 0; p < gap.size(); ++p)
     if (points.positions[3 * p] < 0.5) {

@@ -96,7 +96,7 @@ class Watch : public path::Observer {
     auto u = fem::test::zeroVector(problem);
     const double Q = series.evaluate(a, *u), total = Q * loadAtOne * length;
     const Numbers values = fem::FeProblem::values(*u);
-    const Numbers contact = problem.forces(problem.term(1), *u, Q), reactions = problem.reactions(*u, Q);
+    const Numbers contact = problem.forces(problem.term(1), {u, Q}), reactions = problem.reactions({u, Q});
     s.tip = -values[3 * strip_.tip + 2] / gap;
     s.contactForce = -resultant(contact)[2] / total;
     s.tipForce = 0;

@@ -8,11 +8,11 @@
 namespace atrapos::fem {
 
 Field displacementField(int dimension) {
-  if (dimension == 2) return {"displacement", {"x", "y"}, Role::primal};
-  return {"displacement", {"x", "y", "z"}, Role::primal};
+  if (dimension == 2) return {"displacement", {"x", "y"}, Role::primal, "forces"};
+  return {"displacement", {"x", "y", "z"}, Role::primal, "forces"};
 }
 
-Field directorField() { return {"director's change", {"x", "y", "z"}, Role::primal}; }
+Field directorField() { return {"director's change", {"x", "y", "z"}, Role::primal, "forces"}; }
 
 DofMap::DofMap(int numNodes, const std::vector<Located>& fields) {
   std::vector<std::vector<int>> of(numNodes);
@@ -112,6 +112,12 @@ int DofMap::fieldNumber(const Field& field) {
   if (known < 0) {
     fields_.push_back(field);
     for (auto& offsets : offsets_) offsets.push_back(-1);
+    const std::string own = !field.balance.empty()                            ? field.balance
+                            : field.role == Role::primal || balances_.empty() ? field.name
+                                                                              : balances_.front();
+    const auto at = std::find(balances_.begin(), balances_.end(), own);
+    balanceOf_.push_back(static_cast<int>(at - balances_.begin()));
+    if (at == balances_.end()) balances_.push_back(own);
     return static_cast<int>(fields_.size()) - 1;
   }
   if (fields_[known].components != field.components || fields_[known].role != field.role)

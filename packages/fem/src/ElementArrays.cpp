@@ -149,14 +149,22 @@ int ElementArrays::fieldAt(const Part& part, const DofMap& dofs, int node) const
   return dof;
 }
 
+/// Of the field that the part has at a node.
+int ElementArrays::balanceAt(const Part& part, const DofMap& dofs, int node) const {
+  return dofs.balanceOf(dofs.addressOf(fieldAt(part, dofs, node)).field);
+}
+
 void ElementArrays::connect(const DofMap& dofs, const std::vector<int>& positions, int stride) {
   stride_ = stride;
   const std::size_t each = static_cast<std::size_t>(stride) * stride;
   std::vector<int> all(static_cast<std::size_t>(batches_.count) * kLanes * each, 0);
   std::copy_n(positions.begin(), numEntities_ * each, all.begin());
   positions_ = upload("positions", all);
+  numBalances_ = 1;
   for (Part& part : parts_) {
     const int N = part.view.N;
+    if (numEntities_ > 0) part.balance = balanceAt(part, dofs, entityNodes_[part.firstNode]);
+    numBalances_ = std::max(numBalances_, part.balance + 1);
     std::vector<int> first, offsets;
     for (int e = 0; e < numEntities_; ++e)
       for (int n = 0; n < N; ++n) {
@@ -221,12 +229,13 @@ void ElementArrays::addBlocks(int b, const double* jacobian, int outputs, int in
   }
 }
 
-double ElementArrays::squares(int b, int count, const double* force) const {
+void ElementArrays::squares(int b, const double* force, double* sums) const {
   const int lanes = lanesIn(b);
-  double sum = 0;
-  for (int n = 0; n < count; ++n)
-    for (int lane = 0; lane < lanes; ++lane) sum += force[n * kLanes + lane] * force[n * kLanes + lane];
-  return sum;
+  std::fill_n(sums, numBalances_, 0.0);
+  for (const Part& part : parts_)
+    for (int n = part.firstDof; n < part.firstDof + part.components * part.view.N; ++n)
+      for (int lane = 0; lane < lanes; ++lane)
+        sums[part.balance] += force[n * kLanes + lane] * force[n * kLanes + lane];
 }
 
 double ElementArrays::shapeAt(const Part& part, int b, int q, int n, int c, int lane) const {

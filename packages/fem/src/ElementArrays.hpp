@@ -51,8 +51,11 @@ class ElementArrays {
   void addBlocks(int b, const double* jacobian, int outputs, int inputs, bool symmetric,
                  const BlockCorrection& correction, const TangentSink& sink, double* moduli) const;
 
-  /// Sum of squares of a batch's nodal forces, [dof < count][lane].
-  double squares(int b, int count, const double* force) const;
+  /// How many balances (DofMap::balances) its fields reach to, and that of the first field.
+  int numBalances() const { return numBalances_; }
+  int balance() const { return parts_.front().balance; }
+  /// Sums of squares of a batch's nodal forces, [balance].
+  void squares(int b, const double* force, double* sums) const;
   /// The weights of a batch, [q][lane].
   const double* weights(int b) const { return weight_.data() + static_cast<std::size_t>(b) * Q_ * kLanes; }
   /// The unknowns of the first field: its first component at a node of an entity.
@@ -73,6 +76,7 @@ class ElementArrays {
     int firstNode = 0;   ///< of its nodes among those of an entity
     int firstInput = 0;  ///< of its inputs among those of a point
     int firstDof = 0;    ///< of its dofs among those of an entity
+    int balance = 0;     ///< of its rows
     ElementView view;
     ElementKernels kernels;
     View<double*> shape, map;
@@ -89,6 +93,7 @@ class ElementArrays {
   void addPart(const Interpolation& of);
   void setViews();
   int fieldAt(const Part& part, const DofMap& dofs, int node) const;
+  int balanceAt(const Part& part, const DofMap& dofs, int node) const;
   double shapeAt(const Part& part, int b, int q, int n, int c, int lane) const;
   void addMixedBlocks(int b, const Part& row, const Part& column, const double* jacobian, int outputs,
                       int inputs, bool transposed, const TangentSink& sink) const;
@@ -97,7 +102,7 @@ class ElementArrays {
 
   int numEntities_ = 0, Q_ = 0, P_ = 0;
   int stride_ = 0;  ///< nodes a row of positions_
-  int inputs_ = 0, localDofs_ = 0;
+  int inputs_ = 0, localDofs_ = 0, numBalances_ = 1;
   std::vector<Part> parts_;
   std::vector<int> entityNodes_;
   std::vector<int> kept_;  ///< entities of the whole term, where this is a part; empty: all

@@ -48,8 +48,9 @@ class EnhancedTerm final : public Term {
     a_.elements.connect(dofs, positions, nodesPerEntity());
   }
 
-  double addResidual(const ConstDofView& u, double, const DofView& f) const override {
-    std::vector<double> squares(batches().count);
+  OwnForces addResidual(const ConstDofView& u, double, const DofView& f) const override {
+    const int balances = a_.elements.numBalances();
+    std::vector<double> squares(static_cast<std::size_t>(batches().count) * balances);
     forEachBatch("residual", batches(), [&](int b) {
       const ThreadMemory::Held held(a_.memory());
       const Scratch s(*this, held);
@@ -57,9 +58,9 @@ class EnhancedTerm final : public Term {
       a_.law->value(a_.batch(b, a_.data(), held.data()), s.in, s.out);
       a_.elements.addForces(b, s.out, I_ + 1, true, zero(s.force, localDofs()));
       a_.elements.scatter(b, s.force, f.data());
-      squares[b] = a_.elements.squares(b, localDofs(), s.force);
+      a_.elements.squares(b, s.force, &squares[static_cast<std::size_t>(b) * balances]);
     });
-    return sumOf(squares);
+    return sumOf(squares, balances);
   }
 
   void addTangent(const ConstDofView& u, double, const TangentSink& sink) const override {

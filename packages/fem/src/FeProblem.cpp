@@ -47,13 +47,21 @@ std::vector<double> toHost(const ConstDofView& f) {
   return {mirror.data(), mirror.data() + mirror.size()};
 }
 
-/// Sum of squares of the first `count` entries, in one order: the number is the same for any number of
-/// threads.
-double squares(const ConstDofView& f, std::size_t count) {
+/// A number for each balance of the model (DofMap::balances).
+using Sizes = std::vector<double>;
+
+/// Sums of squares of the first entries, as many as `balances` says which balance each belongs to, in one
+/// order: the numbers are the same for any number of threads.
+Sizes squares(const ConstDofView& f, const std::vector<int>& balances, std::size_t count) {
   auto mirror = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), f);
-  double sum = 0;
-  for (std::size_t i = 0; i < count; ++i) sum += mirror(i) * mirror(i);
-  return sum;
+  Sizes sums(count, 0.0);
+  for (std::size_t i = 0; i < balances.size(); ++i) sums[balances[i]] += mirror(i) * mirror(i);
+  return sums;
+}
+
+Sizes largest(Sizes a, const Sizes& b) {
+  for (std::size_t i = 0; i < a.size(); ++i) a[i] = std::max(a[i], b[i]);
+  return a;
 }
 
 /// Entries of the first `count` nodes of a rank, from those of the whole model.
@@ -97,8 +105,16 @@ struct FeProblem::Impl {
   std::vector<int> wholeCounts;  // [term] entities on all ranks (several ranks)
   int numParameters = 0, numMultipliers = 0;  // of the whole model
   double parameterInner = 1;                  // factor of a parameter's square in inner()
-  double scaleFloor = 0;
+  Sizes scaleFloor;                           // least scale of each balance
+  std::vector<int> balances;                  // [own dof] number of its balance
   int numFree = 0;
+  int pivots = 0;                                  // constraintPivots() of the last tangent
+  std::vector<int> startConditions;                // events, then pieces
+  std::vector<std::size_t> numVariables;           // [term] of this rank
+  std::vector<double> startVariables;              // of all terms
+  bool anyVariables = false;                       // on any rank
+  std::shared_ptr<const path::Memory> remembered;  // what the terms have now; null: not known
+  DofView variablesAt;                             // the state that the terms' variables are those of
 
   explicit Impl(FeModel m) : model(std::move(m)) {
     const auto comm = model.comm.is_null() ? Tpetra::getDefaultComm() : model.comm;
@@ -121,6 +137,8 @@ struct FeProblem::Impl {
     uploadConditions(couplings);
     share();
     events.emplace(model.terms, *ranks);
+    for (std::size_t d = 0; d < numOwned(); ++d)
+      balances.push_back(ranks->dofs().balanceOf(ranks->dofs().addressOf(static_cast<int>(d)).field));
     makeMatrix();
     findScale();
   }
@@ -156,8 +174,15 @@ struct FeProblem::Impl {
   std::size_t numOwned() const { return ranks->dofs().firstDof(ranks->numOwned()); }
   std::size_t numLocal() const { return ranks->dofs().firstDof(ranks->numLocal()); }
 
-  /// Norm over all ranks of their own entries.
-  double norm(const ConstDofView& f) const { return std::sqrt(ranks->sum(squares(f, numOwned()))); }
+  std::size_t numBalances() const { return model.dofs.balances().size(); }
+  /// Norms over all ranks of their own entries.
+  Sizes norms(const ConstDofView& f) const { return overRanks(squares(f, balances, numBalances())); }
+  /// Roots of sums over all ranks.
+  Sizes overRanks(Sizes sums) const {
+    sums.resize(numBalances(), 0.0);
+    for (double& s : sums) s = std::sqrt(ranks->sum(s));
+    return sums;
+  }
 
   /// A state as the terms read it, in `to` where there are several ranks.
   ConstDofView local(const Vector& u, const DofView& to) const {
@@ -280,13 +305,16 @@ struct FeProblem::Impl {
   /// alone would need and those of terms that see lambda. What they are at load factor 1 itself says nothing:
   /// supports may have crushed the body there, or a tool moved through it.
   void findScale() {
-    double size = std::max(norm(load), norm(constantLoad));
+    Sizes size = largest(norms(load), norms(constantLoad));
     if (model.supports.driven() || model.couplings.driven()) {
       constexpr double part = 1e-3;  // far above rounding, and what is not linear counts a thousandth
-      const double driving = (forcesAt(part) - forcesAt(0)) / part;
-      // Ten times: a body that they move as a whole has no forces, but the rounding of those that it would
-      // have.
-      if (std::isfinite(driving)) size = std::max(size, 10 * driving);
+      const Sizes there = forcesAt(part), start = forcesAt(0);
+      for (std::size_t b = 0; b < size.size(); ++b) {
+        const double driving = (there[b] - start[b]) / part;
+        // Ten times: a body that they move as a whole has no forces, but the rounding of those that it would
+        // have.
+        if (std::isfinite(driving)) size[b] = std::max(size[b], 10 * driving);
+      }
     }
     Kokkos::deep_copy(sum, 0.0);
     const TangentSink sink{rowStart, entries, sum};
@@ -295,37 +323,102 @@ struct FeProblem::Impl {
         if (term->seesLoadFactor()) term->addTangent(value, 0, sink);
     });
     ranks->collect(sum);
-    const double driving = norm(sum);
-    if (std::isfinite(driving)) size = std::max(size, driving);
-    scaleFloor = std::max(1e-6 * size, 1e-300);
+    const Sizes driving = norms(sum);
+    scaleFloor.assign(size.size(), 0.0);
+    for (std::size_t b = 0; b < size.size(); ++b) {
+      if (std::isfinite(driving[b])) size[b] = std::max(size[b], driving[b]);
+      scaleFloor[b] = std::max(1e-6 * size[b], 1e-300);
+    }
   }
 
-  /// Size of the forces of terms that do not see lambda, where supports alone are displaced, by their rate.
-  double forcesAt(double lambda) {
+  /// Sizes of the forces of terms that do not see lambda, where supports alone are displaced, by their rate.
+  Sizes forcesAt(double lambda) {
     const DofView u("displaced supports", rate.extent(0)), per = rate;
     Kokkos::parallel_for(
         "supports", Kokkos::RangePolicy<Execution>(0, u.size()),
         KOKKOS_LAMBDA(int d) { u(d) = lambda * per(d); });
-    double squares = 0;
+    Sizes own(numBalances(), 0.0);
     ranks->together([&] {
       for (const auto& term : model.terms)
-        if (!term->seesLoadFactor()) squares += term->addResidual(u, lambda, sum);
+        if (!term->seesLoadFactor()) add(own, term->addResidual(u, lambda, sum));
     });
-    return std::sqrt(ranks->sum(squares));
+    return overRanks(std::move(own));
   }
 
-  /// sum = this rank's part of the terms - F_0 - lambda F_1 on all rows; returns the scale.
-  double imbalance(const ConstDofView& u, double lambda) {
+  static void add(Sizes& sums, const OwnForces& own) {
+    for (std::size_t b = 0; b < own.size(); ++b) sums[b] += own[b];
+  }
+
+  /// sum = this rank's part of the terms - F_0 - lambda F_1 on all rows; returns the scales.
+  Sizes imbalance(const ConstDofView& u, double lambda) {
     const DofView total = sum, F1 = load, F0 = constantLoad;
     Kokkos::parallel_for(
         "loads", Kokkos::RangePolicy<Execution>(0, total.size()),
         KOKKOS_LAMBDA(int i) { total(i) = -F0(i) - lambda * F1(i); });
-    const double external = norm(total);
-    double squares = 0;
+    const Sizes external = norms(total);
+    Sizes own(numBalances(), 0.0);
     ranks->together([&] {
-      for (const auto& term : model.terms) squares += term->addResidual(u, lambda, total);
+      for (const auto& term : model.terms) add(own, term->addResidual(u, lambda, total));
     });
-    return std::max({scaleFloor, external, std::sqrt(ranks->sum(squares))});
+    return largest(largest(scaleFloor, external), overRanks(std::move(own)));
+  }
+
+  /// What a path starts from.
+  void findStart() {
+    startConditions = conditions();
+    ranks->together([&] {
+      for (const auto& term : model.terms) {
+        const auto own = term->startVariables();
+        numVariables.push_back(own.size());
+        startVariables.insert(startVariables.end(), own.begin(), own.end());
+      }
+    });
+    anyVariables = ranks->max(static_cast<double>(startVariables.size())) > 0;
+    if (anyVariables) variablesAt = DofView("state of the variables", numLocal());
+  }
+
+  std::vector<int> conditions() const {
+    std::vector<int> all = events->conditions();
+    const auto preferred = pieces->conditions();
+    all.insert(all.end(), preferred.begin(), preferred.end());
+    return all;
+  }
+  void checkNumber(const std::vector<int>& conditions) const {
+    if (conditions.size() != startConditions.size())
+      throw std::invalid_argument("conditions of " + std::to_string(conditions.size()) +
+                                  " contact points, but there are " + std::to_string(startConditions.size()));
+  }
+  void setConditions(const std::vector<int>& conditions) {
+    checkNumber(conditions);
+    const auto pieceBegin = conditions.begin() + events->count();
+    events->setConditions({conditions.begin(), pieceBegin});
+    if (!pieces->empty()) pieces->setConditions({pieceBegin, conditions.end()});
+  }
+  const std::vector<int>& conditionsOf(const path::Memory* memory) const {
+    return memory != nullptr && !memory->conditions.empty() ? memory->conditions : startConditions;
+  }
+
+  /// The terms become those of a state.
+  void remember(const path::State& state) {
+    if (state.memory && state.memory == remembered) return;
+    if (!startConditions.empty()) setConditions(conditionsOf(state.memory.get()));
+    if (anyVariables) rememberVariables(state);
+    remembered = state.memory;
+  }
+  void rememberVariables(const path::State& state) {
+    const path::Memory* memory = state.memory.get();
+    const bool own = memory != nullptr && !memory->u.is_null();
+    const std::vector<double>& variables = own ? memory->variables : startVariables;
+    if (variables.size() != startVariables.size())
+      throw std::invalid_argument("a state with " + std::to_string(variables.size()) +
+                                  " internal variables, but there are " +
+                                  std::to_string(startVariables.size()));
+    const ConstDofView there = local(own ? *memory->u : *state.u, variablesAt);
+    const double* next = variables.data();
+    ranks->together([&] {
+      for (std::size_t t = 0; t < model.terms.size(); next += numVariables[t++])
+        if (numVariables[t] > 0) model.terms[t]->remember(next, there, own ? memory->lambda : state.lambda);
+    });
   }
 
   double ofParameters(const Vector& x, const Vector& y) const {
@@ -418,12 +511,13 @@ struct FeProblem::Impl {
 };
 
 FeProblem::FeProblem(FeModel model) : impl_(std::make_unique<Impl>(std::move(model))) {
-  Vector F(impl_->map);
-  tangent(*initialState(0.0), 0.0, F);  // gives the prescribed rows their size
   auto& events = *impl_->events;
   impl_->pieces.emplace(
-      impl_->model.terms, events, *impl_->ranks, [this](const Vector& u) { return impl_->local(u); },
-      [this](const Vector& u, double lambda, Vector& r) { return residual(u, lambda, r); });
+      impl_->model.terms, events, *impl_->ranks, [this](const path::State& s) { return onRank(s); },
+      [this](const path::State& s, Vector& r) { return residual(s, r); });
+  impl_->findStart();
+  Vector F(impl_->map);
+  tangent({initialState(0.0), 0.0}, F);  // gives the prescribed rows their size
   if (events.empty()) return;
   events.setStiffness(impl_->nodalStiffness());
   // A tool that moves drives the body through the points that it touches.
@@ -441,10 +535,10 @@ bool FeProblem::symmetric() const {
                      [](const auto& term) { return term->symmetric(); });
 }
 
-path::ResidualNorm FeProblem::residual(const Vector& u, double lambda, Vector& r) {
-  const ConstDofView state = impl_->local(u);
-  path::ResidualNorm result;
-  result.scale = impl_->imbalance(state, lambda);
+path::ResidualNorm FeProblem::residual(const path::State& at, Vector& r) {
+  const ConstDofView state = onRank(at);
+  const double lambda = at.lambda;
+  const Sizes scales = impl_->imbalance(state, lambda);
   const DofView out = writable(r), total = impl_->sum, value = impl_->value, rate = impl_->rate;
   const auto fixed = impl_->fixed;
   const double s = impl_->diagonal;
@@ -456,11 +550,15 @@ path::ResidualNorm FeProblem::residual(const Vector& u, double lambda, Vector& r
         if (fixed(d)) total(d) = s * (state(d) - value(d) - lambda * rate(d));  // not the reaction
         out(d) = total(d);
       });
-  result.norm = impl_->norm(total);
-  return result;
+  // The balance that is furthest off counts.
+  const Sizes norms = impl_->norms(total);
+  path::ResidualNorm worst{norms[0], scales[0]};
+  for (std::size_t b = 1; b < norms.size(); ++b)
+    if (path::ResidualNorm other{norms[b], scales[b]}; !(other.relative() <= worst.relative())) worst = other;
+  return worst;
 }
 
-RCP<const CrsMatrix> FeProblem::tangent(const Vector& u, double lambda, Vector& F) {
+RCP<const CrsMatrix> FeProblem::tangent(const path::State& at, Vector& F) {
   const auto& ranks = *impl_->ranks;
   impl_->K->resumeFill();
   const auto values = impl_->K->getLocalMatrixDevice().values;
@@ -469,10 +567,11 @@ RCP<const CrsMatrix> FeProblem::tangent(const Vector& u, double lambda, Vector& 
   const DofView direction = ranks.alone() ? writable(F) : DofView("direction", impl_->load.size());
   Kokkos::deep_copy(entries, 0.0);
   Kokkos::deep_copy(direction, impl_->load);
-  const ConstDofView state = impl_->local(u);
+  const ConstDofView state = onRank(at);
+  impl_->pivots = impl_->numMultipliers + impl_->events->constraintPivots() + impl_->numParameters;
   ranks.together([&] {
     for (const auto& term : impl_->model.terms)
-      term->addTangent(state, lambda, TangentSink{impl_->rowStart, entries, direction});
+      term->addTangent(state, at.lambda, TangentSink{impl_->rowStart, entries, direction});
   });
   // Once: were it that of the last tangent, the rounding of prescribed rows would tell what came before.
   if (impl_->diagonal == 0) impl_->findDiagonal();
@@ -491,10 +590,10 @@ RCP<const CrsMatrix> FeProblem::tangent(const Vector& u, double lambda, Vector& 
   return impl_->K;
 }
 
-void FeProblem::beginSeries(const Vector& u, double lambda, int maxOrder) {
-  const ConstDofView state = impl_->local(u);
+void FeProblem::beginSeries(const path::State& at, int maxOrder) {
+  const ConstDofView state = onRank(at);
   impl_->ranks->together([&] {
-    for (const auto& term : impl_->model.terms) term->beginSeries(state, lambda, maxOrder);
+    for (const auto& term : impl_->model.terms) term->beginSeries(state, at.lambda, maxOrder);
   });
 }
 
@@ -537,40 +636,76 @@ void FeProblem::eventOrder(int k, std::vector<double>& g) const {
   g = impl_->events->order(k, impl_->last, impl_->lastLambda);
 }
 
-std::vector<int> FeProblem::eventsAt(const Vector& u, double lambda) const {
-  return impl_->events->at(impl_->local(u), lambda);
+std::vector<int> FeProblem::eventsAt(const path::State& state) {
+  return impl_->events->at(onRank(state), state.lambda);
 }
 
-void FeProblem::applyEvent(const std::vector<int>& indices, const Vector& u, double lambda) {
-  impl_->events->apply(indices);
-  impl_->pieces->apply(indices, u, lambda);
+path::State FeProblem::afterEvent(const std::vector<int>& indices, const path::State& state) {
+  const ConstDofView u = onRank(state);
+  const auto before = impl_->conditions();
+  auto memory =
+      state.memory ? std::make_shared<path::Memory>(*state.memory) : std::make_shared<path::Memory>();
+  try {
+    impl_->events->apply(indices);
+    impl_->pieces->apply(indices, u, state.lambda);
+  } catch (...) {
+    impl_->setConditions(before);
+    throw;
+  }
+  memory->conditions = impl_->conditions();
+  impl_->setConditions(before);
+  return {state.u, state.lambda, memory};
 }
 
 path::Pieces* FeProblem::pieces() { return impl_->pieces->empty() ? nullptr : &*impl_->pieces; }
 
-int FeProblem::constraintPivots() const {
-  return impl_->numMultipliers + impl_->events->constraintPivots() + impl_->numParameters;
-}
+int FeProblem::constraintPivots() const { return impl_->pivots; }
 
 std::string FeProblem::name(long long unknown) const {
   if (impl_->model.dofName) return impl_->model.dofName(static_cast<int>(unknown));
   return impl_->model.dofs.nameOf(static_cast<int>(unknown));
 }
 
-std::vector<int> FeProblem::conditions() const {
-  std::vector<int> all = impl_->events->conditions();
-  const auto preferred = impl_->pieces->conditions();
-  all.insert(all.end(), preferred.begin(), preferred.end());
+std::vector<int> FeProblem::conditionsAt(const path::State& state) const {
+  return impl_->conditionsOf(state.memory.get());
+}
+
+std::shared_ptr<const path::Memory> FeProblem::memoryOf(std::vector<int> conditions) const {
+  impl_->checkNumber(conditions);
+  auto memory = std::make_shared<path::Memory>();
+  memory->conditions = std::move(conditions);
+  return memory;
+}
+
+bool FeProblem::remembers() const { return impl_->anyVariables; }
+
+std::vector<std::vector<double>> FeProblem::memoryOrders() {
+  if (!remembers()) return {};
+  std::vector<std::vector<double>> all;
+  impl_->ranks->together([&] {
+    for (const auto& term : impl_->model.terms) {
+      const auto own = term->variableOrders(impl_->last, impl_->lastLambda);
+      all.resize(std::max(all.size(), own.size()));
+      for (std::size_t k = 0; k < own.size(); ++k) all[k].insert(all[k].end(), own[k].begin(), own[k].end());
+    }
+  });
   return all;
 }
 
-void FeProblem::setConditions(const std::vector<int>& conditions) {
-  const std::size_t events = impl_->events->count(), pieces = impl_->pieces->numPoints();
-  if (conditions.size() != events + pieces)
-    throw std::invalid_argument("conditions of " + std::to_string(conditions.size()) +
-                                " contact points, but there are " + std::to_string(events + pieces));
-  impl_->events->setConditions({conditions.begin(), conditions.begin() + events});
-  impl_->pieces->setConditions({conditions.begin() + events, conditions.end()});
+path::State FeProblem::settled(const path::State& state) {
+  if (!remembers()) return state;
+  const ConstDofView u = onRank(state);
+  auto memory = std::make_shared<path::Memory>();
+  memory->conditions = impl_->conditionsOf(state.memory.get());
+  memory->u = rcp(new Vector(*state.u, Teuchos::Copy));
+  memory->lambda = state.lambda;
+  impl_->ranks->together([&] {
+    for (const auto& term : impl_->model.terms) {
+      const auto own = term->variablesAt(u, state.lambda);
+      memory->variables.insert(memory->variables.end(), own.begin(), own.end());
+    }
+  });
+  return {state.u, state.lambda, memory};
 }
 
 RCP<Vector> FeProblem::initialState(double lambda) const {
@@ -582,8 +717,8 @@ RCP<Vector> FeProblem::initialState(double lambda) const {
   return u;
 }
 
-std::vector<double> FeProblem::reactions(const Vector& u, double lambda) const {
-  impl_->imbalance(impl_->local(u), lambda);
+std::vector<double> FeProblem::reactions(const path::State& state) const {
+  impl_->imbalance(onRank(state), state.lambda);
   impl_->coupled.gatherForces(impl_->sum);
   impl_->ranks->collect(impl_->sum);
   std::vector<double> r = impl_->onAllRanks(impl_->sum);
@@ -592,19 +727,19 @@ std::vector<double> FeProblem::reactions(const Vector& u, double lambda) const {
   return r;
 }
 
-std::vector<double> FeProblem::forces(const Term& term, const Vector& u, double lambda) const {
+std::vector<double> FeProblem::forces(const Term& term, const path::State& state) const {
   Kokkos::deep_copy(impl_->sum, 0.0);
-  const ConstDofView state = impl_->local(u);
-  impl_->ranks->together([&] { term.addResidual(state, lambda, impl_->sum); });
+  const ConstDofView u = onRank(state);
+  impl_->ranks->together([&] { term.addResidual(u, state.lambda, impl_->sum); });
   impl_->ranks->collect(impl_->sum);
   return impl_->onAllRanks(impl_->sum);
 }
 
-PointValues FeProblem::observe(int i, const Vector& u, double lambda) const {
+PointValues FeProblem::observe(int i, const path::State& state) const {
   const Term& term = *impl_->model.terms.at(i);
-  const ConstDofView state = impl_->local(u);
+  const ConstDofView u = onRank(state);
   PointValues own;
-  impl_->ranks->together([&] { own = term.observe(state, lambda); });
+  impl_->ranks->together([&] { own = term.observe(u, state.lambda); });
   if (impl_->ranks->alone()) return own;
   // Ranks without a part of the term learn how many numbers an entity has.
   const auto& entities = impl_->ranks->entities()[i];
@@ -618,7 +753,10 @@ PointValues FeProblem::observe(int i, const Vector& u, double lambda) const {
   return own;
 }
 
-ConstDofView FeProblem::onRank(const Vector& u) const { return impl_->local(u); }
+ConstDofView FeProblem::onRank(const path::State& state) const {
+  impl_->remember(state);
+  return impl_->local(*state.u);
+}
 
 std::vector<double> FeProblem::values(const Vector& u) { return linear::onAllRanks(u); }
 

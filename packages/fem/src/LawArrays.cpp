@@ -1,6 +1,5 @@
 #include "LawArrays.hpp"
 
-#include <numeric>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -13,6 +12,10 @@ SeriesOrder seriesOrder(int k, int maxOrder) {
   SeriesOrder order{k, maxOrder, {}, taylor::HistoryShape::waiting(maxOrder)};
   if (k > 0) order.block = taylor::orderBlock(k, maxOrder);
   return order;
+}
+
+void PointLaw::carry(const PointBatch&, const double*, const double*, double*, PointFailure&) const {
+  throw std::logic_error("a law without internal variables was asked for them");
 }
 
 LawArrays::LawArrays(std::unique_ptr<PointLaw> theLaw, const PointSet& points,
@@ -72,8 +75,10 @@ void LawArrays::throwFirst(const std::vector<PointFailure>& perBatch) const {
               ", point " + std::to_string(perBatch[b].point + 1));
 }
 
-double sumOf(const std::vector<double>& perBatch) {
-  return std::accumulate(perBatch.begin(), perBatch.end(), 0.0);
+OwnForces sumOf(const std::vector<double>& perBatch, int numBalances) {
+  OwnForces sums(numBalances, 0.0);
+  for (std::size_t i = 0; i < perBatch.size(); ++i) sums[i % numBalances] += perBatch[i];
+  return sums;
 }
 
 }  // namespace atrapos::fem

@@ -95,7 +95,7 @@ PointValues LawArrays::observe(const double* data, const Inputs& inputs) const {
   return result;
 }
 
-/// The sum over all batches, in one order for any number of threads.
-double sumOf(const std::vector<double>& perBatch);
+/// The sums over all batches, [batch][balance], in one order for any number of threads.
+OwnForces sumOf(const std::vector<double>& perBatch, int numBalances);
 
 }  // namespace atrapos::fem

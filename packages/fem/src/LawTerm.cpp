@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "LawArrays.hpp"
+#include "PointVariables.hpp"
 #include "atrapos/fem/Rows.hpp"
 
 namespace atrapos::fem {
@@ -13,18 +14,20 @@ namespace {
 class LawTerm final : public Term {
  public:
   LawTerm(std::unique_ptr<PointLaw> law, const PointSet& points, const std::vector<double>& data)
-      : a_(std::move(law), points, data), I_(a_.elements.inputs()) {
-    if ((a_.shape.inputs != I_ && a_.shape.inputs != I_ + 1) || a_.shape.outputs != I_)
+      : a_(std::move(law), points, data), I_(a_.elements.inputs()), O_(a_.shape.outputs), variables_(a_) {
+    if ((a_.shape.inputs != I_ && a_.shape.inputs != I_ + 1) || O_ - a_.shape.variables != I_)
       throw std::logic_error("lawTerm: a law with " + std::to_string(a_.shape.inputs) + " inputs and " +
                              std::to_string(a_.shape.outputs) + " outputs at points with " +
                              std::to_string(I_) + " (and perhaps the load factor)");
     const std::size_t J = a_.shape.inputs;
     if (a_.elements.numFields() > 1) moduliDoubles_ = a_.perBatch(I_ * I_);
-    a_.allocateScratch(forceDoubles() + a_.perBatch(J + I_ + I_ * J) + moduliDoubles_);
+    a_.allocateScratch(forceDoubles() + a_.perBatch(J + O_ + O_ * J) + moduliDoubles_);
   }
 
   void setUpdate(DataUpdate update, const std::vector<double>& data) {
     if (!update) return;
+    if (!variables_.none())
+      throw std::logic_error("lawTerm: a law with internal variables whose data are brought up to date");
     update_ = std::move(update);
     initialData_ = data;
   }
@@ -58,20 +61,43 @@ class LawTerm final : public Term {
     a_.elements.connect(dofs, positions, nodesPerEntity());
   }
 
-  double addResidual(const ConstDofView& u, double lambda, const DofView& f) const override {
+  std::vector<double> startVariables() const override { return variables_.values(a_.data()); }
+  void remember(const double* variables, const ConstDofView& u, double lambda) override {
+    variables_.remember(variables, [&](int b, double* in) { inputs(b, u, lambda, true, in); });
+  }
+  std::vector<double> variablesAt(const ConstDofView& u, double lambda) const override {
+    std::vector<double> room;
+    return variables_.values(dataAt(u, lambda, room));
+  }
+  std::vector<std::vector<double>> variableOrders(const ConstDofView& last, double lastLambda) override {
+    if (variables_.none()) return {};
+    const double* data = seriesData();
+    const SeriesOrder order = variables_.afterLast();
+    forEachBatch("variableOrders", batches(), [&](int b) {
+      const ThreadMemory::Held held(a_.memory());
+      const Scratch s(*this, held);
+      inputs(b, last, lastLambda, false, s.in);
+      a_.law->advance(a_.seriesBatch(b, data), order, {s.in, nullptr}, {s.out, nullptr});
+      variables_.complete(b, order.k - 1, s.out);
+    });
+    return variables_.orders();
+  }
+
+  OwnForces addResidual(const ConstDofView& u, double lambda, const DofView& f) const override {
     std::vector<double> room;
     const double* data = dataAt(u, lambda, room);
-    std::vector<double> squares(batches().count);
+    const int balances = a_.elements.numBalances();
+    std::vector<double> squares(static_cast<std::size_t>(batches().count) * balances);
     forEachBatch("residual", batches(), [&](int b) {
       const ThreadMemory::Held held(a_.memory());
       const Scratch s(*this, held);
       inputs(b, u, lambda, true, s.in);
       a_.law->value(a_.batch(b, data, held.data()), s.in, s.out);
-      a_.elements.addForces(b, s.out, I_, true, zero(s.force));
+      a_.elements.addForces(b, s.out, O_, true, zero(s.force));
       a_.elements.scatter(b, s.force, f.data());
-      squares[b] = a_.elements.squares(b, a_.elements.localDofs(), s.force);
+      a_.elements.squares(b, s.force, &squares[static_cast<std::size_t>(b) * balances]);
     });
-    return sumOf(squares);
+    return sumOf(squares, balances);
   }
 
   void addTangent(const ConstDofView& u, double lambda, const TangentSink& sink) const override {
@@ -84,10 +110,10 @@ class LawTerm final : public Term {
       a_.law->tangent(a_.batch(b, data, held.data()), s.in, s.out, s.jacobian);
       if (seesLoadFactor()) {
         byLoadFactor(s.jacobian, s.out);
-        a_.elements.addForces(b, s.out, I_, true, zero(s.force));
+        a_.elements.addForces(b, s.out, O_, true, zero(s.force));
         a_.elements.scatter(b, s.force, sink.loadDirection.data());
       }
-      a_.elements.addBlocks(b, s.jacobian, I_, a_.shape.inputs, a_.shape.symmetric, {}, sink, s.moduli);
+      a_.elements.addBlocks(b, s.jacobian, O_, a_.shape.inputs, a_.shape.symmetric, {}, sink, s.moduli);
     });
   }
 
@@ -97,6 +123,10 @@ class LawTerm final : public Term {
       const auto data = renewed(u, lambda);
       if (pieces_) pieces_->beginSeries(data);
       seriesData_ = a_.packed(data);
+    }
+    if (!variables_.none()) {
+      dataAt(u, lambda, seriesData_);
+      variables_.beginSeries(seriesData_.data(), maxOrder);
     }
     const double* data = seriesData();
     std::vector<PointFailure> failures(batches().count);
@@ -116,10 +146,17 @@ class LawTerm final : public Term {
       const ThreadMemory::Held held(a_.memory());
       const Scratch s(*this, held);
       if (k > 1) inputs(b, last, lastLambda, false, s.in);
-      a_.law->order(a_.seriesBatch(b, data), order, s.in, s.out);
-      a_.elements.addForces(b, s.out, I_, true, zero(s.force));
+      if (variables_.none()) {
+        a_.law->order(a_.seriesBatch(b, data), order, s.in, s.out);
+      } else {
+        a_.law->advance(a_.seriesBatch(b, data), order, {s.in, nullptr}, {s.jacobian, s.out});
+        if (k > 1) variables_.complete(b, k - 1, s.jacobian);
+        variables_.begin(b, k, s.out);
+      }
+      a_.elements.addForces(b, s.out, O_, true, zero(s.force));
       a_.elements.scatter(b, s.force, f.data());
     });
+    variables_.added(k);
   }
 
   PointPieces* pieces() override { return pieces_.get(); }
@@ -155,9 +192,9 @@ class LawTerm final : public Term {
         : force(t.a_.scratchOf(held)),
           in(force + t.forceDoubles()),
           out(in + t.a_.perBatch(t.a_.shape.inputs)),
-          jacobian(out + t.a_.perBatch(t.I_)),
+          jacobian(out + t.a_.perBatch(t.O_)),
           // With one field they take the place of the derivatives.
-          moduli(t.moduliDoubles_ == 0 ? jacobian : jacobian + t.a_.perBatch(t.I_ * t.a_.shape.inputs)) {}
+          moduli(t.moduliDoubles_ == 0 ? jacobian : jacobian + t.a_.perBatch(t.O_ * t.a_.shape.inputs)) {}
     double *force, *in, *out, *jacobian, *moduli;
   };
   std::size_t forceDoubles() const { return static_cast<std::size_t>(a_.elements.localDofs()) * kLanes; }
@@ -177,7 +214,7 @@ class LawTerm final : public Term {
 
   /// out = -d law/d lambda.
   void byLoadFactor(const double* jacobian, double* out) const {
-    const int rows = a_.elements.numPoints() * I_, J = I_ + 1;
+    const int rows = a_.elements.numPoints() * O_, J = I_ + 1;
     for (int m = 0; m < rows; ++m)
       for (int lane = 0; lane < kLanes; ++lane)
         out[m * kLanes + lane] = -jacobian[(m * J + I_) * kLanes + lane];
@@ -191,18 +228,23 @@ class LawTerm final : public Term {
   }
   /// The packed data at the state; `room` holds them where they are brought up to date.
   const double* dataAt(const ConstDofView& u, double lambda, std::vector<double>& room) const {
+    if (!variables_.none()) {
+      variables_.carry([&](int b, double* in) { inputs(b, u, lambda, true, in); }, room);
+      return room.data();
+    }
     if (!update_) return a_.data();
     room = a_.packed(renewed(u, lambda));
     return room.data();
   }
 
-  const double* seriesData() const { return update_ ? seriesData_.data() : a_.data(); }
+  const double* seriesData() const { return seriesData_.empty() ? a_.data() : seriesData_.data(); }
 
   int numPoints() const { return a_.elements.numEntities() * a_.elements.numPoints(); }
   const Batches& batches() const { return a_.elements.batches(); }
 
   LawArrays a_;
-  int I_;
+  int I_, O_;
+  PointVariables variables_;
   std::size_t moduliDoubles_ = 0;
   DataUpdate update_;
   std::unique_ptr<PointPieces> pieces_;  ///< null: not in pieces

@@ -47,14 +47,14 @@ int PieceTerms::ofPoint(const Entry& entry, int point, const Of& of) const {
   return static_cast<int>(ranks_.sum(told));
 }
 
-std::vector<int> PieceTerms::piecesAt(const Entry& entry, const path::Vector& u, double lambda) const {
-  const auto places = entry.term->places(local_(u), lambda);
+std::vector<int> PieceTerms::piecesAt(const Entry& entry, const path::State& state) const {
+  const auto places = entry.term->places(local_(state), state.lambda);
   const std::size_t stride = entry.pieces->numInputs();
   return ofAllPoints(entry, [&](int p) { return entry.pieces->pieceAt(p, &places[p * stride]); });
 }
 
-int PieceTerms::pieceAt(const Entry& entry, int point, const path::Vector& u, double lambda) const {
-  const auto places = entry.term->places(local_(u), lambda);
+int PieceTerms::pieceAt(const Entry& entry, int point, const path::State& state) const {
+  const auto places = entry.term->places(local_(state), state.lambda);
   const std::size_t stride = entry.pieces->numInputs();
   return ofPoint(entry, point, [&](int p) { return entry.pieces->pieceAt(p, &places[p * stride]); });
 }
@@ -63,7 +63,7 @@ int PieceTerms::pieceOfSeries(const Entry& entry, int point) const {
   return ofPoint(entry, point, [&](int p) { return entry.pieces->pieceOfSeries(p); });
 }
 
-path::ResidualNorm PieceTerms::residualOfSeries(const path::Vector& u, double lambda, path::Vector& r) {
+path::ResidualNorm PieceTerms::residualOfSeries(const path::State& state, path::Vector& r) {
   struct Held {
     const std::vector<Entry>& entries;
     explicit Held(const std::vector<Entry>& e) : entries(e) { set(true); }
@@ -72,29 +72,29 @@ path::ResidualNorm PieceTerms::residualOfSeries(const path::Vector& u, double la
       for (const Entry& entry : entries) entry.pieces->hold(held);
     }
   } held(entries_);
-  return residual_(u, lambda, r);
+  return residual_(state, r);
 }
 
-bool PieceTerms::eventsAstray(const path::Vector& u, double lambda, const std::vector<int>& events) const {
-  return !events_.empty() && events_.astray(local_(u), lambda, events);
+bool PieceTerms::eventsAstray(const path::State& state, const std::vector<int>& events) const {
+  return !events_.empty() && events_.astray(local_(state), state.lambda, events);
 }
 
 /// Where a point's piece is another one at two neighbouring places of some on the series, the border in
 /// between is found by halving, down to rounding.
 std::vector<path::Break> PieceTerms::breaks(const path::Series& series, double end) const {
   constexpr int intervals = 16, mostBetween = 4;
-  path::Vector u(series.coefficient(0).u->getMap());
+  path::State state = series.state(0);
   std::vector<path::Break> found;
   for (const Entry& entry : entries_) {
     const auto pieceOn = [&](double a, int point) {
-      const double lambda = series.evaluate(a, u);
-      return pieceAt(entry, point, u, lambda);
+      state.lambda = series.evaluate(a, *state.u);
+      return pieceAt(entry, point, state);
     };
     auto before = ofAllPoints(entry, [&](int p) { return entry.pieces->pieceOfSeries(p); });
     for (int j = 1; j <= intervals; ++j) {
       const double to = end * j / intervals;
-      const double lambda = series.evaluate(to, u);
-      const auto lasts = piecesAt(entry, u, lambda);
+      state.lambda = series.evaluate(to, *state.u);
+      const auto lasts = piecesAt(entry, state);
       for (std::size_t p = 0; p < before.size(); ++p) {
         if (before[p] == PointPieces::any) continue;  // has no part in the series
         const int last = lasts[p];
@@ -137,13 +137,13 @@ PieceTerms::Place PieceTerms::placeOf(int index) const {
   return {at, local / n, local % n - 1};
 }
 
-bool PieceTerms::continues(const path::Vector& u, double lambda, int index) const {
+bool PieceTerms::continues(const path::State& state, int index) const {
   const Place at = placeOf(index);
   const int own = pieceOfSeries(*at.entry, at.point);
   // High above a crease a point may prefer a piece that it is not over: its place alone decides.
   const auto prefers = [&](int p) { return at.entry->pieces->preferred()[p]; };
   if (own != at.piece && ofPoint(*at.entry, at.point, prefers) == at.piece) return true;
-  return pieceAt(*at.entry, at.point, u, lambda) == own;
+  return pieceAt(*at.entry, at.point, state) == own;
 }
 
 std::string PieceTerms::text(int index) const {
@@ -157,7 +157,7 @@ std::string PieceTerms::text(int index) const {
          " of its tool, where its force would jump: the surface has a crease or a gap there";
 }
 
-void PieceTerms::apply(const std::vector<int>& indices, const path::Vector& u, double lambda) {
+void PieceTerms::apply(const std::vector<int>& indices, const ConstDofView& u, double lambda) {
   for (const int i : indices) {
     if (i < firstIndex_) continue;
     const Place at = placeOf(i);
@@ -166,7 +166,8 @@ void PieceTerms::apply(const std::vector<int>& indices, const path::Vector& u, d
       pieces.toggle(p, at.piece);
       return pieces.preferred()[p];
     });
-    if (prefers != PointPieces::any && eventsAstray(u, lambda, {})) throw std::runtime_error(text(i));
+    if (prefers != PointPieces::any && !events_.empty() && events_.astray(u, lambda, {}))
+      throw std::runtime_error(text(i));
   }
 }
 

@@ -19,22 +19,22 @@ namespace atrapos::fem {
 class PieceTerms final : public path::Pieces {
  public:
   /// A state as the terms of this rank read it, and the problem's residual.
-  using Local = std::function<ConstDofView(const path::Vector&)>;
-  using Residual = std::function<path::ResidualNorm(const path::Vector&, double, path::Vector&)>;
+  using Local = std::function<ConstDofView(const path::State&)>;
+  using Residual = std::function<path::ResidualNorm(const path::State&, path::Vector&)>;
 
   PieceTerms(const std::vector<std::unique_ptr<Term>>& terms, const EventTerms& events,
              const detail::Distribution& ranks, Local local, Residual residual);
 
   bool empty() const { return entries_.empty(); }
 
-  path::ResidualNorm residualOfSeries(const path::Vector& u, double lambda, path::Vector& r) override;
-  bool eventsAstray(const path::Vector& u, double lambda, const std::vector<int>& events) const override;
+  path::ResidualNorm residualOfSeries(const path::State& state, path::Vector& r) override;
+  bool eventsAstray(const path::State& state, const std::vector<int>& events) const override;
   std::vector<path::Break> breaks(const path::Series& series, double end) const override;
-  bool continues(const path::Vector& u, double lambda, int index) const override;
+  bool continues(const path::State& state, int index) const override;
   std::string text(int index) const override;
 
-  /// Applies those of the indices that are breaks at the state (u, lambda).
-  void apply(const std::vector<int>& indices, const path::Vector& u, double lambda);
+  /// Applies those of the indices that are breaks, at a state as the terms of this rank read it.
+  void apply(const std::vector<int>& indices, const ConstDofView& u, double lambda);
 
   /// The pieces that points prefer, term by term.
   std::vector<int> conditions() const;
@@ -58,8 +58,8 @@ class PieceTerms final : public path::Pieces {
   /// What `of` tells of one point, by its number here, where it is of this rank.
   template <class Of>
   int ofPoint(const Entry& entry, int point, const Of& of) const;
-  std::vector<int> piecesAt(const Entry& entry, const path::Vector& u, double lambda) const;
-  int pieceAt(const Entry& entry, int point, const path::Vector& u, double lambda) const;
+  std::vector<int> piecesAt(const Entry& entry, const path::State& state) const;
+  int pieceAt(const Entry& entry, int point, const path::State& state) const;
   int pieceOfSeries(const Entry& entry, int point) const;
 
   const EventTerms& events_;

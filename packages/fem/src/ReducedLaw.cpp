@@ -24,6 +24,7 @@ class ReducedLaw final : public PointLaw {
         !within(r_.outputs, full_.outputs) || r_.condensed >= std::min(full_.inputs, full_.outputs) ||
         (r_.condensed >= 0 && r_.inputs[r_.condensed] >= 0))
       throw std::logic_error("reducedLaw: the reduction does not fit the law");
+    if (full_.variables > 0) throw std::logic_error("reducedLaw: a law with internal variables");
     // The memory that a thread works in is one for all of them.
     if (dynamic_cast<const ReducedLaw*>(law_.get()) != nullptr)
       throw std::logic_error("reducedLaw: the law is a reduced one already");

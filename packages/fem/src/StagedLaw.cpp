@@ -19,6 +19,7 @@ class StagedLaw final : public PointLaw {
           static_cast<int>(stage.data.size()) != s.data || !within(stage.inputs, 0, numWires_) ||
           !within(stage.data, -1, plan_.data))
         throw std::logic_error("stagedLaw: a stage reads what is not there");
+      if (s.variables > 0) throw std::logic_error("stagedLaw: a stage with internal variables");
       numWires_ += s.outputs;
       widest_ = std::max({widest_, s.inputs, s.outputs, s.data});
       largest_ = std::max(largest_, s.inputs * s.outputs);

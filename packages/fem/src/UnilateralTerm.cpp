@@ -98,7 +98,7 @@ class UnilateralTerm final : public EventTerm {
             dofs.firstDof(allNodes_[static_cast<std::size_t>(e) * nodesPerEntity() + numNodes() + m]));
   }
 
-  double addResidual(const ConstDofView& u, double lambda, const DofView& f) const override {
+  OwnForces addResidual(const ConstDofView& u, double lambda, const DofView& f) const override {
     std::vector<double> room;
     const double* data = dataAt(u, lambda, room);
     std::vector<double> squares(batches().count);
@@ -128,7 +128,9 @@ class UnilateralTerm final : public EventTerm {
       scatter(b, s, f);
       squares[b] = sum;
     });
-    return sumOf(squares);
+    OwnForces own(a_.elements.numBalances(), 0.0);
+    own[a_.elements.balance()] = sumOf(squares, 1).front();
+    return own;
   }
 
   void addTangent(const ConstDofView& u, double lambda, const TangentSink& sink) const override {

@@ -123,7 +123,7 @@ TEST(Couplings, EqualNodesAreOneNode) {
   ASSERT_TRUE(seen.inertia);
   EXPECT_EQ(seen.inertia->negative, 0);
   // Reactions balance the load.
-  const auto reactions = second.reactions(*vectorOf(second, seen.u), 1.0);
+  const auto reactions = second.reactions({vectorOf(second, seen.u), 1.0});
   double total = 0;
   for (std::size_t n = 0; n < reactions.size() / 3; ++n) total += reactions[3 * n + 2];
   double load = 0;

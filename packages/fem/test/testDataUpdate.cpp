@@ -70,7 +70,7 @@ class FollowingData : public testing::Test {
   }
 
   Numbers orders(FeProblem& problem, const Numbers& u, const Numbers* between) const {
-    problem.beginSeries(*vectorOf(problem, u), 0, 4);
+    problem.beginSeries({vectorOf(problem, u), 0}, 4);
     if (between) residual(problem, *between, 0);
     auto F = zeroVector(problem);
     for (int k = 1; k <= 4; ++k) {

@@ -118,8 +118,8 @@ TEST(FeProblem, TermsSeeTheLoadFactor) {
   EXPECT_FALSE(problem.term(0).seesLoadFactor());
   const auto state = vectorOf(problem, Numbers(3 * mesh.numNodes(), 0.0));
   EXPECT_DOUBLE_EQ(problem.term(last).observe(field(*state), 3).values.at(0), 0.2 + 9);
-  EXPECT_GT(norm(sum(problem.forces(problem.term(last), *state, 1), -1,
-                     problem.forces(problem.term(last), *state, 2))),
+  EXPECT_GT(norm(sum(problem.forces(problem.term(last), {state, 1}), -1,
+                     problem.forces(problem.term(last), {state, 2}))),
             0.1);
 }
 
@@ -157,7 +157,7 @@ TEST(FeProblem, TermsAddUpAndLoadsAreSubtracted) {
   FeProblem problem(std::move(model));
   EXPECT_EQ(problem.numTerms(), 8);
   const auto got = residual(problem, u, lambda);
-  Numbers reactions = problem.reactions(*vectorOf(problem, u), lambda);
+  Numbers reactions = problem.reactions({vectorOf(problem, u), lambda});
   Numbers difference, reactionError;
   for (std::size_t d = 0; d < u.size(); ++d) {
     const bool loose = d / 3 + 2 >= static_cast<std::size_t>(mesh.numNodes());
@@ -175,7 +175,7 @@ TEST(FeProblem, TermsAddUpAndLoadsAreSubtracted) {
   EXPECT_LT(norm(reactionError), rounding);
   // All rows count, those of the supports that this random u violates as well.
   EXPECT_NEAR(got.norm.norm, norm(got.r), 1e-13 * norm(got.r));
-  EXPECT_LT(norm(sum(problem.forces(problem.term(7), *vectorOf(problem, u), 0), -1, central)), rounding);
+  EXPECT_LT(norm(sum(problem.forces(problem.term(7), {vectorOf(problem, u), 0}), -1, central)), rounding);
 }
 
 TEST(FeProblem, TangentIsSymmetricWhereAllLawsAre) {
@@ -263,7 +263,7 @@ TEST(FeProblem, ReactionsBalanceTheLoads) {
     Equilibrium state{FeProblem::values(*problem.initialState(0.0)), {}};
     for (int i = 0; i <= 5; ++i) state = equilibrium(problem, 0.2 * i * lambda, state.u);
     const Numbers forces =
-        sum(sum(problem.reactions(*vectorOf(problem, state.u), lambda), 1, constant), lambda, load);
+        sum(sum(problem.reactions({vectorOf(problem, state.u), lambda}), 1, constant), lambda, load);
     const Numbers x = sum(mesh.coordinates, 1, state.u);
     double force[3] = {}, moment[3] = {};
     for (int n = 0; n < mesh.numNodes(); ++n)
@@ -308,7 +308,7 @@ TEST(FeProblem, ScaleIsTheLargestOfTheForces) {
   EXPECT_DOUBLE_EQ(residual(problem, u, 0.0).norm.scale, norm(constant));
   EXPECT_DOUBLE_EQ(residual(problem, u, 100.0).norm.scale, norm(sum(constant, 100.0, load)));
   u = randomNumbers(u.size(), 0.3, 4);
-  const Numbers internal = problem.forces(problem.term(0), *vectorOf(problem, u), 0);
+  const Numbers internal = problem.forces(problem.term(0), {vectorOf(problem, u), 0});
   EXPECT_GT(norm(internal), norm(constant));
   EXPECT_DOUBLE_EQ(residual(problem, u, 0.0).norm.scale, norm(internal));
 }
@@ -334,7 +334,7 @@ TEST(FeProblem, ScaleCountsWhatCancelsAtTheNodes) {
   FeProblem problem(std::move(model));
   const double scale = residual(problem, u, 0.0).norm.scale;
   EXPECT_NEAR(scale, std::sqrt(squares), 1e-13 * scale);  // rounding of sums of some hundred terms
-  EXPECT_LT(norm(problem.forces(problem.term(0), *vectorOf(problem, u), 0)),
+  EXPECT_LT(norm(problem.forces(problem.term(0), {vectorOf(problem, u), 0})),
             0.7 * scale);  // 0.60: the end faces are left
 }
 

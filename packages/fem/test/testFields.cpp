@@ -1,6 +1,7 @@
 // Problems of several fields with different nodes and shape functions.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -38,6 +39,21 @@ TEST(Fields, APotentialHasASymmetricTangent) {
   };
   EXPECT_LT(asymmetry(heatedModel<1>(body())), 1e-14);
   EXPECT_GT(asymmetry(heatedModel<3>(body())), 1e-4);
+}
+
+// Newtons and watts do not add: heat that is out of balance counts as such beside forces of any size.
+TEST(Fields, EveryBalanceHasItsOwnScale) {
+  FeModel model = heatedModel<1>(body());
+  EXPECT_EQ(model.dofs.balances(), (std::vector<std::string>{"forces", "temperature"}));
+  std::fill(model.constantLoad.begin(), model.constantLoad.end(), 0.0);
+  for (int d = 0; d < model.dofs.numDofs(); ++d) {
+    const bool heat = model.dofs.addressOf(d).field == 1;
+    // The supports bear the forces.
+    model.load[d] = heat ? 1.0 : model.supports.fixed(d) ? 1e6 : 0.0;
+  }
+  FeProblem problem(std::move(model));
+  const Numbers u = FeProblem::values(*problem.initialState(1));
+  EXPECT_GT(residual(problem, u, 1).norm.relative(), 0.1);  // of the forces it would be 1e-6
 }
 
 // Fields that a model does not have cost nothing: as many unknowns as nodes have components.

@@ -63,8 +63,8 @@ void compareEverything(const std::function<FeModel()>& make) {
 
   // Orders with any coefficients: no solver between them.
   const int order = 8;
-  both.shared.beginSeries(*vectorOf(both.shared, u), lambda, order);
-  both.whole.beginSeries(*vectorOf(both.whole, u), lambda, order);
+  both.shared.beginSeries({vectorOf(both.shared, u), lambda}, order);
+  both.whole.beginSeries({vectorOf(both.whole, u), lambda}, order);
   auto F = zeroVector(both.shared), F1 = zeroVector(both.whole);
   for (int k = 1; k <= order; ++k) {
     both.shared.orderRhs(k, *F);
@@ -78,11 +78,12 @@ void compareEverything(const std::function<FeModel()>& make) {
   }
 
   const auto state = vectorOf(both.shared, u), state1 = vectorOf(both.whole, u);
-  expectEqual(both.shared.reactions(*state, lambda), both.whole.reactions(*state1, lambda), "reactions");
+  expectEqual(both.shared.reactions({state, lambda}), both.whole.reactions({state1, lambda}), "reactions");
   for (int t = 0; t < both.shared.numTerms(); ++t) {
-    expectEqual(both.shared.forces(both.shared.term(t), *state, lambda),
-                both.whole.forces(both.whole.term(t), *state1, lambda), "forces");
-    const auto seen = both.shared.observe(t, *state, lambda), seen1 = both.whole.observe(t, *state1, lambda);
+    expectEqual(both.shared.forces(both.shared.term(t), {state, lambda}),
+                both.whole.forces(both.whole.term(t), {state1, lambda}), "forces");
+    const auto seen = both.shared.observe(t, {state, lambda}),
+               seen1 = both.whole.observe(t, {state1, lambda});
     EXPECT_EQ(seen.names, seen1.names);
     if (!seen1.names.empty()) expectEqual(seen.values, seen1.values, "observed values");
   }
@@ -294,7 +295,7 @@ TEST(Ranks, ErrorOfOneIsThrownOnAll) {
     return model;
   });
   const auto message = [](FeProblem& problem) {
-    return whatIsThrown([&] { problem.beginSeries(*problem.initialState(0), 0, 5); });
+    return whatIsThrown([&] { problem.beginSeries({problem.initialState(0), 0}, 5); });
   };
   const std::string expected = message(both.whole);
   EXPECT_NE(expected, "nothing");

@@ -46,7 +46,7 @@ TEST(Series, HistoriesStartAfresh) {
   const Numbers u1 = randomNumbers(3 * mesh.numNodes(), 0.02, 1),
                 u2 = randomNumbers(3 * mesh.numNodes(), 0.02, 2);
   const auto orderThree = [&](FeProblem& problem, const Numbers& u, int maxOrder) {
-    problem.beginSeries(*vectorOf(problem, u), 0, maxOrder);
+    problem.beginSeries({vectorOf(problem, u), 0}, maxOrder);
     auto F = zeroVector(problem);
     for (int k = 1; k <= 3; ++k) {
       problem.orderRhs(k, *F);

@@ -36,8 +36,8 @@ Numbers everything() {
     const Residual r = residual(problem, u, 0.3);
     append(r.r);
     append({r.norm.norm, r.norm.scale});
-    append(problem.reactions(*vectorOf(problem, u), 0.3));
-    problem.beginSeries(*vectorOf(problem, u), 0.3, 5);
+    append(problem.reactions({vectorOf(problem, u), 0.3}));
+    problem.beginSeries({vectorOf(problem, u), 0.3}, 5);
     auto F = zeroVector(problem);
     for (int k = 1; k <= 5; ++k) {
       problem.orderRhs(k, *F);

@@ -266,7 +266,6 @@ void BranchFollower::goOn(BranchProgress& progress, BranchObserver& observer) {
       branch.direction.x.u->scale(-1);
       branch.direction.lambda *= -1;
     }
-    if (!point.conditions.empty()) problem_.setConditions(point.conditions);
     const Switched switched = switchBranch(problem_, solver_, options_, point, branch.direction, weight);
     diagram.switchFactorizations += switched.factorizations;
     if (!switched.state)

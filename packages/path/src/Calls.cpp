@@ -35,12 +35,12 @@ void solverCall(Call call) {
 
 ResidualNorm Calls::residual(const State& state, Vector& r) {
   Stopwatch watch(work_.seconds.residual);
-  return problemCall([&] { return problem_.residual(*state.u, state.lambda, r); });
+  return problemCall([&] { return problem_.residual(state, r); });
 }
 
 RCP<const CrsMatrix> Calls::tangent(const State& state, Vector& F) {
   Stopwatch watch(work_.seconds.tangent);
-  return problemCall([&] { return problem_.tangent(*state.u, state.lambda, F); });
+  return problemCall([&] { return problem_.tangent(state, F); });
 }
 
 void Calls::factor(const State& state, Vector& F) { factor(tangent(state, F)); }
@@ -77,7 +77,7 @@ void Calls::solveTransposed(const Vector& b, Vector& x) {
 
 void Calls::beginSeries(const State& state, int maxOrder) {
   Stopwatch watch(work_.seconds.orderRhs);
-  problemCall([&] { problem_.beginSeries(*state.u, state.lambda, maxOrder); });
+  problemCall([&] { problem_.beginSeries(state, maxOrder); });
 }
 
 void Calls::orderRhs(int k, Vector& Fk) {
@@ -109,25 +109,32 @@ std::vector<double> Calls::eventOrder(int k) {
   return g;
 }
 
-void Calls::applyEvent(const std::vector<int>& indices, const State& state) {
-  problemCall([&] { problem_.applyEvent(indices, *state.u, state.lambda); });
+State Calls::afterEvent(const std::vector<int>& indices, const State& state) {
+  return problemCall([&] { return problem_.afterEvent(indices, state); });
 }
 
-void Calls::setConditions(const std::vector<int>& conditions) {
-  problemCall([&] { problem_.setConditions(conditions); });
+std::vector<std::vector<double>> Calls::memoryOrders() {
+  Stopwatch watch(work_.seconds.orderRhs);
+  return problemCall([&] { return problem_.memoryOrders(); });
+}
+
+State Calls::settled(const State& state) {
+  if (!problem_.remembers()) return state;
+  Stopwatch watch(work_.seconds.residual);
+  return problemCall([&] { return problem_.settled(state); });
 }
 
 std::vector<int> Calls::eventsAt(const State& start) {
-  return problemCall([&] { return problem_.eventsAt(*start.u, start.lambda); });
+  return problemCall([&] { return problem_.eventsAt(start); });
 }
 
 ResidualNorm Calls::residualOfSeries(const State& state, Vector& r) {
   Stopwatch watch(work_.seconds.residual);
-  return problemCall([&] { return problem_.pieces()->residualOfSeries(*state.u, state.lambda, r); });
+  return problemCall([&] { return problem_.pieces()->residualOfSeries(state, r); });
 }
 
 bool Calls::eventsAstray(const State& state, const std::vector<int>& events) {
-  return problemCall([&] { return problem_.pieces()->eventsAstray(*state.u, state.lambda, events); });
+  return problemCall([&] { return problem_.pieces()->eventsAstray(state, events); });
 }
 
 std::vector<Break> Calls::breaks(const Series& series, double end) {
@@ -135,7 +142,7 @@ std::vector<Break> Calls::breaks(const Series& series, double end) {
 }
 
 bool Calls::continues(const State& state, int index) {
-  return problemCall([&] { return problem_.pieces()->continues(*state.u, state.lambda, index); });
+  return problemCall([&] { return problem_.pieces()->continues(state, index); });
 }
 
 std::string Calls::breakText(int index) const { return problem_.pieces()->text(index); }

@@ -81,8 +81,7 @@ void Search::search() {
   if (left_ > 0 && search_.signChanges > 0 && budget() > 0) {
     // The series at the step's end does not see the whole step; that in its middle reaches both ends.
     const double L = search_.length;
-    State middle{calls_.newVector(), 0};
-    middle.lambda = search_.series.evaluate(0.5 * L, *middle.u);
+    State middle = search_.series.state(0.5 * L);
     auto F = calls_.newVector();
     ++found_.factorizations;
     calls_.factor(middle, *F);
@@ -119,8 +118,7 @@ void Search::lookAtLimitPoints() {
   if (search_.certain == 0 || !calls_.problem().symmetric()) return;
   for (const LimitPoint& limit : search_.limits) {
     if (left_ <= 0 || !limit.smooth) return;
-    State state{calls_.newVector(), 0};
-    state.lambda = search_.series.evaluate(limit.a, *state.u);
+    State state = search_.series.state(limit.a);
     auto F = calls_.newVector();
     calls_.tangent(state, *F);
     const auto t = search_.series.tangent(limit.a);

@@ -37,11 +37,11 @@ struct CriticalSearch {
   int signChanges = 1;
   int certain = 0;  ///< of these, how many the count of negative eigenvalues proves
   double residualBound = 1e-6;
-  std::vector<ModeSample> samples;  ///< eigenvalues followed, at both ends of the step; may be empty
-  std::vector<LimitPoint> limits;   ///< of the load, in the step: an eigenvalue vanishes there too
+  std::vector<ModeSample> samples = {};  ///< eigenvalues followed, at both ends of the step; may be empty
+  std::vector<LimitPoint> limits = {};   ///< of the load, in the step: an eigenvalue vanishes there too
   int watchedModes = 0;
-  std::vector<CountedPlace> counts;  ///< at both ends of the step; empty where inertia does not tell
-  std::function<void(int found, int wanted)> tell;  ///< Observer::onSearch; may be empty
+  std::vector<CountedPlace> counts = {};  ///< at both ends of the step; empty where inertia does not tell
+  std::function<void(int found, int wanted)> tell = {};  ///< Observer::onSearch; may be empty
 };
 
 /// Where the eigenvalues followed vanish other than at limit points of lambda.

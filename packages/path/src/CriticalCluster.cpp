@@ -60,8 +60,7 @@ NearNull nearNull(Calls& calls, const CriticalSearch& search, double guess, cons
     x.push_back(calls.newVector());
     fillUnsymmetric(*x.back(), i + 1);
   }
-  State state{calls.newVector(), 0};
-  state.lambda = search.series.evaluate(guess, *state.u);
+  State state = search.series.state(guess);
   auto F = calls.newVector();
   calls.factor(state, *F);
   inverseIterations(calls, x);
@@ -115,8 +114,7 @@ bool multipleAt(Calls& calls, const CriticalSearch& search, double a, const std:
                 double uncertainty, CriticalPoint& point) {
   point.nullity = static_cast<int>(vectors.size());
   point.nullVectors = vectors;
-  State state{calls.newVector(), 0};
-  state.lambda = search.series.evaluate(a, *state.u);
+  State state = search.series.state(a);
   auto r = calls.newVector();
   point.residual = calls.residual(state, *r).relative();
   if (point.residual > search.residualBound) return false;

@@ -54,8 +54,7 @@ bool refineSimple(Calls& calls, const CriticalSearch& search, double guess, cons
   const double w = search.series.weight();
   std::optional<ExtendedSystem> system;
   system.emplace(calls, search, nullGuess);
-  State state{calls.newVector(), 0};
-  state.lambda = search.series.evaluate(guess, *state.u);
+  State state = search.series.state(guess);
   double a = guess, moved = search.length;
   // Newton goes on until its corrections no longer fall. One of `accepted` of the step confirms; where they
   // stop falling above that, what is left is the rounding of the tangent over the eigenvalue's rate, and the
@@ -77,7 +76,7 @@ bool refineSimple(Calls& calls, const CriticalSearch& search, double guess, cons
       if (error.reason() != EndReason::singularTangent) throw;
       // Hit exactly: a little aside the tangent can be factored, and Newton comes back.
       a += 1e-4 * search.length;
-      state.lambda = search.series.evaluate(a, *state.u);
+      state = search.series.state(a);
       continue;
     }
     double last = search.length;
@@ -94,8 +93,7 @@ bool refineSimple(Calls& calls, const CriticalSearch& search, double guess, cons
     done = moved <= (stagnates ? ofRounding : accepted) * search.length;
     if (!done && frozen) {  // too far off: as if it had not been tried
       a = guess;
-      state.u = calls.newVector();
-      state.lambda = search.series.evaluate(guess, *state.u);
+      state = search.series.state(guess);
       system.emplace(calls, search, nullGuess);
       continue;
     }
@@ -126,7 +124,7 @@ bool refineSimple(Calls& calls, const CriticalSearch& search, double guess, cons
   if (along[0] < 0) scale(tangents[0], -1);
 
   point.a = std::clamp(position, 0.0, search.length);
-  point.state = state;
+  point.state = calls.settled(state);
   point.uncertainty = moved / search.length;
   for (const auto& x : tangents) {
     PathTangent tangent;

@@ -130,7 +130,7 @@ bool ExtendedSystem::iterate(State& state, double& moved) {
   if (!std::isfinite(moved)) return false;
   auto u = Teuchos::rcp(new Vector(*state.u, Teuchos::Copy));
   u->update(1, *dx.u, 1);
-  state = {u, state.lambda + dx.lambda};
+  state = state.at(u, state.lambda + dx.lambda);
   return true;
 }
 

@@ -18,20 +18,18 @@ class ImperfectPieces final : public Pieces {
  public:
   ImperfectPieces(Pieces& perfect, RCP<const Vector> force) : perfect_(perfect), force_(std::move(force)) {}
 
-  ResidualNorm residualOfSeries(const Vector& u, double lambda, Vector& r) override {
-    ResidualNorm size = perfect_.residualOfSeries(u, lambda, r);
+  ResidualNorm residualOfSeries(const State& state, Vector& r) override {
+    ResidualNorm size = perfect_.residualOfSeries(state, r);
     addForce(*force_, r, size);
     return size;
   }
-  bool eventsAstray(const Vector& u, double lambda, const std::vector<int>& events) const override {
-    return perfect_.eventsAstray(u, lambda, events);
+  bool eventsAstray(const State& state, const std::vector<int>& events) const override {
+    return perfect_.eventsAstray(state, events);
   }
   std::vector<Break> breaks(const Series& series, double end) const override {
     return perfect_.breaks(series, end);
   }
-  bool continues(const Vector& u, double lambda, int index) const override {
-    return perfect_.continues(u, lambda, index);
-  }
+  bool continues(const State& state, int index) const override { return perfect_.continues(state, index); }
   std::string text(int index) const override { return perfect_.text(index); }
 
  private:
@@ -50,15 +48,15 @@ ImperfectProblem::ImperfectProblem(Problem& perfect, RCP<const Vector> force)
 
 ImperfectProblem::~ImperfectProblem() = default;
 
-ResidualNorm ImperfectProblem::residual(const Vector& u, double lambda, Vector& r) {
-  ResidualNorm size = perfect_.residual(u, lambda, r);
+ResidualNorm ImperfectProblem::residual(const State& state, Vector& r) {
+  ResidualNorm size = perfect_.residual(state, r);
   addForce(*force_, r, size);
   return size;
 }
 
 RCP<Vector> forceOfShape(Problem& problem, const State& state, const Vector& d) {
   Vector F(problem.map());
-  const auto K = problem.tangent(*state.u, state.lambda, F);
+  const auto K = problem.tangent(state, F);
   auto f = Teuchos::rcp(new Vector(problem.map()));
   K->apply(d, *f);
   return f;

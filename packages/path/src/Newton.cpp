@@ -30,9 +30,9 @@ NewtonResult newton(Calls& calls, State& state, Vector& residual, const Border& 
   NewtonResult result;
   result.residual = calls.residual(state, residual).relative();
   auto F = calls.newVector(), x1 = calls.newVector(), x2 = calls.newVector(), r = calls.newVector();
-  State trial{calls.newVector(), 0};
+  State trial = state.at(calls.newVector(), 0);
   // The state before a whole step that raised the residual, which the next one has to make good; none: null.
-  State before{linear::RCP<Vector>(), 0};
+  State before;
   double toBeat = 0;
   bool mayRise = maxHalvings > 0;
   const auto goBack = [&] {
@@ -90,7 +90,7 @@ NewtonResult newton(Calls& calls, State& state, Vector& residual, const Border& 
       continue;
     }
     if (!(value < result.residual) && mayRise && std::isfinite(value)) {
-      before = {linear::rcp(new Vector(*state.u, Teuchos::Copy)), state.lambda};
+      before = state.copy();
       toBeat = result.residual;
       accept(value);
       continue;
@@ -124,7 +124,8 @@ NewtonResult newtonAtHand(Calls& calls, State& state, Vector& residual, const RC
     calls.solve(residual, *x);
     const double dLambda = border.c(x) / (border.c(Uhat) + border.cLambda);
     x->update(dLambda, *Uhat, -1);
-    State trial{linear::rcp(new Vector(*state.u, Teuchos::Copy)), state.lambda + dLambda};
+    State trial = state.copy();
+    trial.lambda += dLambda;
     trial.u->update(1, *x, 1);
     const double value = calls.residual(trial, *r).relative();
     helps = value <= 0.5 * result.residual;

@@ -33,12 +33,13 @@ bool NewtonRun::end(EndReason reason, std::string text) {
 }
 
 void NewtonRun::follow(const Start& start) {
-  outcome_.final = {copy(*start.state.u), start.state.lambda};
+  outcome_.final = start.state.copy();
   outcome_.steps = start.steps;
   outcome_.pathLength = start.pathLength;
   length_ = start.length > 0 ? start.length : options_.firstStep;
   first_ = !start.tangent;
   try {
+    outcome_.final = calls_.settled(outcome_.final);
     equilibrate();
     startTangent(start);
     while (step()) {
@@ -49,7 +50,7 @@ void NewtonRun::follow(const Start& start) {
 }
 
 void NewtonRun::equilibrate() {
-  State state{copy(*outcome_.final.u), outcome_.final.lambda};
+  State state = outcome_.final.copy();
   auto r = calls_.newVector();
   constexpr int maxHalvings = 10;
   const auto result =
@@ -61,7 +62,7 @@ void NewtonRun::equilibrate() {
     throw PathError(EndReason::startNotInEquilibrium,
                     line("no equilibrium found at the start, lambda = ", state.lambda, ": ", result.trouble,
                          " (relative residual ", result.residual, ')'));
-  outcome_.final = state;
+  outcome_.final = calls_.settled(state);
 }
 
 void NewtonRun::startTangent(const Start& start) {
@@ -124,7 +125,7 @@ bool NewtonRun::needsExactTangent(const Trial& trial, double cosine) const {
 double NewtonRun::distanceInTheMiddle(const Series& series, double s) {
   const Augmented x = evaluate(series, 0.5 * s, calls_);
   auto r = calls_.newVector();
-  calls_.residual({x.u, x.lambda}, *r);
+  calls_.residual(outcome_.final.at(x.u, x.lambda), *r);
   r->scale(-1);
   const Augmented d = corrector_.solve(*r, tangent_, weight_);
   return std::sqrt(corrector_.dot(d, d, weight_));
@@ -133,7 +134,7 @@ double NewtonRun::distanceInTheMiddle(const Series& series, double s) {
 NewtonRun::Trial NewtonRun::tryLength(double s) {
   Trial trial;
   trial.s = s;
-  trial.state = {copy(*outcome_.final.u), outcome_.final.lambda + s * tangent_.lambda};
+  trial.state = outcome_.final.at(copy(*outcome_.final.u), outcome_.final.lambda + s * tangent_.lambda);
   trial.state.u->update(s, *tangent_.u, 1);
   trial.r = calls_.newVector();
   trial.newton = corrector_.correct(trial.state, *trial.r, tangent_, weight_, s);
@@ -183,7 +184,7 @@ double NewtonRun::nextLength(const Trial& trial, double cosine) const {
 
 bool NewtonRun::correctAtStop(const StopHit& stop, const Series& series, Trial& trial, int& iterations) {
   Augmented x = evaluate(series, stop.a, calls_);
-  trial.state = {x.u, x.lambda};
+  trial.state = outcome_.final.at(x.u, x.lambda);
   Border border = holdPathParameter(calls_.problem(), weight_, series.tangent(stop.a));
   if (stop.kind == StopHit::Kind::loadFactor) border = holdLoad();
   if (stop.kind == StopHit::Kind::functional) border = holdFunctional(stops_.functionals[stop.index].weights);
@@ -237,6 +238,7 @@ bool NewtonRun::step() {
 }
 
 bool NewtonRun::accept(Trial& trial, Series& series, StepReport& report) {
+  trial.state = calls_.settled(trial.state);
   report.step = ++outcome_.steps;
   report.order = series.order();
   report.lambdaStart = outcome_.final.lambda;

@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "atrapos/path/Problem.hpp"
 #include "atrapos/path/Series.hpp"
 
 namespace atrapos::path {

@@ -53,7 +53,7 @@ bool Run::end(EndReason reason, std::string text) {
 }
 
 void Run::follow(const Start& start) {
-  outcome_.final = {copy(*start.state.u), start.state.lambda};
+  outcome_.final = start.state.copy();
   outcome_.steps = start.steps;
   outcome_.pathLength = start.pathLength;
   r_ = calls_.newVector();
@@ -69,7 +69,7 @@ void Run::follow(const Start& start) {
   counted_ = start.expectedNegative;
   for (const auto& e : start.eigenvalues) modes_.push_back({e.vector, e.value, e.rate});
   try {
-    if (!start.conditions.empty()) calls_.setConditions(start.conditions);
+    outcome_.final = calls_.settled(outcome_.final);
     equilibrate();
     if (!tangent_ && applied_.empty()) due_ = calls_.eventsAt(outcome_.final);
     if (!start.stop.empty() && stops_.have(start.stop))
@@ -127,6 +127,7 @@ bool Run::step() {
 
 /// The step's end becomes the state; the observer sees it later.
 void Run::accept(Trial trial, StepReport report, Series series) {
+  trial.state = calls_.settled(trial.state);
   report.length = trial.a;
   report.residual = trial.residual;
   report.lambdaEnd = trial.state.lambda;
@@ -197,7 +198,6 @@ Start Run::here() const {
   next.length = lastLength_;
   next.events = applied_;
   next.due = due_;
-  next.conditions = calls_.problem().conditions();
   next.order = order_;
   next.padeFailures = padeFailures_;
   next.padeWait = padeWait_;

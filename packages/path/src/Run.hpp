@@ -135,6 +135,7 @@ class Run {
   std::optional<Trial> padeTrial(Series& series, StepReport& report);
   Trial polynomialTrial(const Series& series, StepReport& report);
   void evaluate(const Series& series, Trial& trial);
+  double rateDefect(const Series& series, const Trial& trial);
   bool astray(const Trial& trial);
   bool endAtBreak(const Series& series, Trial& trial);
   double startPart(double a) const;

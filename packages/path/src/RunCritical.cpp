@@ -35,7 +35,7 @@ bool Run::sharpenState(const Series& series) {
   const auto& problem = calls_.problem();
   const Border border = holdPathParameter(problem, series.weight(), *tangent_);
   auto F = calls_.newVector(), x1 = calls_.newVector(), x2 = calls_.newVector();
-  State state{copy(*outcome_.final.u), outcome_.final.lambda};
+  State state = outcome_.final.copy();
   auto r = copy(*r_);
   double residual = residual_;
   constexpr int maxIterations = 5;
@@ -53,7 +53,7 @@ bool Run::sharpenState(const Series& series) {
         const double seen = series.norm(series.order()) * std::pow(std::abs(*pole), series.order());
         if (!(std::sqrt(problem.inner(e, e)) > share * seen)) return false;
       }
-      State trial{copy(*state.u), state.lambda + dLambda};
+      State trial = state.at(copy(*state.u), state.lambda + dLambda);
       trial.u->update(1, *x1, 1);
       auto left = calls_.newVector();
       const double now = calls_.residual(trial, *left).relative();
@@ -68,7 +68,7 @@ bool Run::sharpenState(const Series& series) {
   }
   constexpr double useful = 0.1;  // the displacement falls as the residual does
   if (!(residual < useful * residual_)) return false;
-  outcome_.final = pending_->end = state;
+  outcome_.final = pending_->end = calls_.settled(state);
   pending_->lambdaEnd = state.lambda;
   residual_ = pending_->residual = residual;
   r_ = r;
@@ -105,6 +105,7 @@ void Run::clean(Series& series) {
     const double norm = std::sqrt(problem.inner(x, x));
     cleaned.append(std::move(x), series.lambdaCoefficient(k) - c * response.lambdaCoefficient(k), norm);
   }
+  cleaned.takeMemory(series);
   const double longer = cleaned.radius(options_.delta);
   if (!(longer > gains * radius)) return;
   // A real imperfection is larger than the bound and cannot be taken out.
@@ -199,7 +200,6 @@ void Run::explainStability(StepReport& report, const EndTangent& end) {
   report.criticalPoints = std::move(found.points);
   for (auto& point : report.criticalPoints) {
     point.stepLength = report.length;
-    point.conditions = calls_.problem().conditions();
     if (point.kind == CriticalKind::multiple)
       point.negativeChange = after.negative > before.negative ? point.nullity : -point.nullity;
   }

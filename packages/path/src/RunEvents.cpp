@@ -116,8 +116,7 @@ std::vector<int> Run::falling(const Series& series, const std::vector<int>& cand
     }
     if (place.state.u.is_null()) {
       const double a = sense * ahead * (std::isfinite(reach) ? reach : lastLength_);
-      place.state.u = calls_.newVector();
-      place.state.lambda = series.evaluate(a, *place.state.u);
+      place.state = series.state(a);
     }
     if (!calls_.continues(place.state, i)) violated.push_back(i);
   }
@@ -147,7 +146,7 @@ bool Run::passJump() {
   const Border border = along ? holdPathParameter(calls_.problem(), *weight_, *tangent_) : holdLoad();
   for (const double ahead : {0.0, 1e-4, 1e-3}) {
     if (ahead > 0 && !along) break;
-    State state{copy(*outcome_.final.u), outcome_.final.lambda};
+    State state = outcome_.final.copy();
     if (ahead > 0) {
       state.u->update(ahead * lastLength_, *tangent_->x.u, 1);
       state.lambda += ahead * lastLength_ * tangent_->lambda;
@@ -159,7 +158,7 @@ bool Run::passJump() {
     if (!result.converged) continue;
     if (passesStop(outcome_.final, state)) return false;
     jump_ = residual_;
-    outcome_.final = state;
+    outcome_.final = calls_.settled(state);
     r_ = r;
     residual_ = result.residual;
     return true;
@@ -204,13 +203,13 @@ void Run::correctBehindEvents() {
   constexpr int maxIterations = 10;
   double best = residual_;
   for (const Border& border : borders) {
-    State state{copy(*outcome_.final.u), outcome_.final.lambda};
+    State state = outcome_.final.copy();
     auto r = calls_.newVector();
     const double residual =
         newtonAtHand(calls_, state, *r, Uhat, border, correctAbove(), maxIterations).residual;
     best = std::min(best, residual);
     if (residual > bound() || passesStop(outcome_.final, state)) continue;
-    outcome_.final = state;
+    outcome_.final = calls_.settled(state);
     r_ = r;
     residual_ = residual;
     return;
@@ -231,9 +230,7 @@ Series Run::seriesAfterEvents(StepReport& report) {
   std::swap(due, due_);
   if (due.size() > 1) {
     // Not quite together: where the state does not solve the changed Problem, the others come next.
-    calls_.applyEvent(due, outcome_.final);
-    const double residual = calls_.residual(outcome_.final, *r_).relative();
-    calls_.applyEvent(due, outcome_.final);
+    const double residual = calls_.residual(calls_.afterEvent(due, outcome_.final), *r_).relative();
     if (!(residual <= std::max(bound(), 2 * residual_))) due.resize(1);
   }
   std::set<int> zero(applied_.begin(), applied_.end());
@@ -261,11 +258,8 @@ Series Run::seriesAfterEvents(StepReport& report) {
     Choice& choice = at->second;
     if (!isNew) return choice;
     const State before = outcome_.final;
-    const auto undo = [&] {
-      outcome_.final = before;
-      calls_.applyEvent(chosen, before);
-    };
-    calls_.applyEvent(chosen, before);
+    const auto undo = [&] { outcome_.final = before; };
+    outcome_.final = calls_.afterEvent(chosen, before);
     try {
       const Series series = seriesOfChoice(candidates, chosen);
       for (int s = 0; s < senses && !found; ++s) {

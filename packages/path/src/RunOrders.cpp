@@ -70,8 +70,10 @@ Series Run::seriesTo(SeriesRequest request, const std::vector<int>& zero) {
   request.previous = tangent_ ? &*tangent_ : nullptr;
   // The sense that a break allows is told further ahead than its next end may be.
   const auto known = [&](int i) { return !isBreak(i); };
-  NearEnd end{leastOrder};
-  if (options_.fewerOrders && std::all_of(zero.begin(), zero.end(), known))
+  NearEnd end;
+  end.nextLook = leastOrder;
+  // What a state remembers is known when the series is whole.
+  if (options_.fewerOrders && !calls_.problem().remembers() && std::all_of(zero.begin(), zero.end(), known))
     request.enough = [&](const Series& soFar) {
       return soFar.order() >= end.nextLook && reachesEnd(soFar, zero, end);
     };

@@ -69,7 +69,7 @@ void Run::startAside(const PathError& cause) {
                                          "; the path cannot start here", why));
   };
   if (!mechanism_.empty()) giveUp(", nor next to it: " + mechanism_);
-  State state{copy(*outcome_.final.u), outcome_.final.lambda};
+  State state = outcome_.final.copy();
   auto F = calls_.newVector(), phi = calls_.newVector();
   const auto K = calls_.tangent(state, *F);
   fillUnsymmetric(*phi, 1);
@@ -121,7 +121,7 @@ void Run::startAside(const PathError& cause) {
   outcome_.startIterations += found.iterations;
   if (!found.converged) giveUp(", and no equilibrium is found next to it; " + mechanism_);
   ++outcome_.restarts;  // the factorization that failed
-  outcome_.final = state;
+  outcome_.final = calls_.settled(state);
   residual_ = found.residual;
 }
 

@@ -9,7 +9,7 @@
 namespace atrapos::path {
 
 void Run::equilibrate() {
-  State state{copy(*outcome_.final.u), outcome_.final.lambda};
+  State state = outcome_.final.copy();
   residual_ = calls_.residual(state, *r_).relative();
   if (!std::isfinite(residual_))
     throw PathError(EndReason::notFinite, "the residual at the start is not finite");
@@ -23,7 +23,7 @@ void Run::equilibrate() {
                     line("no equilibrium found at the start, lambda = ", state.lambda, ": ", result.trouble,
                          " (relative residual ", result.residual, ')'));
   residual_ = result.residual;
-  outcome_.final = state;
+  outcome_.final = calls_.settled(state);
 }
 
 /// The direction at a step's end, once by the derivative of the series that led there and once by the tangent
@@ -117,11 +117,11 @@ void Run::polishEnd(const RCP<Vector>& Uhat) {
   calls_.solve(*r_, *x);
   const double dLambda = border.c(x) / (border.c(Uhat) + border.cLambda);
   x->update(dLambda, *Uhat, -1);
-  State state{copy(*outcome_.final.u), outcome_.final.lambda + dLambda};
+  State state = outcome_.final.at(copy(*outcome_.final.u), outcome_.final.lambda + dLambda);
   state.u->update(1, *x, 1);
   const double residual = calls_.residual(state, *r_).relative();
   if (!(residual < residual_)) return;
-  outcome_.final = pending_->end = state;
+  outcome_.final = pending_->end = calls_.settled(state);
   pending_->lambdaEnd = state.lambda;
   residual_ = pending_->residual = residual;
 }

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 
+#include <Tpetra_CrsMatrix.hpp>
 #include <Tpetra_Vector.hpp>
 
 #include "Newton.hpp"
@@ -29,12 +30,26 @@ double Run::firstLength(double radius) const {
 }
 
 void Run::evaluate(const Series& series, Trial& trial) {
-  trial.state.u = calls_.newVector();
-  trial.state.lambda = series.evaluate(trial.a, *trial.state.u);
+  trial.state = series.state(trial.a);
   if (trial.stop && trial.stop->kind == StopHit::Kind::loadFactor)  // but for the rounding of the root
     trial.state.lambda = stops_.loadFactors[trial.stop->index];
   trial.r = calls_.newVector();
-  trial.residual = calls_.residual(trial.state, *trial.r).relative();
+  const ResidualNorm size = calls_.residual(trial.state, *trial.r);
+  trial.residual = size.relative();
+  if (calls_.problem().remembers())
+    trial.residual = std::max(trial.residual, rateDefect(series, trial) / size.scale);
+}
+
+/// The forces of what the orders leave out of the internal variables. Equilibrium alone does not tell: the
+/// truncated series may be in balance with one another. But K_T is made of the rates that the variables have
+/// at the state, so K_T u' - F lambda' is the force of the difference between these rates and the series'
+/// own, (K + 1) / a times that of the remainder.
+double Run::rateDefect(const Series& series, const Trial& trial) {
+  const PathTangent rate = series.tangent(trial.a);
+  auto F = calls_.newVector(), defect = calls_.newVector();
+  calls_.tangent(trial.state, *F)->apply(*rate.x.u, *defect);
+  defect->update(-rate.lambda, *F, 1);
+  return defect->norm2() * std::abs(trial.a) / (series.order() + 1);
 }
 
 /// Whether event functions at the trial's end are those of another piece than the state lies on.

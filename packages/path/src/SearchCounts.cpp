@@ -128,8 +128,7 @@ std::vector<Search::Zero> Search::zerosSeenFrom(const Place& place, double from,
 /// is singular, there and a little aside.
 bool Search::count(double a, int modes, Place& place) {
   for (const double at : {a, a + 0.37 * aside() * search_.length}) {
-    State state{calls_.newVector(), 0};
-    state.lambda = search_.series.evaluate(at, *state.u);
+    State state = search_.series.state(at);
     auto F = calls_.newVector();
     ++found_.factorizations;
     try {

@@ -58,8 +58,7 @@ void Search::followZeros() {
 /// The eigenvalues followed at a, which the solver holds the factorization of afterwards.
 void Search::sample(double a, std::vector<ModeSample>& samples) {
   a -= aside() * search_.length;
-  State state{calls_.newVector(), 0};
-  state.lambda = search_.series.evaluate(a, *state.u);
+  State state = search_.series.state(a);
   auto F = calls_.newVector();
   ++found_.factorizations;
   calls_.factor(state, *F);

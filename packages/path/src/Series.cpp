@@ -10,7 +10,7 @@
 
 namespace atrapos::path {
 
-Series::Series(const State& start, double weight) : weight_(weight) {
+Series::Series(const State& start, double weight) : weight_(weight), memory_(start.memory) {
   auto u = Teuchos::rcp(new Vector(start.u->getMap(), false));
   Tpetra::deep_copy(*u, *start.u);
   x_.push_back({u, {}});
@@ -38,6 +38,8 @@ Series Series::reversed() const {
     for (double& y : s.x_[k].internal) y = -y;
     s.lambda_[k] = -lambda_[k];
     for (auto& g : s.events_) g[k] = -g[k];
+    if (!s.variables_.empty())
+      for (double& z : s.variables_[k]) z = -z;
   }
   return s;
 }
@@ -51,6 +53,29 @@ double Series::evaluate(double a, Vector& u) const {
     for (int k = order(); k >= 0; --k) u.update(1, *x_[k].u, a);
   }
   return lambda(a);
+}
+
+State Series::state(double a) const {
+  State state{Teuchos::rcp(new Vector(x_[0].u->getMap(), false)), 0, memory_};
+  state.lambda = evaluate(a, *state.u);
+  if (variables_.empty()) return state;
+  auto memory = memory_ ? std::make_shared<Memory>(*memory_) : std::make_shared<Memory>();
+  memory->u = Teuchos::rcp(new Vector(*state.u, Teuchos::Copy));
+  memory->lambda = state.lambda;
+  memory->variables.assign(variables_[0].size(), 0.0);
+  const auto c = weights(a);
+  for (std::size_t k = c.size(); k-- > 0;)
+    for (std::size_t i = 0; i < memory->variables.size(); ++i)
+      memory->variables[i] += c[k] * variables_[k][i];
+  state.memory = std::move(memory);
+  return state;
+}
+
+std::vector<double> Series::weights(double a) const {
+  if (form_) return form_->weights(a);
+  std::vector<double> c(order() + 1, 1.0);
+  for (int k = 1; k <= order(); ++k) c[k] = c[k - 1] * a;
+  return c;
 }
 
 std::vector<double> Series::derivativeWeights(double a) const {

@@ -90,6 +90,7 @@ Series buildSeries(Calls& calls, const State& start, const SeriesRequest& reques
     series.appendEvents(calls.eventOrder(k));
     if (k < request.order && request.enough && request.enough(series)) break;
   }
+  series.setMemory(calls.memoryOrders());
   return series;
 }
 

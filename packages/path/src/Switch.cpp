@@ -51,7 +51,7 @@ Switched switchBranch(Problem& problem, linear::TangentSolver& solver, const Opt
   const double usual = 1e-2 * point.stepLength;
   const double first = std::max(usual, leastDistance(calls, point, direction, tolerance));
   for (const double s : {first, first > usual ? usual : 0.1 * usual}) {
-    State state{Teuchos::rcp(new Vector(*point.state.u, Teuchos::Copy)), point.state.lambda};
+    State state = point.state.copy();
     state.u->update(s, *direction.x.u, 1);
     state.lambda += s * direction.lambda;
     double residual = calls.residual(state, *r).relative();
@@ -67,7 +67,7 @@ Switched switchBranch(Problem& problem, linear::TangentSolver& solver, const Opt
         const double dLambda = border.c(x1) / (border.c(x2) + border.cLambda);
         trial->update(1, *state.u, -1, *x1, 0);
         trial->update(dLambda, *x2, 1);
-        const double now = calls.residual({trial, state.lambda + dLambda}, *r).relative();
+        const double now = calls.residual(state.at(trial, state.lambda + dLambda), *r).relative();
         if (!(now < 0.5 * residual)) break;
         residual = now;
         std::swap(state.u, trial);
@@ -84,7 +84,7 @@ Switched switchBranch(Problem& problem, linear::TangentSolver& solver, const Opt
     const double cosine = dot(gap, t, weight) / std::sqrt(dot(gap, gap, weight) * dot(t, t, weight));
     constexpr double sameDirection = 0.9;
     if (!(cosine > sameDirection)) continue;
-    result.state = state;
+    result.state = calls.settled(state);
     result.inertia = calls.inertia();
     if (!problem.symmetric() && options.watchedModes > 0)
       if (const auto unstable = countUnstable(calls, options.watchedModes + 1))

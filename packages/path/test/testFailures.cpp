@@ -153,9 +153,9 @@ TEST(Failures, NotANumberInAnOrder) {
 TEST(Failures, BoundThatCannotBeMet) {
   struct Wrong : JetProblem<StvkBar> {
     using JetProblem::JetProblem;
-    ResidualNorm residual(const Vector& u, double lambda, Vector& r) override {
-      auto n = JetProblem::residual(u, lambda, r);
-      if (lambda != 0) n.norm += 1e-3;
+    ResidualNorm residual(const State& state, Vector& r) override {
+      auto n = JetProblem::residual(state, r);
+      if (state.lambda != 0) n.norm += 1e-3;
       return n;
     }
   };
@@ -171,9 +171,9 @@ TEST(Failures, BoundThatCannotBeMet) {
 TEST(Failures, ProblemAndSolverExceptionsBecomeReasons) {
   struct Throws : JetProblem<StvkBar> {
     using JetProblem::JetProblem;
-    ResidualNorm residual(const Vector& u, double lambda, Vector& r) override {
+    ResidualNorm residual(const State& state, Vector& r) override {
       if (residuals > 4) throw std::runtime_error("element 12 is turned inside out");
-      return JetProblem::residual(u, lambda, r);
+      return JetProblem::residual(state, r);
     }
   };
   Throws problem{StvkBar{}};

@@ -140,7 +140,7 @@ TEST(Observer, ReadsAnyStateWithoutASolve) {
       auto u = Teuchos::rcp(new Vector(problem.map())), r = Teuchos::rcp(new Vector(problem.map()));
       for (const double part : {0.1, 0.77}) {
         const double lambda = series.evaluate(part * report.length, *u);
-        worst = std::max(worst, problem.residual(*u, lambda, *r).relative());
+        worst = std::max(worst, problem.residual({u, lambda}, *r).relative());
       }
       solves += solver.counters().solves - before;
       return true;

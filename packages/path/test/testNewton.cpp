@@ -115,7 +115,7 @@ TEST(Newton, DenseOutputIsOfFourthOrder) {
       EXPECT_EQ(f.record.steps.at(0).length, f.record.steps.at(0).radius);
       auto u = f.problem.vector({}), r = f.problem.vector({});
       const double lambda = f.record.series.at(0).evaluate(0.5 * f.record.steps.at(0).length, *u);
-      return f.problem.residual(*u, lambda, *r).norm;
+      return f.problem.residual({u, lambda}, *r).norm;
     };
     EXPECT_NEAR(order(inside, 0.0625), 4, 0.3) << static_cast<int>(kind);  // next power, as above
   }
@@ -139,7 +139,7 @@ TEST(Newton, AccuracyIsKeptInsideSteps) {
           auto u = f.problem.vector({}), r = f.problem.vector({});
           const double lambda = f.record.series[i].evaluate(f.record.steps[i].length * j / 20, *u);
           // |dlambda| at fixed u bounds the distance from above.
-          worst = std::max(worst, f.problem.residual(*u, lambda, *r).norm);
+          worst = std::max(worst, f.problem.residual({u, lambda}, *r).norm);
         }
       EXPECT_LE(worst, 2 * options.accuracy);    // lambda alone is further away than the nearest point
       EXPECT_GE(worst, options.accuracy / 100);  // and no effort is wasted
@@ -409,9 +409,9 @@ TEST(Newton, EndsWithAReason) {
   struct Throws : JetProblem<TrussOnSpring> {
     using JetProblem::JetProblem;
     int calls = 0;
-    Teuchos::RCP<const CrsMatrix> tangent(const Vector& u, double lambda, Vector& F) override {
+    Teuchos::RCP<const CrsMatrix> tangent(const State& state, Vector& F) override {
       if (++calls > 3) throw std::runtime_error("element 7 is inverted");
-      return JetProblem::tangent(u, lambda, F);
+      return JetProblem::tangent(state, F);
     }
   } throws(law);
   NewtonOptions coarse;

@@ -41,24 +41,26 @@ class TwoSpringsProblem final : public JetProblem<TwoSprings>, public Pieces {
   using JetProblem::JetProblem;
 
   Pieces* pieces() override { return this; }
-  void applyEvent(const std::vector<int>& indices, const Vector&, double) override {
-    for (const int i : indices) law_.preferred = law_.preferred == i ? -1 : i;
-  }
-  std::vector<int> conditions() const override { return {law_.preferred}; }
-  void setConditions(const std::vector<int>& conditions) override { law_.preferred = conditions.at(0); }
-
-  void beginSeries(const Vector& u, double lambda, int maxOrder) override {
-    JetProblem::beginSeries(u, lambda, maxOrder);
-    ofSeries_ = law_.pieceAt(u.getData()[0]);
+  State afterEvent(const std::vector<int>& indices, const State& state) override {
+    auto memory = std::make_shared<Memory>();
+    int preferred = state.memory ? state.memory->conditions[0] : -1;
+    for (const int i : indices) preferred = preferred == i ? -1 : i;
+    memory->conditions = {preferred};
+    return {state.u, state.lambda, memory};
   }
 
-  ResidualNorm residualOfSeries(const Vector& u, double lambda, Vector& r) override {
+  void beginSeries(const State& state, int maxOrder) override {
+    JetProblem::beginSeries(state, maxOrder);
+    ofSeries_ = law_.pieceAt(state.u->getData()[0]);
+  }
+
+  ResidualNorm residualOfSeries(const State& state, Vector& r) override {
     law_.held = ofSeries_;
-    const auto result = residual(u, lambda, r);
+    const auto result = residual(state, r);
     law_.held = -1;
     return result;
   }
-  bool eventsAstray(const Vector&, double, const std::vector<int>&) const override { return false; }
+  bool eventsAstray(const State&, const std::vector<int>&) const override { return false; }
   std::vector<Break> breaks(const Series& series, double end) const override {
     auto u = vector({});
     const auto pieceAt = [&](double a) {
@@ -75,12 +77,17 @@ class TwoSpringsProblem final : public JetProblem<TwoSprings>, public Pieces {
     TwoSpringsProblem other(*this);
     other.law_.held = piece;
     auto r = vector({});
-    return other.residual(*state.u, state.lambda, *r).relative();
+    return other.residual(state, *r).relative();
   }
-  bool continues(const Vector& u, double, int) const override {
-    return law_.pieceOf(u.getData()[0]) == ofSeries_;
+  bool continues(const State& state, int) const override {
+    return law_.pieceOf(state.u->getData()[0]) == ofSeries_;
   }
   std::string text(int index) const override { return "the force jumps at piece " + std::to_string(index); }
+
+ protected:
+  void remember(const State& state) override {
+    law_.preferred = state.memory ? state.memory->conditions[0] : -1;
+  }
 
  private:
   int ofSeries_ = 0;

@@ -59,7 +59,7 @@ TEST(Series, ResidualFallsLikeThePowerOfTheOrder) {
     auto u = truss.problem.vector({}), r = truss.problem.vector({});
     const auto residualAt = [&](double a) {
       const double lambda = s.evaluate(a, *u);
-      return truss.problem.residual(*u, lambda, *r).norm;
+      return truss.problem.residual({u, lambda}, *r).norm;
     };
     // Small against the radius (about 0.9), large enough for a residual above rounding at order 8.
     const double a = 0.1;
@@ -135,7 +135,7 @@ TEST(Series, DerivativeMatchesDifference) {
 TEST(Series, TakesTheStartsResidualToZero) {
   Built<TrussOnSpring> truss(TrussOnSpring{});
   auto r = truss.problem.vector({}), u = truss.problem.vector({1e-5, 0});
-  truss.problem.residual(*u, 0, *r);
+  truss.problem.residual({u, 0}, *r);
   SeriesRequest request;
   request.residual = r.get();
   request.relaxOver = 0.1;
@@ -144,7 +144,7 @@ TEST(Series, TakesTheStartsResidualToZero) {
   for (const double a : {0.025, 0.05, 0.1}) {
     const double lambda = s.evaluate(a, *u);
     // The truncation at a = 0.1 of a series with radius about 0.3 is (1/3)^21 = 1e-10.
-    EXPECT_NEAR(truss.problem.residual(*u, lambda, *r).norm, r0 * (1 - a / 0.1), 1e-9) << a;
+    EXPECT_NEAR(truss.problem.residual({u, lambda}, *r).norm, r0 * (1 - a / 0.1), 1e-9) << a;
   }
   EXPECT_GT(r0, 1e-6);
 }

@@ -28,7 +28,7 @@ std::unique_ptr<linear::TangentSolver> mumps() {
 template <class Law>
 int unstable(JetProblem<Law>& problem, const State& state) {
   auto F = problem.vector({});
-  const auto K = problem.tangent(*state.u, state.lambda, *F);
+  const auto K = problem.tangent(state, *F);
   const int n = problem.law().size();
   std::vector<double> A(n * n, 0.0), real(n), imaginary(n), work(4 * n);
   for (int i = 0; i < n; ++i) {

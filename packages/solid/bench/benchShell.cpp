@@ -69,13 +69,13 @@ void measure(const Case& c) {
   stops.loadFactors = {1};
   const ShellPath path = followPath(problem, stops);
   const double error = std::abs(-atLoad(path, 1, {c.tipDof}).u[0] - deflection) / deflection;
-  const auto& u = *path.outcome.final.u;
+  const path::State& state = path.outcome.final;
   auto F = fem::test::zeroVector(problem);
   double tangent = 1e9, orders = 1e9;
   for (int i = 0; i < repeats; ++i) {
-    tangent = std::min(tangent, seconds([&] { problem.tangent(u, 1, *F); }));
+    tangent = std::min(tangent, seconds([&] { problem.tangent(state, *F); }));
     orders = std::min(orders, seconds([&] {
-                        problem.beginSeries(u, 1, order);
+                        problem.beginSeries(state, order);
                         for (int k = 1; k <= order; ++k) {
                           problem.orderRhs(k, *F);
                           problem.completeOrder(k, *path.series.back().coefficient(k).u, 0);

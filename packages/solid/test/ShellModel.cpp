@@ -19,7 +19,7 @@ std::unique_ptr<fem::Term> shellTerm(const ShellGrid& grid, const SaintVenantKir
 
 Numbers linearSolution(fem::FeProblem& problem) {
   auto F = fem::test::zeroVector(problem), u = fem::test::zeroVector(problem);
-  const auto K = problem.tangent(*fem::test::zeroVector(problem), 0, *F);
+  const auto K = problem.tangent({fem::test::zeroVector(problem), 0}, *F);
   linear::TangentSolverOptions options;
   options.symmetric = problem.symmetric();
   const auto solver = linear::makeTangentSolver(options);

@@ -26,7 +26,7 @@ fem::SideSet allFaces(const fem::Mesh& mesh) {
 Numbers loadOf(const fem::FeProblem& problem, const Numbers& u, double lambda) {
   Numbers sum(u.size(), 0.0);
   for (int t = 1; t < problem.numTerms(); ++t) {
-    const Numbers f = problem.forces(problem.term(t), *vectorOf(problem, u), lambda);
+    const Numbers f = problem.forces(problem.term(t), {vectorOf(problem, u), lambda});
     for (std::size_t d = 0; d < sum.size(); ++d) sum[d] -= f[d];
   }
   return sum;

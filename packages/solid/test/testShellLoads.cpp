@@ -54,7 +54,7 @@ struct Loaded {
 
 /// -1 times the term's forces: the load on the body.
 Numbers loadOf(const fem::FeProblem& problem, int term, const Numbers& u, double lambda) {
-  Numbers f = problem.forces(problem.term(term), *vectorOf(problem, u), lambda);
+  Numbers f = problem.forces(problem.term(term), {vectorOf(problem, u), lambda});
   for (double& x : f) x = -x;
   return f;
 }

@@ -142,7 +142,7 @@ TYPED_TEST(ShellOrders, HistoriesStartAfresh) {
   const fem::FeModel model = curvedModel(make<TypeParam>());
   const Numbers u1 = randomState(model, 0.02, 1), u2 = randomState(model, 0.02, 2);
   const auto orderThree = [&](fem::FeProblem& problem, const Numbers& u, int maxOrder) {
-    problem.beginSeries(*vectorOf(problem, u), 0, maxOrder);
+    problem.beginSeries({vectorOf(problem, u), 0}, maxOrder);
     auto F = zeroVector(problem);
     for (int k = 1; k <= 3; ++k) {
       problem.orderRhs(k, *F);
@@ -176,7 +176,7 @@ TEST(ShellOrdersFailure, APointWithoutSeriesIsNamed) {
   const Numbers u(3 * 2 * grid.numNodes(), 0.0);
   EXPECT_EQ(residual(problem, u, 0).norm.norm, 0.0);
   try {
-    problem.beginSeries(*vectorOf(problem, u), 0, 3);
+    problem.beginSeries({vectorOf(problem, u), 0}, 3);
     FAIL() << "a series of |x| at 0";
   } catch (const taylor::DomainError& error) {
     EXPECT_STREQ(error.what(), "entity 1, point 1: abs of 0: its argument must not vanish");
@@ -194,7 +194,7 @@ TEST(ShellOrdersFailure, AStateOutsideTheLawsDomainIsNamed) {
   const auto r = residual(problem, u, 0);
   EXPECT_TRUE(std::isnan(r.norm.norm));
   try {
-    problem.beginSeries(*vectorOf(problem, u), 0, 3);
+    problem.beginSeries({vectorOf(problem, u), 0}, 3);
     FAIL() << "a series from a state without enhanced strain";
   } catch (const taylor::DomainError& error) {
     EXPECT_EQ(std::string(error.what()).find("element 1: the material is unstable in the enhanced strain"),

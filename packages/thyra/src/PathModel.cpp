@@ -41,8 +41,8 @@ struct PathModel::Impl {
     }
     ++counters.tangents;
     K = Teuchos::null;
-    K = problem.tangent(u, lambda, *F);
     Tpetra::deep_copy(*at, u);
+    K = problem.tangent({at, lambda}, *F);
     atLambda = lambda;
   }
 };
@@ -129,7 +129,8 @@ void PathModel::evalModelImpl(const Base::InArgs<double>& in, const Base::OutArg
   const double lambda = in.get_p(0).is_null() ? impl_->startLambda : ::Thyra::get_ele(*in.get_p(0), 0);
   if (const RCP<::Thyra::VectorBase<double>> f = out.get_f(); !f.is_null()) {
     ++impl_->counters.residuals;
-    impl_->residual = impl_->problem.residual(*u, lambda, *Extraction::getTpetraVector(f));
+    impl_->residual = impl_->problem.residual({rcp(new Vector(*u, Teuchos::Copy)), lambda},
+                                              *Extraction::getTpetraVector(f));
   }
   const auto W = out.get_W_op();
   const auto DfDp = out.get_DfDp(0).getMultiVector();

@@ -48,8 +48,8 @@ TEST(PathModel, GivesWhatTheProblemGives) {
   EXPECT_EQ(model.counters().tangents, 1);  // the start is where the graph was made
 
   const auto u = same.vector({0.3, 0.7}), r = same.vector({}), F = same.vector({}), Kx = same.vector({});
-  const auto norm = same.residual(*u, 0.2, *r);
-  const auto K = same.tangent(*u, 0.2, *F);
+  const auto norm = same.residual({u, 0.2}, *r);
+  const auto K = same.tangent({u, 0.2}, *F);
   const auto x = ::Thyra::createMember(*model.get_x_space()), y = ::Thyra::createMember(*model.get_f_space());
   Tpetra::deep_copy(*Extraction::getTpetraVector(x), *same.vector({1, -2}));
   K->apply(*same.vector({1, -2}), *Kx);

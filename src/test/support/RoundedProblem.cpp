@@ -34,8 +34,8 @@ void RoundedProblem::multiply(path::Vector& x) {
   for (int i = 0; i < values.size(); ++i) values[i] *= 1 + noise(i);
 }
 
-path::ResidualNorm RoundedProblem::residual(const path::Vector& u, double lambda, path::Vector& r) {
-  path::ResidualNorm norm = exact_.residual(u, lambda, r);
+path::ResidualNorm RoundedProblem::residual(const path::State& state, path::Vector& r) {
+  path::ResidualNorm norm = exact_.residual(state, r);
   ++calls_;
   {
     const double part = norm.scale / std::sqrt(static_cast<double>(r.getGlobalLength()));
@@ -46,9 +46,8 @@ path::ResidualNorm RoundedProblem::residual(const path::Vector& u, double lambda
   return norm;
 }
 
-path::RCP<const path::CrsMatrix> RoundedProblem::tangent(const path::Vector& u, double lambda,
-                                                         path::Vector& F) {
-  const auto exact = exact_.tangent(u, lambda, F);
+path::RCP<const path::CrsMatrix> RoundedProblem::tangent(const path::State& state, path::Vector& F) {
+  const auto exact = exact_.tangent(state, F);
   multiply(F);
   ++calls_;
   const auto K = Teuchos::rcp(new path::CrsMatrix(*exact, Teuchos::Copy));

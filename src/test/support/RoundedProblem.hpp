@@ -15,11 +15,9 @@ class RoundedProblem final : public path::Problem {
 
   path::RCP<const path::Map> map() const override { return exact_.map(); }
   bool symmetric() const override { return exact_.symmetric(); }
-  path::ResidualNorm residual(const path::Vector& u, double lambda, path::Vector& r) override;
-  path::RCP<const path::CrsMatrix> tangent(const path::Vector& u, double lambda, path::Vector& F) override;
-  void beginSeries(const path::Vector& u, double lambda, int maxOrder) override {
-    exact_.beginSeries(u, lambda, maxOrder);
-  }
+  path::ResidualNorm residual(const path::State& state, path::Vector& r) override;
+  path::RCP<const path::CrsMatrix> tangent(const path::State& state, path::Vector& F) override;
+  void beginSeries(const path::State& state, int maxOrder) override { exact_.beginSeries(state, maxOrder); }
   void orderRhs(int k, path::Vector& Fk) override;
   void completeOrder(int k, const path::Vector& Uk, double lambdaK) override {
     exact_.completeOrder(k, Uk, lambdaK);
@@ -30,14 +28,13 @@ class RoundedProblem final : public path::Problem {
   }
   int eventCount() const override { return exact_.eventCount(); }
   void eventOrder(int k, std::vector<double>& g) const override { exact_.eventOrder(k, g); }
-  std::vector<int> eventsAt(const path::Vector& u, double lambda) const override {
-    return exact_.eventsAt(u, lambda);
+  bool remembers() const override { return exact_.remembers(); }
+  std::vector<std::vector<double>> memoryOrders() override { return exact_.memoryOrders(); }
+  path::State settled(const path::State& state) override { return exact_.settled(state); }
+  std::vector<int> eventsAt(const path::State& state) override { return exact_.eventsAt(state); }
+  path::State afterEvent(const std::vector<int>& indices, const path::State& state) override {
+    return exact_.afterEvent(indices, state);
   }
-  void applyEvent(const std::vector<int>& indices, const path::Vector& u, double lambda) override {
-    exact_.applyEvent(indices, u, lambda);
-  }
-  std::vector<int> conditions() const override { return exact_.conditions(); }
-  void setConditions(const std::vector<int>& conditions) override { exact_.setConditions(conditions); }
   path::Pieces* pieces() override { return exact_.pieces(); }
   int constraintPivots() const override { return exact_.constraintPivots(); }
   double inner(const path::Increment& x, const path::Increment& y) const override {

@@ -37,8 +37,8 @@ double distanceToPath(path::Problem& problem, linear::TangentSolver& solver,
     return std::sqrt(inner(moved, moved) + dl * dl);
   };
   for (int i = 0; i < 30; ++i) {
-    problem.residual(*u, lambda, *r);
-    const auto K = problem.tangent(*u, lambda, *F);
+    problem.residual({u, lambda}, *r);
+    const auto K = problem.tangent({u, lambda}, *F);
     solver.factor(K);
     r->scale(-1);
     solver.solve(*r, *x);

@@ -124,7 +124,7 @@ class Bench {
     if (samples && outcome.reason == path::EndReason::stopReached) {
       if (!judged_) {  // the judge's factorizations are nobody's cost
         path::Vector F(case_.problem->map());
-        judge_->analyze(case_.problem->tangent(*start().u, 0, F));
+        judge_->analyze(case_.problem->tangent({start().u, 0}, F));
         judged_ = true;
       }
       try {

@@ -55,7 +55,7 @@ double since(Clock::time_point start) { return std::chrono::duration<double>(Clo
 /// Seconds of the contact terms in the orders of one series: their share of the sums, on their own, on the
 /// rank that takes longest.
 double contactSeconds(Scene& scene, int order) {
-  const fem::ConstDofView u = scene.problem().onRank(*scene.problem().initialState(0.0));
+  const fem::ConstDofView u = scene.problem().onRank({scene.problem().initialState(0.0), 0.0});
   const fem::DofView force("force", u.size()), coefficient("coefficient", u.size());
   // Any coefficients do: the work does not depend on them.
   Kokkos::deep_copy(coefficient, 1e-6);

@@ -59,8 +59,8 @@ struct Column {
   }
   /// Force of the plane on the column, from the assembled contact term (whose forces are minus those on the
   /// body).
-  double assembledForce(const path::Vector& u) const {
-    return -resultant(problem->forces(problem->term(1), u, 0))[2];
+  double assembledForce(const path::State& state) const {
+    return -resultant(problem->forces(problem->term(1), state))[2];
   }
 };
 

@@ -109,9 +109,9 @@ inline std::array<double, 3> moment(const fem::Mesh& mesh, const Numbers& u, con
 }
 
 /// Column `name` of a term's point values, in the order of the points.
-inline Numbers observed(const fem::FeProblem& problem, int term, const path::Vector& u,
+inline Numbers observed(const fem::FeProblem& problem, int term, const path::State& state,
                         const std::string& name) {
-  const fem::PointValues values = problem.term(term).observe(fem::field(u), 0);
+  const fem::PointValues values = problem.observe(term, state);
   const auto at = std::find(values.names.begin(), values.names.end(), name);
   if (at == values.names.end()) throw std::logic_error("observed: no " + name);
   Numbers column;

@@ -17,12 +17,15 @@ using fem::test::Numbers;
 /// K v - rate F of the tangent at (u, lambda) against central differences of the residual, whose error must
 /// fall by 4 with every halving of the step: from `step` three times.
 inline void expectDerivative(fem::FeProblem& problem, const fem::test::Tangent& K, const Numbers& u,
-                             double lambda, const Numbers& v, double rate, double step) {
+                             double lambda, const Numbers& v, double rate, double step,
+                             const fem::test::Memory& memory = nullptr) {
   const Numbers exact = fem::test::sum(K.times(v), -rate, K.F);
   double before = 0;
   for (int i = 0; i < 4; ++i, step /= 2) {
-    const Numbers plus = fem::test::residual(problem, fem::test::sum(u, step, v), lambda + rate * step).r;
-    const Numbers minus = fem::test::residual(problem, fem::test::sum(u, -step, v), lambda - rate * step).r;
+    const Numbers plus =
+        fem::test::residual(problem, fem::test::sum(u, step, v), lambda + rate * step, memory).r;
+    const Numbers minus =
+        fem::test::residual(problem, fem::test::sum(u, -step, v), lambda - rate * step, memory).r;
     Numbers error = fem::test::sum(plus, -1, minus);
     for (std::size_t d = 0; d < error.size(); ++d) error[d] = error[d] / (2 * step) - exact[d];
     const double now = fem::test::norm(error);
@@ -38,12 +41,9 @@ inline void expectDerivative(fem::FeProblem& problem, const fem::test::Tangent& 
 /// The relative residual along a series of this order at an equilibrium falls as a^(order + 1). Returns an a
 /// where it is 1e-6: high above rounding, inside the radius.
 inline double expectOrder(fem::FeProblem& problem, const path::Series& series, int order) {
-  auto v = fem::test::zeroVector(problem), r = fem::test::zeroVector(problem);
+  auto r = fem::test::zeroVector(problem);
   double a = 1e-3, size = 0;
-  const auto at = [&](double length) {
-    const double lambda = series.evaluate(length, *v);
-    return problem.residual(*v, lambda, *r).relative();
-  };
+  const auto at = [&](double length) { return problem.residual(series.state(length), *r).relative(); };
   for (int i = 0; i < 60 && (size = at(a)) > 1e-6; ++i) a *= 0.8;
   for (int i = 0; i < 60 && (size = at(a)) < 1e-6; ++i) a *= 1.1;
   const double half = at(a / 2);
@@ -57,15 +57,16 @@ inline double expectOrder(fem::FeProblem& problem, const path::Series& series, i
 /// are the multipliers of active conditions, unknowns behind the `bodyDofs` of the body, and the gaps of free
 /// ones, gapsOf(what term 1 shows at its points).
 template <class GapsOf>
-void expectEventFunctions(fem::FeProblem& problem, const Numbers& u, double lambda, std::size_t bodyDofs,
-                          const GapsOf& gapsOf) {
+void expectEventFunctions(fem::FeProblem& problem, const Numbers& u, double lambda,
+                          const fem::test::Memory& memory, std::size_t bodyDofs, const GapsOf& gapsOf) {
   const auto solver = linear::makeTangentSolver();
   path::Calls calls(problem, *solver);
-  const auto conditions = problem.conditions();
+  const path::State start{fem::test::vectorOf(problem, u), lambda, memory};
+  const auto conditions = problem.conditionsAt(start);
   for (const int order : {2, 5, 8}) {
     path::SeriesRequest request;
     request.order = order;
-    const auto series = path::buildSeries(calls, {fem::test::vectorOf(problem, u), lambda}, request);
+    const auto series = path::buildSeries(calls, start, request);
     const double a = expectOrder(problem, series, order);
     auto v = fem::test::zeroVector(problem);
     const double lambdaThere = series.evaluate(a, *v);

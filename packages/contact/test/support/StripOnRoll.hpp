@@ -76,7 +76,7 @@ struct StripOnRoll {
 
   /// Force on the strip at every station in the state u, from the contact term's pressures.
   Numbers stationForces(const fem::FeProblem& problem, const Numbers& u) const {
-    const Numbers R = observed(problem, 1, *fem::test::vectorOf(problem, u), "contact_pressure");
+    const Numbers R = observed(problem, 1, {fem::test::vectorOf(problem, u), 0}, "contact_pressure");
     Numbers forces(stations, 0.0);
     for (std::size_t i = 0; i < R.size(); ++i) forces[station[i]] += points.weights[i] * R[i];
     return forces;

@@ -28,10 +28,10 @@ linear::RCP<path::Vector> vectorOf(const path::Problem& problem, const Numbers& 
   return vector;
 }
 
-Residual residual(path::Problem& problem, const Numbers& u, double lambda) {
+Residual residual(path::Problem& problem, const Numbers& u, double lambda, const Memory& memory) {
   auto r = zeroVector(problem);
   Residual result;
-  result.norm = problem.residual(*vectorOf(problem, u), lambda, *r);
+  result.norm = problem.residual({vectorOf(problem, u), lambda, memory}, *r);
   result.r = FeProblem::values(*r);
   return result;
 }
@@ -49,16 +49,17 @@ double Tangent::at(int row, int col) const {
   return 0;
 }
 
-TangentTimes tangentTimes(path::Problem& problem, const Numbers& u, double lambda, const Numbers& x) {
+TangentTimes tangentTimes(path::Problem& problem, const Numbers& u, double lambda, const Numbers& x,
+                          const Memory& memory) {
   auto F = zeroVector(problem), y = zeroVector(problem);
-  const auto K = problem.tangent(*vectorOf(problem, u), lambda, *F);
+  const auto K = problem.tangent({vectorOf(problem, u), lambda, memory}, *F);
   K->apply(*vectorOf(problem, x), *y);
   return {FeProblem::values(*y), FeProblem::values(*F)};
 }
 
-Tangent tangent(path::Problem& problem, const Numbers& u, double lambda) {
+Tangent tangent(path::Problem& problem, const Numbers& u, double lambda, const Memory& memory) {
   auto F = zeroVector(problem);
-  const auto K = problem.tangent(*vectorOf(problem, u), lambda, *F);
+  const auto K = problem.tangent({vectorOf(problem, u), lambda, memory}, *F);
   Tangent result;
   result.F = FeProblem::values(*F);
   const auto local = K->getLocalMatrixHost();
@@ -70,15 +71,16 @@ Tangent tangent(path::Problem& problem, const Numbers& u, double lambda) {
   return result;
 }
 
-Equilibrium equilibrium(path::Problem& problem, double lambda, Numbers start, double tolerance) {
+Equilibrium equilibrium(path::Problem& problem, double lambda, Numbers start, double tolerance,
+                        const Memory& memory) {
   linear::TangentSolverOptions options;
   options.symmetric = problem.symmetric();
   const auto solver = linear::makeTangentSolver(options);
   auto u = vectorOf(problem, start);
   auto F = zeroVector(problem), r = zeroVector(problem), change = zeroVector(problem);
   for (int iteration = 0; iteration < 20; ++iteration) {
-    const auto K = problem.tangent(*u, lambda, *F);
-    problem.residual(*u, lambda, *r);
+    const auto K = problem.tangent({u, lambda, memory}, *F);
+    problem.residual({u, lambda, memory}, *r);
     if (iteration == 0) solver->analyze(K);
     solver->factor(K);
     solver->solve(*r, *change);

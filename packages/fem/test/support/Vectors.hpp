@@ -20,13 +20,16 @@ struct Residual {
   Numbers r;
   path::ResidualNorm norm;
 };
-Residual residual(path::Problem& problem, const Numbers& u, double lambda);
+/// At the state (u, lambda) with this memory, null: as the problem starts.
+using Memory = std::shared_ptr<const path::Memory>;
+Residual residual(path::Problem& problem, const Numbers& u, double lambda, const Memory& memory = nullptr);
 
 /// K x and F = -dR/dlambda, on any number of ranks.
 struct TangentTimes {
   Numbers Kx, F;
 };
-TangentTimes tangentTimes(path::Problem& problem, const Numbers& u, double lambda, const Numbers& x);
+TangentTimes tangentTimes(path::Problem& problem, const Numbers& u, double lambda, const Numbers& x,
+                          const Memory& memory = nullptr);
 
 /// The tangent in compressed rows, and F = -dR/dlambda. One rank.
 struct Tangent {
@@ -37,7 +40,7 @@ struct Tangent {
   Numbers times(const Numbers& x) const;
   double at(int row, int column) const;  ///< 0 where there is no entry
 };
-Tangent tangent(path::Problem& problem, const Numbers& u, double lambda);
+Tangent tangent(path::Problem& problem, const Numbers& u, double lambda, const Memory& memory = nullptr);
 
 /// Newton's method at fixed lambda until the largest change of u is below `tolerance` in 20 iterations;
 /// throws std::runtime_error where it is not.
@@ -45,7 +48,8 @@ struct Equilibrium {
   Numbers u;
   std::optional<linear::Inertia> inertia;  ///< of the last tangent
 };
-Equilibrium equilibrium(path::Problem& problem, double lambda, Numbers start, double tolerance = 1e-12);
+Equilibrium equilibrium(path::Problem& problem, double lambda, Numbers start, double tolerance = 1e-12,
+                        const Memory& memory = nullptr);
 
 double norm(const Numbers& x);
 double dot(const Numbers& x, const Numbers& y);

@@ -30,6 +30,7 @@ class JetProblem : public atrapos::path::Problem {
   using Map = atrapos::path::Map;
   using Vector = atrapos::path::Vector;
   using CrsMatrix = atrapos::path::CrsMatrix;
+  using State = atrapos::path::State;
 
   /// internalWeight: weight of the internal variables in inner(); 0 leaves them out.
   explicit JetProblem(Law law, double internalWeight = 0) : law_(law), internalWeight_(internalWeight) {
@@ -55,10 +56,11 @@ class JetProblem : public atrapos::path::Problem {
     return v;
   }
 
-  atrapos::path::ResidualNorm residual(const Vector& u, double lambda, Vector& r) override {
+  atrapos::path::ResidualNorm residual(const State& state, Vector& r) override {
     ++residuals;
+    remember(state);
     Jet::terms = 1;
-    const auto R = law_.residual(jets(u), Jet(lambda));
+    const auto R = law_.residual(jets(*state.u), Jet(state.lambda));
     double norm2 = 0;
     for (std::size_t i = 0; i < R.size(); ++i) {
       r.replaceLocalValue(i, R[i][0]);
@@ -67,11 +69,12 @@ class JetProblem : public atrapos::path::Problem {
     return {std::sqrt(norm2), law_.scale()};
   }
 
-  Teuchos::RCP<const CrsMatrix> tangent(const Vector& u, double lambda, Vector& F) override {
+  Teuchos::RCP<const CrsMatrix> tangent(const State& state, Vector& F) override {
+    remember(state);
     Jet::terms = 2;
     const int n = law_.size();
-    auto x = jets(u);
-    Jet l(lambda);
+    auto x = jets(*state.u);
+    Jet l(state.lambda);
     K_->resumeFill();
     for (int j = 0; j <= n; ++j) {
       Jet& seeded = j < n ? x[j] : l;
@@ -91,11 +94,12 @@ class JetProblem : public atrapos::path::Problem {
     return K_;
   }
 
-  void beginSeries(const Vector& u, double lambda, int maxOrder) override {
+  void beginSeries(const State& state, int maxOrder) override {
+    remember(state);
     u_.clear();
-    const auto data = u.getData();
+    const auto data = state.u->getData();
     for (int i = 0; i < law_.size(); ++i) u_.push_back({data[i]});
-    lambda_ = {lambda};
+    lambda_ = {state.lambda};
     maxOrder_ = maxOrder;
   }
 
@@ -142,6 +146,9 @@ class JetProblem : public atrapos::path::Problem {
   int residuals = 0;
 
  protected:
+  /// Before everything that is asked at a state: a law that events change becomes what it is there.
+  virtual void remember(const State& /*state*/) {}
+
   template <class L>
   static auto symmetric(const L& law, int) -> decltype(law.symmetric()) {
     return law.symmetric();

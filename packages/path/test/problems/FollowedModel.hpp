@@ -36,7 +36,7 @@ struct FollowedModel {
     for (std::size_t s = 0; s < record.steps.size(); ++s)
       for (int i = 0; i <= samples; ++i) {
         const double lambda = record.series[s].evaluate(record.steps[s].length * i / samples, *u);
-        worst = std::max(worst, problem->residual(*u, lambda, *r).relative());
+        worst = std::max(worst, problem->residual({u, lambda}, *r).relative());
       }
     return worst;
   }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <memory>
 #include <vector>
 
 #include "JetProblem.hpp"
@@ -44,6 +46,7 @@ class UnilateralProblem : public JetProblem<WithStops<Body>> {
  public:
   using Base = JetProblem<WithStops<Body>>;
   using Vector = typename Base::Vector;
+  using State = typename Base::State;
   using Base::Base;
 
   int eventCount() const override { return this->law_.masses(); }
@@ -52,22 +55,39 @@ class UnilateralProblem : public JetProblem<WithStops<Body>> {
     const auto e = this->law_.events(this->seriesJets());
     for (std::size_t i = 0; i < e.size(); ++i) g[i] = e[i][k];
   }
-  std::vector<int> eventsAt(const Vector& u, double) const override {
+  std::vector<int> eventsAt(const State& state) override {
+    remember(state);
     Jet::terms = 1;
-    const auto g = this->law_.events(this->jets(u));
+    const auto g = this->law_.events(this->jets(*state.u));
     std::vector<int> zero;
     for (std::size_t i = 0; i < g.size(); ++i)
       if (!this->law_.touched[i] && g[i][0] < 1e-12) zero.push_back(static_cast<int>(i));
     return zero;
   }
-  void applyEvent(const std::vector<int>& indices, const Vector&, double) override {
-    for (const int i : indices) this->law_.touched[i] = !this->law_.touched[i];
-    ++changes;
+  State afterEvent(const std::vector<int>& indices, const State& state) override {
+    auto memory = std::make_shared<atrapos::path::Memory>();
+    memory->conditions = touchedAt(state);
+    for (const int i : indices) memory->conditions[i] = 1 - memory->conditions[i];
+    return {state.u, state.lambda, memory};
   }
-  int constraintPivots() const override {
-    int n = 0;
-    for (const bool t : this->law_.touched) n += t;
-    return n;
+  /// [mass] 1 where its stop is touched at the state.
+  std::vector<int> touchedAt(const State& state) const {
+    return state.memory ? state.memory->conditions : start_;
   }
-  int changes = 0;
+  Teuchos::RCP<const typename Base::CrsMatrix> tangent(const State& state, Vector& F) override {
+    auto K = Base::tangent(state, F);
+    pivots_ = static_cast<int>(std::count(this->law_.touched.begin(), this->law_.touched.end(), true));
+    return K;
+  }
+  int constraintPivots() const override { return pivots_; }
+
+ protected:
+  void remember(const State& state) override {
+    const auto touched = touchedAt(state);
+    this->law_.touched.assign(touched.begin(), touched.end());
+  }
+
+ private:
+  int pivots_ = 0;  ///< of the last tangent
+  std::vector<int> start_{this->law_.touched.begin(), this->law_.touched.end()};
 };

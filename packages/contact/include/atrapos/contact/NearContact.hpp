@@ -36,7 +36,7 @@ class NearContact final : public fem::Term {
   bool seesLoadFactor() const override { return all_->seesLoadFactor(); }
   void keep(const fem::TermPart& part) override;
   void connect(const fem::DofMap& dofs, const std::vector<int>& positions) override;
-  double addResidual(const fem::ConstDofView& u, double lambda, const fem::DofView& f) const override;
+  fem::OwnForces addResidual(const fem::ConstDofView& u, double lambda, const fem::DofView& f) const override;
   void addTangent(const fem::ConstDofView& u, double lambda, const fem::TangentSink& sink) const override;
   void beginSeries(const fem::ConstDofView& u, double lambda, int maxOrder) override;
   void addOrder(int k, const fem::ConstDofView& last, double lastLambda, const fem::DofView& f) override;

@@ -18,6 +18,9 @@ struct Field {
   std::string name;                         ///< "displacement"
   std::vector<std::string> components{""};  ///< "x", "y", "z"
   Role role = Role::primal;
+  /// What its rows are a balance of, "forces": newtons and watts do not add, so every balance has a norm and
+  /// a scale of its own. Empty: of its own name where it is primal, else that of the first field.
+  std::string balance = {};
 
   int numComponents() const { return static_cast<int>(components.size()); }
 };
@@ -74,6 +77,9 @@ class DofMap {
   };
   Address addressOf(int dof) const;
   int nodeOf(int dof) const { return addressOf(dof).node; }
+  /// Different balances of the fields, in their order; and the number of that of a field.
+  const std::vector<std::string>& balances() const { return balances_; }
+  int balanceOf(int field) const { return balanceOf_[field]; }
   /// All unknowns of fields with this role, ascending.
   std::vector<int> dofsWith(Role role) const;
 
@@ -92,6 +98,8 @@ class DofMap {
   int sizeOf(int layout) const;
 
   std::vector<Field> fields_;
+  std::vector<std::string> balances_;
+  std::vector<int> balanceOf_;             ///< [field]
   std::vector<std::vector<int>> layouts_;  ///< [layout] fields in their order
   std::vector<std::vector<int>> offsets_;  ///< [layout][field] first component in the node; -1: not there
   std::vector<int> layout_;                ///< [node]

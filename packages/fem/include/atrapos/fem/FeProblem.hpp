@@ -21,11 +21,12 @@ namespace atrapos::fem {
 /// eliminated in the same way: their forces and columns go to their masters, and their own rows are the
 /// couplings.
 ///
-/// Scale of the relative residual: the norm of what the residual is the cancellation of, sqrt(sum over all
-/// elements and contact faces of |own nodal forces|^2), or that of F_0 + lambda F_1 where it is larger; at
-/// least 1e-6 of the forces at load factor 1. (Assembled forces and reactions would not do: they can all
-/// vanish at a stressed state, and in a thin body the rounding of the displacements alone then exceeds any
-/// fraction of them.)
+/// Every balance (Field::balance) has a norm and a scale of its own; the residual is that of the balance
+/// which is furthest off. Scale of the relative residual: the norm of what the residual is the cancellation
+/// of, sqrt(sum over all elements and contact faces of |own nodal forces|^2), or that of F_0 + lambda F_1
+/// where it is larger; at least 1e-6 of the forces at load factor 1. (Assembled forces and reactions would
+/// not do: they can all vanish at a stressed state, and in a thin body the rounding of the displacements
+/// alone then exceeds any fraction of them.)
 ///
 /// On a communicator of several ranks every rank gives the same whole model; the problem cuts it
 /// (fem::partition) and each rank keeps its part (docs/theory/parallel.md). Whatever takes vectors is
@@ -39,9 +40,9 @@ class FeProblem final : public path::Problem {
 
   linear::RCP<const path::Map> map() const override;
   bool symmetric() const override;
-  path::ResidualNorm residual(const path::Vector& u, double lambda, path::Vector& r) override;
-  linear::RCP<const path::CrsMatrix> tangent(const path::Vector& u, double lambda, path::Vector& F) override;
-  void beginSeries(const path::Vector& u, double lambda, int maxOrder) override;
+  path::ResidualNorm residual(const path::State& state, path::Vector& r) override;
+  linear::RCP<const path::CrsMatrix> tangent(const path::State& state, path::Vector& F) override;
+  void beginSeries(const path::State& state, int maxOrder) override;
   void orderRhs(int k, path::Vector& Fk) override;
   void completeOrder(int k, const path::Vector& Uk, double lambdaK) override;
 
@@ -55,33 +56,41 @@ class FeProblem final : public path::Problem {
   /// Number of the first one of this term.
   int firstEvent(int term) const;
   void eventOrder(int k, std::vector<double>& g) const override;
-  std::vector<int> eventsAt(const path::Vector& u, double lambda) const override;
-  void applyEvent(const std::vector<int>& indices, const path::Vector& u, double lambda) override;
+  std::vector<int> eventsAt(const path::State& state) override;
+  path::State afterEvent(const std::vector<int>& indices, const path::State& state) override;
   int constraintPivots() const override;
   std::string name(long long unknown) const override;
 
-  /// Condition of every event function, 0 (free) or 1 (active), then the pieces that points prefer
-  /// (fem::PointPieces), of all terms.
-  std::vector<int> conditions() const override;
-  void setConditions(const std::vector<int>& conditions) override;
   path::Pieces* pieces() override;
+
+  /// Memory::variables: those of all terms that remember (Term::numVariables), of this rank's entities.
+  bool remembers() const override;
+  std::vector<std::vector<double>> memoryOrders() override;
+  path::State settled(const path::State& state) override;
+
+  /// Memory::conditions at a state: of every event function, 0 (free) or 1 (active), then the pieces that
+  /// points prefer (fem::PointPieces), of all terms.
+  std::vector<int> conditionsAt(const path::State& state) const;
+  /// The memory of a state with these conditions and without internal variables. Throws
+  /// std::invalid_argument, one line, where their number is not that of this problem.
+  std::shared_ptr<const path::Memory> memoryOf(std::vector<int> conditions) const;
 
   /// The state at load factor lambda before any load acts: prescribed displacements, zero elsewhere.
   linear::RCP<path::Vector> initialState(double lambda) const;
 
-  /// Forces that the supports exert on the body at (u, lambda), with those of coupled dofs, zero at free
-  /// dofs: [dof], on every rank.
-  std::vector<double> reactions(const path::Vector& u, double lambda) const;
+  /// Forces that the supports exert on the body at a state, with those of coupled dofs, zero at free dofs:
+  /// [dof], on every rank.
+  std::vector<double> reactions(const path::State& state) const;
 
-  /// Nodal forces F(u, lambda) of one term.
-  std::vector<double> forces(const Term& term, const path::Vector& u, double lambda) const;
+  /// Nodal forces of one term at a state.
+  std::vector<double> forces(const Term& term, const path::State& state) const;
 
   /// Named values of term i at all its points, those of all ranks' entities, on every rank.
-  PointValues observe(int i, const path::Vector& u, double lambda) const;
+  PointValues observe(int i, const path::State& state) const;
 
-  /// The state as the terms read it: the unknowns of this rank's nodes. Holds until the next call to the
-  /// problem.
-  ConstDofView onRank(const path::Vector& u) const;
+  /// The state as the terms read it, which now have its memory: the unknowns of this rank's nodes. Holds
+  /// until the next call to the problem.
+  ConstDofView onRank(const path::State& state) const;
 
   /// What the problem was made of; its terms are the problem's own, with several ranks those of this rank's
   /// part.

@@ -3,7 +3,7 @@
 #include <type_traits>
 
 #include "atrapos/fem/PointLaw.hpp"
-#include "atrapos/taylor/Law.hpp"
+#include "atrapos/taylor/RateChord.hpp"
 
 namespace atrapos::fem::detail {
 
@@ -16,7 +16,17 @@ struct PointKernels {
                 const double* in, double* out, PointFailure& failure);
   void (*advance)(const void* law, const taylor::HistoryShape&, const PointBatch&, const SeriesOrder&,
                   PointLaw::In in, PointLaw::Out out);
+  /// Null of a law without internal variables.
+  void (*carry)(const void* law, const taylor::HistoryShape&, const PointBatch&, const double* from,
+                const double* to, double* variables, PointFailure& failure);
 };
+
+/// How many of a law's data and outputs, the last ones, are internal variables.
+template <class Law, class = void>
+struct NumVariables : std::integral_constant<int, 0> {};
+template <class Law>
+struct NumVariables<Law, std::void_t<decltype(Law::numVariables)>>
+    : std::integral_constant<int, Law::numVariables> {};
 
 /// Whether a law stands behind others (stagedLaw).
 template <class Law, class = void>
@@ -36,7 +46,8 @@ struct PointKernelsOf {
 template <class Law, int L>
 struct PointPasses {
   using Pack = taylor::Lanes<L>;
-  static constexpr int I = Law::numInputs, O = Law::numOutputs, D = Law::numData;
+  static constexpr int I = Law::numInputs, O = Law::numOutputs, D = Law::numData,
+                       V = NumVariables<Law>::value;
   static constexpr int groups = kLanes / L;  ///< of L lanes, in a batch
   static_assert(kLanes % L == 0, "a batch is a number of whole registers");
 
@@ -111,15 +122,42 @@ struct PointPasses {
         context.failures = &noted;
         evaluate(*static_cast<const Law*>(law), context, x, data, y);
         store(y, O, out + q * O * kLanes + s);
-        for (int lane = 0; lane < L && s + lane < points.lanes && first.lane < 0; ++lane)
-          for (int m = 0; m < O; ++m)
-            if (y[m][lane] != y[m][lane]) {
-              const bool named = noted.operation[lane] != taylor::Operation::None;
-              first = {s + lane, q, named ? noted.operation[lane] : taylor::Operation::Result,
-                       noted.value[lane]};
-              break;
-            }
+        note(y, O, points, q, s, noted, first);
       }
+  }
+
+  /// The first point whose results are not numbers.
+  static KOKKOS_FORCEINLINE_FUNCTION void note(const Pack* y, int count, const PointBatch& points, int q,
+                                               int s, const taylor::Failures<L>& noted, PointFailure& first) {
+    for (int lane = 0; lane < L && s + lane < points.lanes && first.lane < 0; ++lane)
+      for (int m = 0; m < count; ++m)
+        if (y[m][lane] != y[m][lane]) {
+          const bool named = noted.operation[lane] != taylor::Operation::None;
+          first = {s + lane, q, named ? noted.operation[lane] : taylor::Operation::Result, noted.value[lane]};
+          break;
+        }
+  }
+
+  static void carry(const void* law, const taylor::HistoryShape& shape, const PointBatch& points,
+                    const double* from, const double* to, double* variables, PointFailure& first) {
+    if constexpr (V > 0)
+      for (int q = 0; q < points.numPoints; ++q)
+        for (int s = 0; s < points.lanes; s += L) {
+          Pack x[I], y[I], data[D + 1];
+          load(from + q * I * kLanes + s, I, x);
+          load(to + q * I * kLanes + s, I, y);
+          loadData(points, q, s, data);
+          // Lanes beyond the last entity need not hold what a law makes sense of.
+          for (int lane = points.lanes - s; lane < L; ++lane)
+            for (int m = 0; m < I; ++m) y[m][lane] = x[m][lane];
+          taylor::Failures<L> noted;
+          auto context = scratch(shape, points.memory);
+          context.failures = &noted;
+          Pack* z = data + D - V;
+          taylor::carryVariables<L>(*static_cast<const Law*>(law), context, x, y, data, z);
+          store(z, V, variables + q * V * kLanes + s);
+          note(z, V, points, q, s, noted, first);
+        }
   }
 
   static void advance(const void* law, const taylor::HistoryShape& shape, const PointBatch& points,
@@ -132,13 +170,17 @@ struct PointPasses {
         if (order.k > 1) {
           load(in.last + q * I * kLanes + s, I, x);
           auto previous = series(shape, points, q, s, order, order.k - 1);
-          if constexpr (IsStage<Law>::value) {
+          if constexpr (IsStage<Law>::value)
             taylor::completeKnown(own, previous, x, data, y);
-            if (out.last != nullptr) store(y, O, out.last + q * O * kLanes + s);
-          } else {
+          else if constexpr (V > 0)
+            taylor::complete(own, previous, x, data, y);
+          else
             taylor::complete(own, previous, x, data);
-          }
+          if constexpr (IsStage<Law>::value || V > 0)
+            if (out.last != nullptr) store(y, O, out.last + q * O * kLanes + s);
         }
+        if constexpr (V > 0)
+          if (out.current == nullptr) continue;
         auto context = series(shape, points, q, s, order, order.k);
         if constexpr (IsStage<Law>::value) {
           for (int j = 0; j < I; ++j)
@@ -155,7 +197,7 @@ struct PointPasses {
 template <class Law, int L>
 PointKernels PointKernelsOf<Law, L>::table() {
   using Passes = PointPasses<Law, L>;
-  return {Passes::tangent, Passes::start, Passes::advance};
+  return {Passes::tangent, Passes::start, Passes::advance, Passes::V > 0 ? Passes::carry : nullptr};
 }
 #endif
 

@@ -43,6 +43,7 @@ struct LawShape {
   int data = 0;            ///< passive numbers a point
   bool symmetric = false;  ///< d out/d in is
   int observed = 0;        ///< named values
+  int variables = 0;       ///< internal variables: the last data, and the last outputs
 };
 
 /// A law in batches of points: compiled once, whatever loops it stands in. Virtual once a batch.
@@ -51,8 +52,8 @@ class PointLaw {
   virtual ~PointLaw() = default;
 
   virtual LawShape shape() const = 0;
-  /// Doubles that the series of kLanes points keep; with maxOrder = 0 what `value` and the tangents need as
-  /// scratch memory, once for all points.
+  /// Doubles that the series of kLanes points keep; with maxOrder = 0 what `value`, the tangents and `carry`
+  /// need as scratch memory, once for all points.
   std::size_t historyDoubles(int maxOrder) const { return seriesDoubles(seriesOrder(0, maxOrder)); }
   /// The same for series of these orders.
   virtual std::size_t seriesDoubles(const SeriesOrder& order) const = 0;
@@ -82,11 +83,18 @@ class PointLaw {
   };
   struct Out {
     double* last;     ///< the linear effect of In::last; null: not wanted
-    double* current;  ///< order k
+    double* current;  ///< order k; null: no more orders are wanted
   };
   /// The same for a law that stands behind others (stagedLaw), whose inputs of order k are known in part.
-  /// Only laws that are made for it (`static constexpr bool stage = true`) take `current` and give `last`.
+  /// Only laws that are made for it (`static constexpr bool stage = true`) take `current`; these and laws
+  /// with internal variables give `last` and do without an order k.
   virtual void advance(const PointBatch& points, const SeriesOrder& order, In in, Out out) const = 0;
+
+  /// The internal variables at `to`, [point][variable][lane], of those that the data hold at `from`: along
+  /// the straight line between these inputs. memory: historyDoubles(0) of scratch. Laws without variables
+  /// have no use for it.
+  virtual void carry(const PointBatch& points, const double* from, const double* to, double* variables,
+                     PointFailure& failure) const;
 
   /// Names of the values that the law shows at its points.
   virtual std::vector<std::string> observedNames() const = 0;

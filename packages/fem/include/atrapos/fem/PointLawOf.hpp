@@ -10,8 +10,9 @@
 /// A law written as a template (taylor/Law.hpp) as a PointLaw. It may show named values through
 ///     static constexpr int numObserved;  static std::vector<std::string> observedNames();
 ///     void observe(const double* in, const double* data, double* observed) const;
-/// says `static constexpr bool symmetric` when d out/d in is symmetric, and, where it may have nothing to act
-/// on at a point, bool exists(const double* data) const.
+/// keeps internal variables as its last data and last outputs where it says `static constexpr int
+/// numVariables` (their rates by taylor::solveRate), says `static constexpr bool symmetric` when d out/d in
+/// is symmetric, and, where it may have nothing to act on at a point, bool exists(const double* data) const.
 ///
 /// A source with one line for each law, ATRAPOS_POINT_LAW(Law), compiles it (outside of namespaces).
 namespace atrapos::fem {
@@ -45,10 +46,17 @@ class PointLawOf final : public PointLaw {
         })) {}
 
   LawShape shape() const override {
-    return {Law::numInputs, Law::numOutputs, Law::numData, Law::symmetric, detail::NumObserved<Law>::value};
+    return {Law::numInputs,
+            Law::numOutputs,
+            Law::numData,
+            Law::symmetric,
+            detail::NumObserved<Law>::value,
+            detail::NumVariables<Law>::value};
   }
   std::size_t seriesDoubles(const SeriesOrder& order) const override {
-    return histories_.doubles<kLanes>(order.maxOrder, order.waiting);
+    const bool scratch = order.maxOrder == 0 && detail::NumVariables<Law>::value > 0;
+    return scratch ? histories_.doubles<kLanes>(taylor::chordOrder, 0)
+                   : histories_.doubles<kLanes>(order.maxOrder, order.waiting);
   }
 
   void value(const PointBatch& points, const double* in, double* out) const override {
@@ -67,6 +75,11 @@ class PointLawOf final : public PointLaw {
   }
   void advance(const PointBatch& points, const SeriesOrder& order, In in, Out out) const override {
     kernels_.advance(&law_, histories_, points, order, in, out);
+  }
+  void carry(const PointBatch& points, const double* from, const double* to, double* variables,
+             PointFailure& failure) const override {
+    if (kernels_.carry == nullptr) return PointLaw::carry(points, from, to, variables, failure);
+    kernels_.carry(&law_, histories_, points, from, to, variables, failure);
   }
 
   std::vector<std::string> observedNames() const override {

@@ -32,6 +32,10 @@ struct PointValues {
 class DofMap;
 class PointPieces;
 
+/// Sums of squares of the entities' own forces at their nodes, before they are summed there: what equilibrium
+/// is the cancellation of. [balance] of DofMap::balances, as far as the term has some.
+using OwnForces = std::vector<double>;
+
 /// The share of a term that one rank works on.
 struct TermPart {
   std::vector<int> entities;  ///< numbers within the term, ascending
@@ -64,9 +68,23 @@ class Term {
   /// field that the term needs.
   virtual void connect(const DofMap& dofs, const std::vector<int>& positions) = 0;
 
-  /// f += F(u, lambda). Returns the sum of squares of the entities' own nodal forces, before they are summed
-  /// at nodes: what equilibrium is the cancellation of.
-  virtual double addResidual(const ConstDofView& u, double lambda, const DofView& f) const = 0;
+  /// Internal variables of its points at the start of a path, [entity][point][variable]; empty: the term
+  /// remembers nothing.
+  virtual std::vector<double> startVariables() const { return {}; }
+  /// From here on states have these variables at (u, lambda), and elsewhere those that the straight way from
+  /// there makes of them. Before anything else that takes a state.
+  virtual void remember(const double* /*variables*/, const ConstDofView& /*u*/, double /*lambda*/) {}
+  /// The variables at a state.
+  virtual std::vector<double> variablesAt(const ConstDofView& /*u*/, double /*lambda*/) const { return {}; }
+  /// Their coefficients on the series under way, [order][entity][point][variable], when the order added last
+  /// is (`last`, `lastLambda`); no order can be added afterwards.
+  virtual std::vector<std::vector<double>> variableOrders(const ConstDofView& /*last*/,
+                                                          double /*lastLambda*/) {
+    return {};
+  }
+
+  /// f += F(u, lambda).
+  virtual OwnForces addResidual(const ConstDofView& u, double lambda, const DofView& f) const = 0;
 
   /// K += dF/du, load direction -= dF/dlambda.
   virtual void addTangent(const ConstDofView& u, double lambda, const TangentSink& sink) const = 0;

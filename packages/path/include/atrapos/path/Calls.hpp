@@ -39,12 +39,14 @@ class Calls {
   Increment internalOrder(int k, RCP<Vector> v, double mu);
   void completeOrder(int k, const Vector& Uk, double lambdaK);
 
+  std::vector<std::vector<double>> memoryOrders();
+  State settled(const State& state);
+
   double weight(const Increment& Xhat, std::optional<double> given);
 
   /// Coefficient k of the Problem's event functions.
   std::vector<double> eventOrder(int k);
-  void applyEvent(const std::vector<int>& indices, const State& state);
-  void setConditions(const std::vector<int>& conditions);
+  State afterEvent(const std::vector<int>& indices, const State& state);
   std::vector<int> eventsAt(const State& start);
 
   /// Those of the Problem; call the other three only where there are some.

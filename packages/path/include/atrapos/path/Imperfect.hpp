@@ -19,13 +19,9 @@ class ImperfectProblem : public Problem {
 
   RCP<const Map> map() const override { return perfect_.map(); }
   bool symmetric() const override { return perfect_.symmetric(); }
-  ResidualNorm residual(const Vector& u, double lambda, Vector& r) override;
-  RCP<const CrsMatrix> tangent(const Vector& u, double lambda, Vector& F) override {
-    return perfect_.tangent(u, lambda, F);
-  }
-  void beginSeries(const Vector& u, double lambda, int maxOrder) override {
-    perfect_.beginSeries(u, lambda, maxOrder);
-  }
+  ResidualNorm residual(const State& state, Vector& r) override;
+  RCP<const CrsMatrix> tangent(const State& state, Vector& F) override { return perfect_.tangent(state, F); }
+  void beginSeries(const State& state, int maxOrder) override { perfect_.beginSeries(state, maxOrder); }
   void orderRhs(int k, Vector& Fk) override { perfect_.orderRhs(k, Fk); }
   void completeOrder(int k, const Vector& Uk, double lambdaK) override {
     perfect_.completeOrder(k, Uk, lambdaK);
@@ -36,14 +32,13 @@ class ImperfectProblem : public Problem {
   }
   int eventCount() const override { return perfect_.eventCount(); }
   void eventOrder(int k, std::vector<double>& g) const override { perfect_.eventOrder(k, g); }
-  void applyEvent(const std::vector<int>& indices, const Vector& u, double lambda) override {
-    perfect_.applyEvent(indices, u, lambda);
+  State afterEvent(const std::vector<int>& indices, const State& state) override {
+    return perfect_.afterEvent(indices, state);
   }
-  std::vector<int> eventsAt(const Vector& u, double lambda) const override {
-    return perfect_.eventsAt(u, lambda);
-  }
-  std::vector<int> conditions() const override { return perfect_.conditions(); }
-  void setConditions(const std::vector<int>& conditions) override { perfect_.setConditions(conditions); }
+  std::vector<int> eventsAt(const State& state) override { return perfect_.eventsAt(state); }
+  bool remembers() const override { return perfect_.remembers(); }
+  std::vector<std::vector<double>> memoryOrders() override { return perfect_.memoryOrders(); }
+  State settled(const State& state) override { return perfect_.settled(state); }
   Pieces* pieces() override { return pieces_.get(); }
   int constraintPivots() const override { return perfect_.constraintPivots(); }
   std::string name(long long unknown) const override { return perfect_.name(unknown); }

@@ -3,6 +3,7 @@
 #include <limits>
 #include <optional>
 
+#include "atrapos/path/Problem.hpp"
 #include "atrapos/path/Report.hpp"
 #include "atrapos/path/Stops.hpp"
 

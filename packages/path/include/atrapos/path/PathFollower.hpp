@@ -2,6 +2,7 @@
 
 #include "atrapos/path/Monitor.hpp"
 #include "atrapos/path/Options.hpp"
+#include "atrapos/path/Problem.hpp"
 #include "atrapos/path/Report.hpp"
 #include "atrapos/path/Stops.hpp"
 

@@ -26,19 +26,19 @@ class Pieces {
  public:
   virtual ~Pieces() = default;
 
-  /// R(u, lambda) by the pieces of the series under way, wherever the state lies.
-  virtual ResidualNorm residualOfSeries(const Vector& u, double lambda, Vector& r) = 0;
+  /// R(state) by the pieces of the series under way, wherever the state lies.
+  virtual ResidualNorm residualOfSeries(const State& state, Vector& r) = 0;
 
   /// Whether event functions of the series under way are wrong at a state on it, as it lies on another piece:
   /// one of `events` (those that fall to zero there) has no zero, or another one is below zero.
-  virtual bool eventsAstray(const Vector& u, double lambda, const std::vector<int>& events) const = 0;
+  virtual bool eventsAstray(const State& state, const std::vector<int>& events) const = 0;
 
   /// Borders that the series comes over on (0, end], ascending in a.
   virtual std::vector<Break> breaks(const Series& series, double end) const = 0;
 
-  /// Whether the state (u, lambda), a little further along the series under way, lies on the piece that the
-  /// series continues, as far as the point of this break is concerned.
-  virtual bool continues(const Vector& u, double lambda, int index) const = 0;
+  /// Whether the state, a little further along the series under way, lies on the piece that the series
+  /// continues, as far as the point of this break is concerned.
+  virtual bool continues(const State& state, int index) const = 0;
 
   /// What happens at the break, for a message: "contact point 3 of 40 ...".
   virtual std::string text(int index) const = 0;

@@ -4,26 +4,15 @@
 #include <string>
 #include <vector>
 
-#include "atrapos/linear/Types.hpp"
+#include "atrapos/path/State.hpp"
 
 namespace atrapos::path {
-
-using linear::CrsMatrix;
-using linear::Map;
-using linear::RCP;
-using linear::Vector;
 
 /// Size of a residual: its Euclidean norm and the norm of the forces it is the difference of.
 struct ResidualNorm {
   double norm = 0;   ///< ||R||, in force units
   double scale = 0;  ///< ||forces||, same units, > 0; chosen by the Problem
   double relative() const { return norm / scale; }
-};
-
-/// A change of state: unknowns, and the internal variables that the Problem condenses locally (may be empty).
-struct Increment {
-  RCP<Vector> u;
-  std::vector<double> internal;
 };
 
 class Pieces;
@@ -48,15 +37,16 @@ class Problem {
   /// True where K_T is symmetric at every state (decides the tangent solver).
   virtual bool symmetric() const { return true; }
 
-  /// r = R(u, lambda); r is overwritten.
-  virtual ResidualNorm residual(const Vector& u, double lambda, Vector& r) = 0;
+  /// r = R(state); r is overwritten.
+  virtual ResidualNorm residual(const State& state, Vector& r) = 0;
 
-  /// K_T and F = -dR/dlambda at (u, lambda). The matrix is the Problem's own: its graph never changes,
-  /// its values hold until the next call.
-  virtual RCP<const CrsMatrix> tangent(const Vector& u, double lambda, Vector& F) = 0;
+  /// K_T and F = -dR/dlambda at a state. The matrix is the Problem's own: its graph never changes, its values
+  /// hold until the next call. With internal variables that follow rates K_T is their continuum tangent, that
+  /// of the path through the state.
+  virtual RCP<const CrsMatrix> tangent(const State& state, Vector& F) = 0;
 
-  /// Starts a series at (u, lambda) with coefficients up to maxOrder.
-  virtual void beginSeries(const Vector& u, double lambda, int maxOrder) = 0;
+  /// Starts a series at a state with coefficients up to maxOrder.
+  virtual void beginSeries(const State& state, int maxOrder) = 0;
 
   /// F_k of order k >= 1 from the orders completed so far.
   virtual void orderRhs(int k, Vector& Fk) = 0;
@@ -72,6 +62,17 @@ class Problem {
   virtual void internalOrder(int /*k*/, const Vector& /*v*/, double /*mu*/,
                              std::vector<double>& /*y*/) const {}
 
+  /// Whether states have internal variables (Memory::variables).
+  virtual bool remembers() const { return false; }
+
+  /// Coefficients of the internal variables on the series under way, [order 0 .. the last
+  /// completed][variable]. Called once, when no further order is wanted.
+  virtual std::vector<std::vector<double>> memoryOrders() { return {}; }
+
+  /// The same state with internal variables that are its own (Memory::u is u): a point that the path goes on
+  /// from.
+  virtual State settled(const State& state) { return state; }
+
   /// Number of event functions: scalars of the state that are not negative while the Problem is what it is. 0
   /// where it never changes.
   virtual int eventCount() const { return 0; }
@@ -82,26 +83,21 @@ class Problem {
 
   /// The event functions that are zero at a state from which a path starts, to the rounding of the state:
   /// they may have to be applied at once. Throws where one is below zero.
-  virtual std::vector<int> eventsAt(const Vector& /*u*/, double /*lambda*/) const { return {}; }
+  virtual std::vector<int> eventsAt(const State& /*state*/) { return {}; }
 
-  /// These event functions have fallen to zero at (u, lambda): the Problem changes (a gap closes and becomes
-  /// a constraint, a force vanishes and sets a point free). (u, lambda) solves the changed Problem too, the
-  /// map and the graph stay, and the functions of these indices are others that start at zero. Called again
-  /// with the same indices it changes back. Indices from eventCount() on are those of breaks (pieces()).
-  virtual void applyEvent(const std::vector<int>& /*indices*/, const Vector& /*u*/, double /*lambda*/) {}
-
-  /// What events have made of the Problem, as numbers: those of StepReport::next, given to setConditions, let
-  /// an interrupted path go on. Empty where it never changes. setConditions throws std::invalid_argument, one
-  /// line, where they cannot be this Problem's.
-  virtual std::vector<int> conditions() const { return {}; }
-  virtual void setConditions(const std::vector<int>& /*conditions*/) {}
+  /// These event functions have fallen to zero at the state, and the Problem is another one behind it (a gap
+  /// closes and becomes a constraint, a force vanishes and sets a point free): the same point with the memory
+  /// of the changed Problem. It solves that Problem too, the map and the graph stay, and the functions of
+  /// these indices are others that start at zero. The same indices at the result change it back. Indices from
+  /// eventCount() on are those of breaks (pieces()).
+  virtual State afterEvent(const std::vector<int>& /*indices*/, const State& state) { return state; }
 
   /// Where the Problem is analytic piece by piece only; null: everywhere between its events. The object is
   /// the Problem's own.
   virtual Pieces* pieces() { return nullptr; }
 
-  /// Negative pivots of K_T that are owed to constraints with multipliers among the unknowns: they say
-  /// nothing about stability and are not counted.
+  /// Negative pivots of the last K_T that are owed to constraints with multipliers among the unknowns: they
+  /// say nothing about stability and are not counted.
   virtual int constraintPivots() const { return 0; }
 
   /// The inner product behind the path parameter (without its weight w and its load term):

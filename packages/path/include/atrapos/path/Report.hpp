@@ -42,9 +42,8 @@ struct CriticalPoint {
   double a = 0;           ///< on the step's series
   double stepLength = 0;  ///< of the step: what is near and far here
   CriticalKind kind = CriticalKind::transcritical;
-  State state;                  ///< corrected: exact to rounding at a simple point
-  double residual = 0;          ///< relative, at `state`
-  std::vector<int> conditions;  ///< Problem::conditions() there
+  State state;          ///< corrected: exact to rounding at a simple point
+  double residual = 0;  ///< relative, at `state`
   /// The last correction of its location, as a part of the step's length.
   double uncertainty = 0;
   int negativeChange = 0;  ///< of the number of negative eigenvalues from before to behind it
@@ -75,7 +74,6 @@ struct Start {
   double length = 0;                   ///< of the step that led here; 0: none
   std::vector<int> events;             ///< applied at this state: their functions are zero here
   std::vector<int> due;                ///< not applied yet at this state, and their functions are zero here
-  std::vector<int> conditions;         ///< Problem::conditions() at this state; empty: as the Problem is
   int order = 0;                       ///< of the series to come; 0: Options::order
   int padeFailures = 0, padeWait = 0;  ///< when the rational form is tried again
   /// Those of the step that led here, from which the ones at this state are found.
@@ -106,8 +104,8 @@ struct StepReport {
   std::vector<LimitPoint> limitPoints;
   std::vector<Extremum> extrema;  ///< of the monitors, ascending in a
   /// Event functions that fell to zero at the step's end, or breaks there (indices from Problem::eventCount()
-  /// on; see Pieces), that were applied: the Problem is the changed one already. An observer that evaluates
-  /// it inside the step applies them again before, and once more after.
+  /// on; see Pieces), that were applied: `next` has the memory of the changed Problem, `end` and the series
+  /// have that of the Problem before.
   std::vector<int> events;
   /// Relative residual of `end` on the piece that the path goes on to, where forces jump and corrections were
   /// needed (Options::jumpBound): the next step does not start from `end`. Else 0.

@@ -39,6 +39,9 @@ class Series {
   /// u = U(a); returns lambda(a).
   double evaluate(double a, Vector& u) const;
 
+  /// The point at a, with the memory that the Problem has there.
+  State state(double a) const;
+
   /// du = dU/da (a); returns dlambda/da (a).
   double derivative(double a, Vector& du) const;
 
@@ -62,6 +65,12 @@ class Series {
   /// vanish (the series terminates) and for K = 1 (nothing to estimate from).
   double radius(double delta) const;
 
+  /// Coefficients of the Problem's internal variables, [k][variable], for all orders present.
+  void setMemory(std::vector<std::vector<double>> orders) { variables_ = std::move(orders); }
+  /// The same path as `other`, its memory besides.
+  void takeMemory(const Series& other) { variables_ = other.variables_; }
+  const std::vector<std::vector<double>>& memoryOrders() const { return variables_; }
+
   /// Coefficient k of the Problem's event functions, k = 0, 1, ... in turn.
   void appendEvents(const std::vector<double>& g);
   int eventCount() const { return static_cast<int>(events_.size()); }
@@ -79,6 +88,8 @@ class Series {
  private:
   /// (||X_1|| / ||X_k||)^(1/(k-1)), the smaller over both norms.
   double convergence(int k) const;
+  /// Factors of X_0 .. X_K in X(a).
+  std::vector<double> weights(double a) const;
   /// Factors of X_0 .. X_K in dX/da (a).
   std::vector<double> derivativeWeights(double a) const;
 
@@ -87,7 +98,9 @@ class Series {
   std::vector<Increment> x_;
   std::vector<double> lambda_;
   std::vector<double> norm_;
-  std::vector<std::vector<double>> events_;  ///< coefficients of each event function
+  std::vector<std::vector<double>> events_;     ///< coefficients of each event function
+  std::shared_ptr<const Memory> memory_;        ///< at the start
+  std::vector<std::vector<double>> variables_;  ///< coefficients of the internal variables, [k][variable]
 };
 
 }  // namespace atrapos::path

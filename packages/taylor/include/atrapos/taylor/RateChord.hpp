@@ -12,15 +12,18 @@ constexpr int chordOrder = 18;
 
 namespace detail {
 
-// Inputs v, data (z on entry, the rate law's data), outputs z.
+// Inputs v, data (the rate law's data, z on entry), outputs z.
 template <int NV, int NZ, int ND, class G>
 struct ChordLaw {
-  static constexpr int numInputs = NV, numOutputs = NZ, numData = NZ + ND;
+  static constexpr int numInputs = NV, numOutputs = NZ, numData = ND + NZ, numVariables = NZ;
   G rate;
   template <class T>
   KOKKOS_INLINE_FUNCTION void operator()(const T* in, const Passive<T>* data, T* out) const {
-    for (int j = 0; j < NZ; ++j) out[j] = T(data[j]);
-    solveRate<NV, NZ, ND>(rate, in, data + NZ, out);
+    for (int j = 0; j < NZ; ++j) out[j] = T(data[ND + j]);
+    if constexpr (ND > 0)
+      solveRate<NV, NZ, ND>(rate, in, data, out);
+    else
+      solveRate<NV, NZ>(rate, in, out);
   }
 };
 
@@ -60,12 +63,12 @@ KOKKOS_INLINE_FUNCTION double chordStep(const ChordSeries<NZ, L>& z, int lane, d
   return h;
 }
 
-/// All orders of z from the point `at` of a chord of direction dv, given as data, on.
-template <int NV, int NZ, int ND, int L, class G>
-KOKKOS_INLINE_FUNCTION void chordSeries(const ChordLaw<NV, NZ, ND, G>& law, Context<L>& context,
-                                        const Lanes<L>* at, const Lanes<L>* dv, const Lanes<L>* data,
-                                        ChordSeries<NZ, L>& z) {
-  Lanes<L> out[NZ], still[NV];
+/// All orders of z from the point `at` of a chord of direction dv on.
+template <int L, class Law, int NZ = Law::numVariables>
+KOKKOS_INLINE_FUNCTION void chordSeries(const Law& law, Context<L>& context, const Lanes<L>* at,
+                                        const Lanes<L>* dv, const Lanes<L>* data, ChordSeries<NZ, L>& z) {
+  constexpr int NV = Law::numInputs, first = Law::numOutputs - NZ;
+  Lanes<L> out[Law::numOutputs], still[NV];
   for (int j = 0; j < NV; ++j) still[j] = 0.0;
   for (int k = 0; k <= chordOrder; ++k) {
     context.order = k;
@@ -73,7 +76,7 @@ KOKKOS_INLINE_FUNCTION void chordSeries(const ChordLaw<NV, NZ, ND, G>& law, Cont
       start(law, context, at, data, out);
     else
       sweepKnown(law, context, k == 1 ? dv : still, data, out);
-    for (int j = 0; j < NZ; ++j) z[j][k] = out[j];
+    for (int j = 0; j < NZ; ++j) z[j][k] = out[first + j];
   }
 }
 
@@ -81,7 +84,7 @@ KOKKOS_INLINE_FUNCTION void chordSeries(const ChordLaw<NV, NZ, ND, G>& law, Cont
 /// the end of the chord there need not be one.
 template <int NV, int NZ, int ND, int L>
 struct ChordWalk {
-  Lanes<L> at[NV], dv[NV], data[NZ + ND];  ///< data: z there, then the rate law's
+  Lanes<L> at[NV], dv[NV], data[ND + NZ];  ///< data: passive ones, then z there
   Lanes<L> series[NZ][chordOrder + 1];
   bool good = true;
 
@@ -94,8 +97,8 @@ struct ChordWalk {
       dv[j] = to[j] - from[j];
       for (int l = 0; l < L; ++l) arrived_[l] = arrived_[l] && dv[j][l] == 0;
     }
-    for (int j = 0; j < NZ; ++j) data[j] = z[j];
-    for (int j = 0; j < ND; ++j) data[NZ + j] = passive[j];
+    for (int j = 0; j < ND; ++j) data[j] = passive[j];
+    for (int j = 0; j < NZ; ++j) data[ND + j] = z[j];
   }
 
   KOKKOS_INLINE_FUNCTION bool underWay() const {
@@ -115,7 +118,7 @@ struct ChordWalk {
       double sum = 0;
       for (int k = chordOrder; k >= 0; --k) sum = sum * h + series[j][k][lane];
       z[j][lane] = sum;
-      if (!arrived_[lane]) data[j][lane] = sum;
+      if (!arrived_[lane]) data[ND + j][lane] = sum;
     }
     if (arrived_[lane]) return;
     reached_[lane] += h;
@@ -145,32 +148,41 @@ HistoryShape chordShape(const G& g) {
   return historyShape(detail::ChordLaw<NV, NZ, ND, G>{g});
 }
 
-/// z at `to` by the rate law g (solveRate) along the straight chord v = from + a (to - from), 0 <= a <= 1, at
-/// L points, to rounding: z[NZ] is the state at from[NV] on entry and that at to[NV] on exit, a function of
-/// from, to, z and data[ND] alone, whatever the other lanes hold. Series of chordOrder orders, in sub-steps
-/// that each lane chooses. Where from = to, z stays, and g is not looked at.
+/// The internal variables of a law (Law::numVariables: its last data, and its last outputs) at the inputs
+/// `to`, along the straight line from the inputs `from`: z is their state there on entry and that at `to` on
+/// exit, a function of from, to, z and data (the others) alone, whatever the other lanes hold. Series of
+/// chordOrder orders, in sub-steps that each lane chooses. Where from = to, z stays, and the law is not
+/// looked at.
 ///
-/// context.memory holds shape.doubles<L>(chordOrder, 0) doubles of scratch, shape is chordShape of g; order
-/// and plain are ignored. The derivative of z by `to` is not given, and is the tangent of solveRate only in
-/// the limit of a short chord.
-///
-/// False, with NaN in z and a note in context.failures (lanes concerned), where g has no series on the way
-/// or where maxSteps sub-steps are not enough: a singularity, or a chord much longer than the radii on it.
-template <int NV, int NZ, int ND, int L, class G>
-KOKKOS_INLINE_FUNCTION bool integrateRate(const G& g, Context<L> context, const Lanes<L>* from,
-                                          const Lanes<L>* to, const Lanes<L>* data, Lanes<L>* z,
-                                          int maxSteps = 1000) {
+/// context.memory holds historyShape(law).doubles<L>(chordOrder, 0) doubles of scratch, context.shape is that
+/// shape; order and plain are ignored. False, with NaN in z and a note in context.failures (lanes concerned),
+/// where the law has no series on the way or where maxSteps sub-steps are not enough: a singularity, or a
+/// chord much longer than the radii on it.
+template <int L, class Law>
+KOKKOS_INLINE_FUNCTION bool carryVariables(const Law& law, Context<L> context, const Lanes<L>* from,
+                                           const Lanes<L>* to, const Lanes<L>* data, Lanes<L>* z,
+                                           int maxSteps = 1000) {
+  constexpr int NZ = Law::numVariables;
   context.plain = false;
   context.block = OrderBlock{};
   context.waiting = 0;
-  detail::ChordWalk<NV, NZ, ND, L> walk(from, to, data, z);
-  const detail::ChordLaw<NV, NZ, ND, G> law{g};
+  detail::ChordWalk<Law::numInputs, NZ, Law::numData - NZ, L> walk(from, to, data, z);
   for (int step = 0; step < maxSteps && walk.underWay(); ++step) {
-    detail::chordSeries(law, context, walk.at, walk.dv, walk.data, walk.series);
+    detail::chordSeries<L>(law, context, walk.at, walk.dv, walk.data, walk.series);
     for (int l = 0; l < L; ++l) walk.advance(l, context.failures, z);
   }
   for (int l = 0; l < L; ++l) walk.giveUp(l, context.failures, z);
   return walk.good;
+}
+
+/// z at `to` by the rate law g (solveRate) alone along the straight chord v = from + a (to - from),
+/// 0 <= a <= 1, at L points, to rounding (carryVariables): context.shape is chordShape of g. The derivative
+/// of z by `to` is not given, and is the tangent of solveRate only in the limit of a short chord.
+template <int NV, int NZ, int ND, int L, class G>
+KOKKOS_INLINE_FUNCTION bool integrateRate(const G& g, Context<L> context, const Lanes<L>* from,
+                                          const Lanes<L>* to, const Lanes<L>* data, Lanes<L>* z,
+                                          int maxSteps = 1000) {
+  return carryVariables<L>(detail::ChordLaw<NV, NZ, ND, G>{g}, context, from, to, data, z, maxSteps);
 }
 
 /// The same at one point.
