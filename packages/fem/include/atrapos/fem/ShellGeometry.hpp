@@ -21,7 +21,8 @@ struct PrescribedDirector {
 struct ShellGeometryOptions {
   /// Degrees, in (0, 180). Faces at a node whose normals differ by at most this angle, directly or by way of
   /// others there, share one director: the mean of their unit normals, as long as the mitre of the fold asks.
-  /// Other faces have directors of their own and share the displacement of the node only: a hinge.
+  /// Other faces have directors of their own and share the displacement of the node only: a hinge, until
+  /// joinShells makes it a rigid joint (ShellJoints.hpp).
   double foldAngle = 20;
   std::vector<PrescribedDirector> directors;
 };
