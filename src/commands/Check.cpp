@@ -13,18 +13,6 @@
 #include "machine/Threads.hpp"
 
 namespace atrapos {
-namespace {
-
-/// Nodes where several directors stand.
-int hinges(const fem::ShellGeometry& shells) {
-  int count = 0;
-  for (int n = 0; n < shells.numMeshNodes; ++n)
-    count += shells.firstDirector[n + 1] - shells.firstDirector[n] > 1;
-  return count;
-}
-
-}  // namespace
-
 void printCheck(Scene& scene, std::ostream& out) {
   deck::describe(scene.deck(), out);
   fem::FeProblem& problem = scene.problem();
@@ -35,9 +23,8 @@ void printCheck(Scene& scene, std::ostream& out) {
   for (const fem::ShellBlock& block : shells.blocks)
     out << fmt::format("# shells    {} elements in block '{}'\n", block.numElements(),
                        scene.mesh().blocks[block.block].name);
-  if (!shells.blocks.empty())
-    out << fmt::format("# directors {}, at {} nodes more than one (hinges)\n", shells.numDirectors(),
-                       hinges(shells));
+  if (!shells.blocks.empty()) out << fmt::format("# directors {}\n", shells.numDirectors());
+  for (const std::string& line : describe(scene.mesh(), scene.shells())) out << "# " << line << '\n';
   for (const ContactPoints& contact : scene.contacts()) {
     out << fmt::format("# contact   {}: {} points, smallest gap {:.6g}, {}\n", contact.name, contact.count,
                        contact.smallestGap, contact.pressure.text);

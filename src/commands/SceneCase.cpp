@@ -47,7 +47,7 @@ std::unique_ptr<PathCase> SceneCase::moved(const path::Vector& shape, double siz
 }
 
 std::vector<std::string> SceneCase::remarks() const {
-  std::vector<std::string> lines;
+  std::vector<std::string> lines = describe(scene_.mesh(), scene_.shells());
   for (const ContactPoints& contact : scene_.contacts())
     lines.push_back(fmt::format("contact {}: {}", contact.name, contact.pressure.text));
   return lines;

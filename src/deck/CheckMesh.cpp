@@ -101,6 +101,16 @@ class MeshCheck {
     }
   }
 
+  void joints() const {
+    for (const auto& joint : deck_.shells.joints) {
+      const std::string path = "shells/joints/" + joint.name + "/set";
+      nodes(path, joint.set);
+      if (!hasShells(joint.set)) {
+        fail(path, fmt::format("no node of '{}' belongs to shells", joint.set));
+      }
+    }
+  }
+
   /// A plane mesh, and what is said of it.
   void plane() const {
     if (mesh_.dimension == 2 && !deck_.plane) {
@@ -263,6 +273,7 @@ void checkAgainstMesh(const Deck& deck, const fem::Mesh& mesh) {
   check.plane();
   check.materials();
   check.sections();
+  check.joints();
   for (const auto& support : deck.supports) {
     check.support(support);
   }

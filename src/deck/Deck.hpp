@@ -99,8 +99,20 @@ struct ShellSection {
   std::optional<Shear> shear;       ///< empty = as Shells has it
 };
 
+/// How shells with directors of their own are joined at the nodes of a set.
+struct ShellJoint {
+  enum class Kind {
+    Rigid,  ///< the angles between them stay, moments pass
+    Hinge   ///< they share the displacement alone
+  };
+  std::string name;
+  std::string set;  ///< node set, else side set
+  Kind kind = Kind::Rigid;
+};
+
 struct Shells {
   double foldAngle = 20;  ///< degrees, in (0, 180): beyond it faces at a node have directors of their own
+  std::vector<ShellJoint> joints;   ///< rigid where no entry says otherwise; of several the last one counts
   Shear shear = Shear::Compatible;  ///< of blocks without an entry, and of entries without their own
   std::vector<ShellSection> sections;
 };

@@ -115,9 +115,11 @@ const Table<Deck>& deckTable() {
         }
       }
     };
-    auto shells = block("shells", optional, &Deck::shells, shellsTable(), "thickness and folds of shells");
+    auto shells = block("shells", optional, &Deck::shells, shellsTable(), "thickness, folds and joints of shells");
     shells.print = [inner = shells.print](const Deck& deck) {
-      const bool plain = deck.shells.sections.empty() && deck.shells.foldAngle == Shells{}.foldAngle;
+      const Shells& s = deck.shells;
+      const bool plain = s.sections.empty() && s.joints.empty() && s.foldAngle == Shells{}.foldAngle &&
+                         s.shear == Shells{}.shear;
       return plain ? Node{} : inner(deck);
     };
     return Table<Deck>{

@@ -18,6 +18,7 @@ const Table<Shells>& shellsTable();
 /// The block `plane`, which a deck may not have.
 Field<Deck> planeField();
 const Table<ShellSection>& shellSectionTable();
+const Table<ShellJoint>& shellJointTable();
 const Table<Support>& supportTable();
 const Table<Coupling>& couplingTable();
 const Variants<Load, decltype(Load::load)>& loadVariants();

@@ -58,10 +58,23 @@ const Table<ShellSection>& shellSectionTable() {
   return table;
 }
 
+const Table<ShellJoint>& shellJointTable() {
+  using Kind = ShellJoint::Kind;
+  static const Choices<Kind> kinds{{"rigid", Kind::Rigid}, {"hinge", Kind::Hinge}};
+  static const Table<ShellJoint> table{
+      name("set", required, &ShellJoint::set, "a node set or side set, name or id",
+           "nodes where shells meet"),
+      choice("joint", required, &ShellJoint::kind, kinds,
+             "rigid: angles between the shells stay and moments pass; hinge: they share the displacement "
+             "alone")};
+  return table;
+}
+
 const Table<Shells>& shellsTable() {
   static const Table<Shells> table = [] {
     auto angle = real("fold_angle", optional, &Shells::foldAngle, check::positive,
-                      "degrees, below 180: faces at a node share a director up to this angle");
+                      "degrees, below 180: faces at a node share a director up to this angle; beyond it they "
+                      "meet in a joint");
     angle.read = [inner = angle.read](const Value& v, Shells& s) {
       inner(v, s);
       if (s.foldAngle >= 180) {
@@ -69,6 +82,8 @@ const Table<Shells>& shellsTable() {
       }
     };
     return Table<Shells>{angle,
+                         entries("joints", optional, &Shells::joints, shellJointTable(),
+                                 "each with set, joint", "joints of shells that are not rigid"),
                          choice("shear", optional, &Shells::shear, shears(),
                                 "transverse shear strains; assumed: for thin plates with clamped edges or "
                                 "skew corners"),

@@ -61,6 +61,7 @@ fem::FeModel Scene::makeModel() {
   giveRanks(model);
   addSupports(model);
   addCouplings(model);
+  if (!shells_.empty()) shells_.joints = joinShells(deck_, mesh_, shells_, model);
   addLoads(model);
   addFollowers(model);
   addContacts(model);

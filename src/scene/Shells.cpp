@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <set>
 #include <stdexcept>
 
 #include "atrapos/fem/PointSet.hpp"
+#include "scene/Sets.hpp"
 
 namespace atrapos {
 namespace {
@@ -45,19 +47,78 @@ int SceneShells::find(int block) const {
   return -1;
 }
 
-SceneShells sceneShells(const deck::Deck& deck, const fem::Mesh& mesh) {
+SceneShells sceneShells(const deck::Deck& deck, fem::Mesh& mesh) {
   for (const fem::Block& block : mesh.blocks)
     if (fem::isShell(block.topology) && block.topology != fem::Topology::Shell8)
       deck::failAt(deck, "mesh/file",
                    fmt::format("block '{}' has {}: the shell element has eight nodes; accepted is SHELL8",
                                block.name, fem::topologyName(block.topology)));
   SceneShells shells;
+  shells.parts = fem::orientShells(mesh, deck.shells.foldAngle);
   shells.geometry = geometryOf(deck, mesh);
   for (const fem::ShellBlock& b : shells.geometry.blocks) {
     shells.elements.push_back({b.nodes, b.midsurface, b.directors, b.directorScale});
     shells.shear.push_back(shearOf(deck, mesh, b.block));
   }
   return shells;
+}
+
+fem::ShellJoints joinShells(const deck::Deck& deck, const fem::Mesh& mesh, const SceneShells& shells,
+                            fem::FeModel& model) {
+  std::set<int> hinges;
+  for (const deck::ShellJoint& joint : deck.shells.joints) {
+    bool found = false;
+    for (const int node : nodesOf(mesh, joint.set)) {
+      found = found || shells.geometry.directorNodes(node).size() > 1;
+      if (joint.kind == deck::ShellJoint::Kind::Hinge)
+        hinges.insert(node);
+      else
+        hinges.erase(node);
+    }
+    if (!found)
+      deck::failAt(deck, "shells/joints/" + joint.name + "/set",
+                   fmt::format("at no node of '{}' do shells meet at more than the fold angle of {:g} "
+                               "degrees, so there is no joint",
+                               joint.set, deck.shells.foldAngle));
+  }
+  try {
+    return fem::joinShells(model, mesh, shells.geometry, deck::largestYoungsModulus(deck),
+                           {hinges.begin(), hinges.end()});
+  } catch (const std::invalid_argument& e) {
+    deck::failAt(deck, "shells", e.what());
+  }
+}
+
+std::vector<std::string> describe(const fem::Mesh& mesh, const SceneShells& shells) {
+  std::vector<std::string> lines;
+  constexpr int most = 5;  // lines on parts
+  int parts = 0, elements = 0;
+  for (const fem::ShellPart& part : shells.parts) {
+    if (part.turned == 0) continue;
+    elements += part.turned;
+    const auto where = [&] {
+      return fmt::format("of element {} (block '{}')",
+                         mesh.elementIds.empty() ? part.element + 1LL : mesh.elementIds[part.element],
+                         part.block);
+    };
+    if (++parts <= most)
+      lines.push_back(
+          fmt::format("normals   {} of the {} shells around that {} turned over, so that "
+                      "neighbours agree on top and bottom",
+                      part.turned, part.elements, where()));
+    if (part.sidesMixed)
+      lines.push_back(
+          fmt::format("warning   a side set has faces on both sides of the shells around that {}: "
+                      "they stay where the mesh has them",
+                      where()));
+  }
+  if (parts > most)
+    lines.push_back(fmt::format("normals   {} shells turned over in {} parts in all", elements, parts));
+  const std::size_t rigid = shells.joints.rigid.size(), hinged = shells.joints.hinged.size();
+  if (rigid + hinged > 0)
+    lines.push_back(
+        fmt::format("joints    of shells at {} nodes: {} rigid, {} hinged", rigid + hinged, rigid, hinged));
+  return lines;
 }
 
 double zetaOf(deck::ShellPlace place) {

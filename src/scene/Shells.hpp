@@ -1,6 +1,8 @@
 #pragma once
 
 #include "atrapos/fem/ShellGeometry.hpp"
+#include "atrapos/fem/ShellJoints.hpp"
+#include "atrapos/fem/ShellOrientation.hpp"
 #include "atrapos/solid/ShellLoads.hpp"
 #include "deck/Deck.hpp"
 
@@ -12,6 +14,8 @@ struct SceneShells {
   fem::ShellGeometry geometry;
   std::vector<solid::ShellElements> elements;  ///< [position in geometry.blocks]
   std::vector<deck::Shear> shear;              ///< the same
+  fem::ShellJoints joints;                     ///< as joinShells has made them
+  std::vector<fem::ShellPart> parts;           ///< as orientShells has turned them
 
   bool empty() const { return elements.empty(); }
   /// Position of a block of the mesh in geometry.blocks; -1: it has no shells.
@@ -19,8 +23,17 @@ struct SceneShells {
 };
 
 /// All shells of a deck's mesh; empty where it has none. Blocks without a section have their thickness in
-/// their attributes. Throws deck::DeckError for shells that cannot be, and for cells other than SHELL8.
-SceneShells sceneShells(const deck::Deck& deck, const fem::Mesh& mesh);
+/// their attributes. Turns shells over in the mesh where the normals of neighbours do not agree. Throws
+/// deck::DeckError for shells that cannot be, and for cells other than SHELL8.
+SceneShells sceneShells(const deck::Deck& deck, fem::Mesh& mesh);
+
+/// Makes the folds and branches of the shells rigid joints, those excepted that the deck has as hinges; after
+/// the supports and couplings of the model. Throws deck::DeckError.
+fem::ShellJoints joinShells(const deck::Deck& deck, const fem::Mesh& mesh, const SceneShells& shells,
+                            fem::FeModel& model);
+
+/// Lines on what the program has made of shells that was not said in so many words.
+std::vector<std::string> describe(const fem::Mesh& mesh, const SceneShells& shells);
 
 /// The surface's zeta: -1 bottom, 0 middle, 1 top.
 double zetaOf(deck::ShellPlace place);

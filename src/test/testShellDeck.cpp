@@ -316,6 +316,36 @@ TEST(ShellDeck, sharesOfNodes) {
               &mesh);
 }
 
+TEST(ShellDeck, jointsAreRigidUnlessTheyAreNamed) {
+  EXPECT_TRUE(readDeckText(goodDeck, "shell.yaml").shells.joints.empty());
+  const std::string text = changed("  fold_angle: 30\n",
+                                   "  fold_angle: 30\n  joints:\n    lid: {set: x_min, joint: hinge}\n    "
+                                   "end: {set: x_max, joint: rigid}\n");
+  const Deck deck = readDeckText(text, "shell.yaml");
+  ASSERT_EQ(deck.shells.joints.size(), 2u);
+  EXPECT_EQ(deck.shells.joints[0].set, "x_min");
+  EXPECT_EQ(deck.shells.joints[0].kind, ShellJoint::Kind::Hinge);
+  EXPECT_EQ(deck.shells.joints[1].kind, ShellJoint::Kind::Rigid);
+  std::ostringstream printed;
+  describe(deck, printed);
+  EXPECT_EQ(readDeckText(printed.str(), "s.yaml").shells.joints[0].kind, ShellJoint::Kind::Hinge);
+  expectError("fold_angle: 30", "joints: {lid: {set: x_min, joint: loose}}",
+              "shells/joints/lid/joint: 'loose' is not a choice here");
+  expectError("fold_angle: 30", "joints: {lid: {set: x_min}}", "shells/joints/lid/joint: ");
+  const fem::Mesh mesh = plateMesh();
+  expectError("fold_angle: 30", "joints: {lid: {set: x_mix, joint: hinge}}",
+              "shells/joints/lid/set: the mesh has no node set or side set 'x_mix'", &mesh);
+}
+
+// Said once for all, it is printed also where the deck says nothing else of shells.
+TEST(ShellDeck, shearAloneIsPrinted) {
+  const std::string text = changed(
+      "  fold_angle: 30\n  sections:\n    skin: {blocks: [plate], thickness: 0.25}\n", "  shear: assumed\n");
+  std::ostringstream printed;
+  describe(readDeckText(text, "shell.yaml"), printed);
+  EXPECT_EQ(readDeckText(printed.str(), "s.yaml").shells.shear, Shear::Assumed);
+}
+
 TEST(ShellDeck, platesCanBeGraded) {
   const Deck deck = readDeckText(changed("divisions: [5, 1]", "grading: 1.5, divisions: [5, 1]"), "s.yaml");
   EXPECT_EQ(std::get<fem::ShellPlateOptions>(*deck.mesh.generate).grading, 1.5);

@@ -2,11 +2,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "atrapos/exodus/MeshFile.hpp"
 #include "atrapos/fem/StructuredShell.hpp"
 #include "support/Command.hpp"
 #include "support/Folder.hpp"
+#include "support/Profile.hpp"
 
 namespace atrapos::test {
 namespace {
@@ -91,6 +93,7 @@ TEST(ShellInput, CollapsedEdge) {
   expectRefused(checked(mesh), {"shells: element 1 (block 'roof'): the Jacobian"});
 }
 
+// Normals that do not agree are made to, and the run says so.
 TEST(ShellInput, OppositeNormals) {
   fem::Mesh mesh = roof();
   auto& nodes = mesh.blocks[0].nodes;
@@ -98,7 +101,62 @@ TEST(ShellInput, OppositeNormals) {
   const std::vector<int> old(nodes.begin() + 16, nodes.begin() + 24);
   const int order[8] = {0, 3, 2, 1, 7, 6, 5, 4};
   for (int n = 0; n < 8; ++n) nodes[16 + n] = old[order[n]];
-  expectRefused(checked(mesh), {"shells: element", "element 3 (block 'roof')", "opposite normals"});
+  const CommandResult r = checked(mesh);
+  EXPECT_EQ(r.exitCode, 0) << r.err;
+  EXPECT_NE(r.out.find("# normals   1 of the 8 shells around that of element 1 (block 'roof') turned over"),
+            std::string::npos)
+      << r.out;
+  EXPECT_EQ(checked(roof()).out.find("turned over"), std::string::npos);
+}
+
+namespace {
+
+/// An angle of two plates along z; the line of its corner is a node set.
+fem::Mesh angle(double degrees) {
+  const double a = degrees * 3.14159265358979323846 / 180;
+  fem::Mesh mesh =
+      fem::test::profileMesh({{{-1, 0}, {0, 0}, 2}, {{0, 0}, {std::cos(a), std::sin(a)}, 2}}, 1, 2);
+  mesh.nodeSets.push_back({"corner", 3, fem::test::nodesAbove(mesh, {0, 0})});
+  return mesh;
+}
+
+const std::string kAngle = R"(mesh: {file: roof.exo}
+materials:
+  steel: {law: saint_venant_kirchhoff, youngs_modulus: 1000, poissons_ratio: 0.3, blocks: [wall1, wall2]}
+shells:
+  sections:
+    skin: {blocks: [wall1, wall2], thickness: 0.1}
+supports:
+  foot: {set: foot, condition: clamped}
+loads:
+  tip: {type: nodal, set: head, total: [0, 0.001, 0]}
+path:
+  stop: {load_factor: 1}
+)";
+
+}  // namespace
+
+TEST(ShellInput, JointsAreTold) {
+  const CommandResult rigid = checked(angle(90), kAngle);
+  EXPECT_EQ(rigid.exitCode, 0) << rigid.err;
+  EXPECT_NE(rigid.out.find("# joints    of shells at 5 nodes: 5 rigid, 0 hinged\n"), std::string::npos)
+      << rigid.out;
+  const std::string joints = "shells:\n  joints:\n    corner: {set: corner, joint: hinge}\n";
+  const CommandResult hinged = checked(angle(90), edited(kAngle, "shells:\n", joints));
+  EXPECT_EQ(hinged.exitCode, 0) << hinged.err;
+  EXPECT_NE(hinged.out.find("# joints    of shells at 5 nodes: 0 rigid, 5 hinged\n"), std::string::npos)
+      << hinged.out;
+  // The last of several entries counts.
+  const std::string more = joints + "    foot: {set: foot, joint: rigid}\n";
+  EXPECT_NE(checked(angle(90), edited(kAngle, "shells:\n", more)).out.find("1 rigid, 4 hinged"),
+            std::string::npos);
+  // Below the fold angle there is one director and no joint.
+  EXPECT_EQ(checked(angle(19), kAngle).out.find("# joints"), std::string::npos);
+  expectRefused(
+      checked(angle(19), edited(kAngle, "shells:\n", joints)),
+      {"shells/joints/corner/set: at no node of 'corner' do shells meet at more than the fold angle of 20 "
+       "degrees"});
+  expectRefused(checked(angle(179.8), kAngle), {"shells: node ", "folded onto each other"});
 }
 
 // A moment about the director turns nothing: shells have no stiffness and no unknown for it.

@@ -151,14 +151,14 @@ class Builder {
       for (std::size_t i = 0; i < uses.size(); ++i)
         for (std::size_t j = 0; j < i; ++j) {
           if (first(uses[i]) != first(uses[j])) continue;
-          if (uses.size() > 2 && std::abs(dot(normal(uses[i].from), normal(uses[j].from))) < cosFold_)
-            continue;
-          fail(
-              fmt::format("{} and {} have opposite normals: both run from {} to {} along their common edge; "
-                          "reverse the node order of one",
-                          label(uses[j].from.section, uses[j].from.element),
-                          label(uses[i].from.section, uses[i].from.element), nodeLabel(mesh_, first(uses[i])),
-                          nodeLabel(mesh_, node(uses[i].to.section, uses[i].to.element, uses[i].to.local))));
+          if (uses.size() > 2 && dot(normal(uses[i].from), normal(uses[j].from)) > -cosFold_) continue;
+          fail(fmt::format(
+              "{} and {} have opposite normals: both run from {} to {} along their common edge; "
+              "reverse the node order of one (a surface with one side only, a Moebius strip, has no order "
+              "that fits)",
+              label(uses[j].from.section, uses[j].from.element),
+              label(uses[i].from.section, uses[i].from.element), nodeLabel(mesh_, first(uses[i])),
+              nodeLabel(mesh_, node(uses[i].to.section, uses[i].to.element, uses[i].to.local))));
         }
   }
 

@@ -82,7 +82,7 @@ Condition keptNormal(const Joint& joint, int i, int j, int k, const Vec3& p) {
   add(-(p1 * dot(a, d) + p3 * dot(d, n)), a, c.gradient[0]);
   add(-(p2 * dot(b, d) + p3 * dot(d, n)), b, c.gradient[1]);
   for (const Vec3& v : {a, b, d}) c.data.insert(c.data.end(), v.begin(), v.end());
-  c.data.insert(c.data.end(), {p1, p2, p3});
+  c.data.insert(c.data.end(), {p1, p2, p3, dot(d, a), dot(d, b), dot(d, n)});
   return c;
 }
 

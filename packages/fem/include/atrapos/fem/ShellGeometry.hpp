@@ -63,7 +63,7 @@ struct ShellGeometry {
 /// - the block without section or thickness, or a section's block that holds no shells or has two sections;
 /// - the element whose middle surface or body has a zero Jacobian or one of varying sign; a body has it where
 ///   the thickness exceeds twice the radius of curvature;
-/// - two elements with a common edge that have opposite normals;
+/// - two elements with a common edge that have opposite normals (orientShells mends them where it can);
 /// - the node whose faces have no common director, or whose prescribed one points to a face's bottom.
 ShellGeometry shellGeometry(const Mesh& mesh, const std::vector<ShellSection>& sections,
                             const ShellGeometryOptions& options = {});
