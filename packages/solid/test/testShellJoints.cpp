@@ -272,6 +272,46 @@ TEST(ShellJoints, InertiaCountsConditionsAndBuckling) {
   }
 }
 
+namespace {
+
+/// Moment per turn of both long edges of a strip of thin plate, width b, D = 1, under the thrust N per length
+/// along them, that buckles in half-waves pi/k with edges that stay straight: w = f(y) sin(k z), f = cosh(p
+/// y)/cosh(p b/2) - cos(q y)/cos(q b/2).
+double edgeStiffness(double b, double k, double N) {
+  const double p = std::sqrt(k * (k + std::sqrt(N))), q = std::sqrt(k * (std::sqrt(N) - k));
+  return (p * p + q * q) / (p * std::tanh(p * b / 2) + q * std::tan(q * b / 2));
+}
+
+}  // namespace
+
+// A tube of 2 x 1: the wide walls buckle and the narrow ones hold them by the corners, which keep their
+// angles.
+TEST(ShellJoints, RectangularTubeBucklesAsFoldedPlates) {
+  const double E = 1e4, h = 0.01, length = 1.5, k = M_PI / length;
+  // Both walls turn by one angle at the corner. Above its load with hinges the wide one pushes: S < 0.
+  double low = M_PI * M_PI, high = 1.7 * M_PI * M_PI;
+  for (int i = 0; i < 60; ++i) {
+    const double N = 0.5 * (low + high);
+    (edgeStiffness(2, k, N) + edgeStiffness(1, k, N) > 0 ? low : high) = N;
+  }
+  EXPECT_NEAR(low * 4 / (M_PI * M_PI), 5.2156, 1e-3);  // between 4, hinged, and 6.98, clamped
+  const double critical = low * h * h / 12;            // strain
+  const int n = 6;
+  for (const double part : {0.985, 1.005}) {
+    Walls w({{{0, 0}, {2, 0}, n}, {{2, 0}, {2, 1}, n}, {{2, 1}, {0, 1}, n}, {{0, 1}, {0, 0}, n}}, h, E, 0,
+            length, n);
+    hold(w.model, nodesOfSet(w.mesh, "foot"), "xyz");
+    hold(w.model, nodesOfSet(w.mesh, "head"), "xy");
+    for (int node : nodesOfSet(w.mesh, "head")) w.model.prescribe(node, 2, 0, -critical * length);
+    w.join();
+    fem::FeProblem problem(std::move(w.model));
+    const auto state = equilibrium(problem, part, Numbers(problem.model().dofs.numDofs(), 0.0));
+    ASSERT_TRUE(state.inertia);
+    // Below: edges of shells with shear may twist, which is a layer of the thickness and 1 % here.
+    EXPECT_EQ(state.inertia->negative - problem.constraintPivots(), part > 1 ? 1 : 0) << part;
+  }
+}
+
 // Conditions that supports and couplings fulfil are left out: the tangent would be singular.
 TEST(ShellJoints, SupportsAndCouplingsTakeConditions) {
   const auto pivots = [](const std::function<void(Walls&, const std::vector<int>&)>& condition) {
