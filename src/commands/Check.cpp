@@ -13,6 +13,7 @@
 #include "machine/Threads.hpp"
 
 namespace atrapos {
+
 void printCheck(Scene& scene, std::ostream& out) {
   deck::describe(scene.deck(), out);
   fem::FeProblem& problem = scene.problem();

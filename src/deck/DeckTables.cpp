@@ -115,7 +115,8 @@ const Table<Deck>& deckTable() {
         }
       }
     };
-    auto shells = block("shells", optional, &Deck::shells, shellsTable(), "thickness, folds and joints of shells");
+    auto shells =
+        block("shells", optional, &Deck::shells, shellsTable(), "thickness, folds and joints of shells");
     shells.print = [inner = shells.print](const Deck& deck) {
       const Shells& s = deck.shells;
       const bool plain = s.sections.empty() && s.joints.empty() && s.foldAngle == Shells{}.foldAngle &&

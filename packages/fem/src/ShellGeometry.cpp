@@ -18,6 +18,9 @@ namespace {
 
 constexpr double kRadiansPerDegree = 3.14159265358979323846 / 180.0;
 
+// At a branch the faces beyond 45 degrees are no smooth surface, however wide the fold angle is.
+const double kCosBranch = std::sqrt(0.5);
+
 /// Where a node stands in an element of one of the sections.
 struct Corner {
   int section, element, local;
@@ -132,7 +135,8 @@ class Builder {
 
   // Neighbours on one surface run through their common edge in opposite directions. Where more than two
   // elements meet at an edge no order of all is consistent, and only pairs that continue each other count.
-  void checkOrientation() const {
+  // Notes the nodes of such branches.
+  void checkOrientation() {
     struct Use {
       Corner from, to;
     };
@@ -147,11 +151,19 @@ class Builder {
     const auto first = [this](const Use& use) {
       return node(use.from.section, use.from.element, use.from.local);
     };
-    for (const auto& [nodes, uses] : edges)
+    atBranch_.assign(mesh_.numNodes(), 0);
+    for (const auto& edge : edges) {
+      const std::vector<Use>& uses = edge.second;
+      if (uses.size() > 2)
+        for (const Corner& c : {uses[0].from, uses[0].to}) atBranch_[node(c.section, c.element, c.local)] = 1;
+      if (uses.size() > 2 && perElement(uses[0].from.section) > 4)
+        atBranch_[node(uses[0].from.section, uses[0].from.element, 4 + uses[0].from.local)] = 1;
       for (std::size_t i = 0; i < uses.size(); ++i)
         for (std::size_t j = 0; j < i; ++j) {
           if (first(uses[i]) != first(uses[j])) continue;
-          if (uses.size() > 2 && dot(normal(uses[i].from), normal(uses[j].from)) > -cosFold_) continue;
+          if (uses.size() > 2 &&
+              dot(normal(uses[i].from), normal(uses[j].from)) > -std::max(cosFold_, kCosBranch))
+            continue;
           fail(fmt::format(
               "{} and {} have opposite normals: both run from {} to {} along their common edge; "
               "reverse the node order of one (a surface with one side only, a Moebius strip, has no order "
@@ -160,6 +172,7 @@ class Builder {
               label(uses[i].from.section, uses[i].from.element), nodeLabel(mesh_, first(uses[i])),
               nodeLabel(mesh_, node(uses[i].to.section, uses[i].to.element, uses[i].to.local))));
         }
+    }
   }
 
   void addDirectors() {
@@ -178,19 +191,21 @@ class Builder {
       if (given != prescribed.end())
         addDirector(n, corners_[n], given->second);
       else
-        for (const auto& group : smoothGroups(corners_[n])) addDirector(n, group, std::nullopt);
+        for (const auto& group :
+             smoothGroups(corners_[n], atBranch_[n] ? std::max(cosFold_, kCosBranch) : cosFold_))
+          addDirector(n, group, std::nullopt);
     }
     result_.firstDirector.push_back(result_.numDirectors());
   }
 
-  // Classes of the relation "normals within the fold angle", continued transitively, in order of appearance.
-  std::vector<std::vector<Corner>> smoothGroups(const std::vector<Corner>& corners) const {
+  // Classes of the relation "normals within an angle", continued transitively, in order of appearance.
+  std::vector<std::vector<Corner>> smoothGroups(const std::vector<Corner>& corners, double cosine) const {
     const int count = static_cast<int>(corners.size());
     std::vector<int> group(count);
     std::iota(group.begin(), group.end(), 0);
     for (int i = 0; i < count; ++i)
       for (int j = 0; j < i; ++j)
-        if (group[i] != group[j] && dot(normal(corners[i]), normal(corners[j])) >= cosFold_) {
+        if (group[i] != group[j] && dot(normal(corners[i]), normal(corners[j])) >= cosine) {
           const int low = std::min(group[i], group[j]), high = std::max(group[i], group[j]);
           std::replace(group.begin(), group.end(), high, low);
         }
@@ -289,6 +304,7 @@ class Builder {
   const std::vector<ShellSection>& sections_;
   const ShellGeometryOptions& options_;
   double cosFold_ = 0;
+  std::vector<char> atBranch_;                  // [mesh node]
   std::vector<std::vector<double>> thickness_;  // [section][element][node]
   std::vector<std::vector<Vec3>> normals_;      // [section][element][node]
   std::vector<std::vector<Corner>> corners_;    // [mesh node]

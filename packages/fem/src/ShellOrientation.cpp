@@ -6,9 +6,7 @@
 #include <set>
 #include <utility>
 
-#include "Labels.hpp"
 #include "Vec3.hpp"
-#include "atrapos/fem/PointSet.hpp"
 
 namespace atrapos::fem {
 namespace {
@@ -28,7 +26,7 @@ int reversedSide(int side) { return side < 2 ? 1 - side : 7 - side; }
 class Orientation {
  public:
   Orientation(Mesh& mesh, double foldAngle)
-      : mesh_(mesh), cosFold_(std::cos(foldAngle * 3.14159265358979323846 / 180.0)) {}
+      : mesh_(mesh), cosFold_(std::cos(std::min(foldAngle, 45.0) * 3.14159265358979323846 / 180.0)) {}
 
   std::vector<ShellPart> operator()() {
     collect();
@@ -177,7 +175,7 @@ class Orientation {
   }
 
   Mesh& mesh_;
-  double cosFold_;
+  double cosFold_;  ///< at branches, as shellGeometry has it there
   std::vector<Element> elements_;
   std::vector<std::vector<Neighbour>> neighbours_;
   std::vector<int> partOf_;

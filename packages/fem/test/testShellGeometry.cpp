@@ -281,6 +281,10 @@ TEST(ShellGeometry, BranchesJoinWhatContinues) {
   EXPECT_EQ(shells.directorNodes(nodeAt(mesh, {0, 0.5, 0})).size(), 2u);
   EXPECT_EQ(shells.numDirectors(), mesh.numNodes() + 5);
   EXPECT_EQ(shells.blocks[0].nodesPerElement, 8);
+  // The web is no part of a smooth surface, however wide the fold angle is, at the nodes between corners too.
+  ShellGeometryOptions wide;
+  wide.foldAngle = 100;
+  EXPECT_EQ(shellGeometry(mesh, sections(mesh, 0.2), wide).numDirectors(), mesh.numNodes() + 5);
 }
 
 TEST(ShellGeometry, ChainsOfSmallAnglesShareADirector) {

@@ -8,7 +8,7 @@
 namespace atrapos::fem {
 
 /// Shells that hang together by common edges where an orientation goes on: at edges of two elements, and at
-/// branches from an element to the one that continues it within the fold angle.
+/// branches from an element to the one that continues it within the fold angle, 45 degrees at most.
 struct ShellPart {
   std::string block;        ///< of the part's first element
   int element = 0;          ///< that element, counted over all blocks
@@ -22,8 +22,8 @@ struct ShellPart {
 /// element stays where it is in space: thicknesses of its nodes; in side sets its edges, and its faces, whose
 /// top becomes its bottom. Returns the parts, in the order of their first elements.
 ///
-/// Where no orientation of all suits (a Moebius strip), neighbours are left that do not agree, as few as the
-/// walk from the first element comes to; shellGeometry refuses them.
+/// Where no orientation of all suits (a Moebius strip), neighbours are left that do not agree; shellGeometry
+/// refuses them.
 std::vector<ShellPart> orientShells(Mesh& mesh, double foldAngle);
 
 }  // namespace atrapos::fem
