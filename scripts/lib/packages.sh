@@ -12,7 +12,7 @@ buildPackages=(
   libtrilinos-trilinosss-dev libtrilinos-shylu-dev
   # ... and the libraries its package file names: without these nothing links.
   libscotch-dev libptscotch-dev libhdf5-openmpi-dev zlib1g-dev
-  libmumps-dev libmetis-dev libexodusii-dev
+  libmumps-dev libmetis-dev libexodusii-dev libnetcdf-dev
   # The reference BLAS would make every factorization several times slower.
   liblapack-dev libopenblas0-pthread
   libcli11-dev libfmt-dev nlohmann-json3-dev libyaml-cpp-dev

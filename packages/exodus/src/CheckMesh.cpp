@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <set>
+#include <utility>
+#include <vector>
 
 #include "ElementTypes.hpp"
 #include "atrapos/exodus/Error.hpp"
@@ -26,15 +29,15 @@ class Checker {
     require(mesh_.coordinates.size() % 3 == 0, "the number of coordinates is not a multiple of three");
     require(isPart_ || mesh_.numNodes() > 0, "the mesh has no nodes");
     require(mesh_.dimension == 2 || mesh_.dimension == 3, "the mesh has neither two nor three dimensions");
-    require(std::all_of(mesh_.coordinates.begin(), mesh_.coordinates.end(),
-                        [](double x) { return std::isfinite(x); }),
-            "a node has a coordinate that is not a finite number");
+    checkFinite(mesh_.coordinates, "a node has a coordinate");
     for (const fem::Block& block : mesh_.blocks) checkBlock(block);
+    checkTwins();
     require(isPart_ || !sidesOfElement_.empty(), "the mesh has no elements");
     for (const fem::NodeSet& set : mesh_.nodeSets) {
       checkNodes(set.nodes, describe("node set", set));
       require(set.factors.empty() || set.factors.size() == set.nodes.size(),
               describe("node set", set) + " has not as many distribution factors as nodes");
+      checkFinite(set.factors, describe("node set", set) + " has a distribution factor");
     }
     for (const fem::SideSet& set : mesh_.sideSets) checkSides(set);
     checkNamesAndIds(mesh_.blocks, "block");
@@ -52,6 +55,11 @@ class Checker {
   template <class Item>
   static std::string describe(const std::string& kind, const Item& item) {
     return kind + " '" + item.name + "' (id " + std::to_string(item.id) + ")";
+  }
+
+  void checkFinite(const std::vector<double>& values, const std::string& what) const {
+    require(std::all_of(values.begin(), values.end(), [](double x) { return std::isfinite(x); }),
+            what + " that is not a finite number");
   }
 
   void checkNodes(const std::vector<int>& nodes, const std::string& owner) const {
@@ -74,8 +82,48 @@ class Checker {
             owner + " has not as many attributes as elements times attribute names");
     for (const std::string& name : block.attributeNames)
       require(name.size() <= maxName, owner + " has an attribute name of more than 255 characters");
+    checkFinite(block.attributes, owner + " has an attribute");
     checkNodes(block.nodes, owner);
     sidesOfElement_.insert(sidesOfElement_.end(), count, static_cast<char>(numSides(block.topology)));
+  }
+
+  /// Two elements on the same nodes would count twice, whatever block they are in.
+  void checkTwins() const {
+    struct Element {
+      std::uint64_t key;  ///< the same for the same nodes in whatever order
+      int number;
+      const int* nodes;
+      int count;
+    };
+    std::vector<Element> elements;
+    elements.reserve(sidesOfElement_.size());
+    for (const fem::Block& block : mesh_.blocks) {
+      const int count = fem::nodesPerElement(block.topology);
+      for (std::size_t first = 0; first < block.nodes.size(); first += static_cast<std::size_t>(count)) {
+        Element e{0, static_cast<int>(elements.size()) + 1, &block.nodes[first], count};
+        for (int i = 0; i < count; ++i) e.key += mixed(static_cast<std::uint64_t>(e.nodes[i]));
+        elements.push_back(e);
+      }
+    }
+    std::sort(elements.begin(), elements.end(), [](const Element& a, const Element& b) {
+      return a.key != b.key ? a.key < b.key : a.number < b.number;
+    });
+    const auto twins =
+        std::adjacent_find(elements.begin(), elements.end(), [](const Element& a, const Element& b) {
+          return a.key == b.key && a.count == b.count &&
+                 std::is_permutation(a.nodes, a.nodes + a.count, b.nodes);
+        });
+    if (twins != elements.end())
+      require(false, "elements " + std::to_string(twins->number) + " and " + std::to_string(twins[1].number) +
+                         " have the same nodes");
+  }
+
+  /// Steele, Lea and Flood's mixing function.
+  static std::uint64_t mixed(std::uint64_t x) {
+    x += 0x9e3779b97f4a7c15;
+    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9;
+    x = (x ^ (x >> 27)) * 0x94d049bb133111eb;
+    return x ^ (x >> 31);
   }
 
   void checkSides(const fem::SideSet& set) const {
@@ -89,6 +137,13 @@ class Checker {
                   std::to_string(side.element + 1LL) + ", which has " +
                   std::to_string(sidesOfElement_[side.element]) + " sides");
     }
+    std::vector<std::pair<int, int>> sides;
+    for (const fem::Side& side : set.sides) sides.emplace_back(side.element, side.side);
+    std::sort(sides.begin(), sides.end());
+    const auto twice = std::adjacent_find(sides.begin(), sides.end());
+    require(twice == sides.end(),
+            describe("side set", set) + " has a side twice" +
+                (twice == sides.end() ? "" : ", of element " + std::to_string(twice->first + 1LL)));
   }
 
   template <class Items>

@@ -4,9 +4,12 @@
 #include <unistd.h>
 
 #include <cstdio>
+#include <filesystem>
 #include <utility>
 
 #include "FileCheck.hpp"
+#include "FileLayout.hpp"
+#include "Hdf5Check.hpp"
 
 namespace atrapos::exodus {
 
@@ -40,6 +43,10 @@ class NoStderr {
 
 File File::open(const std::string& name) {
   const Format format = checkFile(name);
+  if (format == Format::Hdf5)
+    checkHdf5(name);
+  else
+    checkLayout(name, std::filesystem::file_size(name));
   silence();
   int computeWords = sizeof(double), fileWords = 0;
   float version = 0.0F;

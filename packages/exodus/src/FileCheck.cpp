@@ -62,7 +62,13 @@ class ClassicHeader {
     stream_.seekg(static_cast<std::streamoff>(here + padded));
   }
 
-  void skipName() { skip(boundedCount()); }
+  /// NetCDF copies names into rows of 257 characters, however long they are.
+  void skipName() {
+    constexpr std::uint64_t longest = 256;
+    const std::uint64_t n = boundedCount();
+    if (n > longest) damaged();
+    skip(n);
+  }
 
   std::uint64_t listLength(std::uint64_t expectedTag) {
     const std::uint64_t tag = number(4);
