@@ -55,7 +55,7 @@ std::pair<int, int> leaders(const Joint& joint, const std::string& where) {
   // Half a degree: less comes of shells that lie on each other.
   if (sine(joint.E[best.first], joint.E[best.second]) < 0.01)
     throw std::invalid_argument(
-        where + ": the shells there are folded onto each other, which is no rigid joint; a hinge could be");
+        where + ": the shells there are folded onto each other, which is no rigid joint; accepted is a hinge");
   return best;
 }
 
