@@ -6,6 +6,7 @@
 
 #include <CLI/CLI.hpp>
 #include <Kokkos_Core.hpp>
+#include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
@@ -15,6 +16,7 @@
 
 #include "Version.hpp"
 #include "atrapos/exodus/MeshFile.hpp"
+#include "atrapos/exodus/ResultReader.hpp"
 #include "atrapos/fem/Processor.hpp"
 #include "commands/Check.hpp"
 #include "commands/JoinCommand.hpp"
@@ -24,9 +26,11 @@
 #include "commands/Run.hpp"
 #include "commands/SceneCase.hpp"
 #include "commands/SplitCommand.hpp"
+#include "machine/OutputFile.hpp"
 #include "machine/Ranks.hpp"
 #include "machine/Runtime.hpp"
 #include "machine/Threads.hpp"
+#include "output/Files.hpp"
 
 namespace {
 
@@ -44,6 +48,8 @@ int reported(const std::string& named, const F& f) {
   } catch (const atrapos::deck::DeckError& e) {
     return fail(e.what(), kBadInput);
   } catch (const atrapos::exodus::Error& e) {
+    return fail(e.what(), kBadInput);
+  } catch (const atrapos::FileError& e) {
     return fail(e.what(), kBadInput);
   } catch (const std::invalid_argument& e) {
     return fail(named + e.what(), kBadInput);
@@ -161,6 +167,10 @@ int makeMesh(const std::string& deckFile, const std::string& output, bool quiet)
     if (output.empty()) atrapos::deck::failAt(deck, "mesh/file", what);
     throw atrapos::deck::DeckError(fmt::format("{}: --output: {}", deckFile, what));
   }
+  atrapos::requireOwn(file, atrapos::Made::mesh, {});
+  if (std::filesystem::exists(file) && atrapos::exodus::ResultReader(file).numSteps() > 0)
+    throw atrapos::deck::DeckError(
+        fmt::format("{}: {} holds results, which the mesh would replace", deckFile, file));
   atrapos::exodus::writeMesh(mesh, file);
   if (!quiet) std::cout << fmt::format("{}: {}\n", file, atrapos::describeMesh(mesh));
   return 0;
@@ -182,6 +192,7 @@ int check(const std::string& deckFile) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  std::signal(SIGXFSZ, SIG_IGN);  // a file beyond the limit of its size is an error of its writer
   CLI::App app{"Traces solution paths of nonlinear finite-element problems with high-order Taylor series"};
   bool version = false, verbose = false;
   auto* versionFlag = app.add_flag("--version", version, "print the version");

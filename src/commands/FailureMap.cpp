@@ -11,6 +11,7 @@
 #include "atrapos/path/PathFollower.hpp"
 #include "commands/RunSettings.hpp"
 #include "deck/DeckTables.hpp"
+#include "output/Files.hpp"
 #include "output/PathTable.hpp"
 #include "output/ReferencePath.hpp"
 
@@ -147,6 +148,9 @@ void writeMap(const std::vector<std::unique_ptr<PathCase>>& cases, const MapOpti
   for (const auto& pathCase : cases)
     if (!pathCase->deck().path.series())
       deck::failAt(pathCase->deck(), "path/method", "the map varies the settings of series; expected series");
+  std::vector<std::string> decks;
+  for (const auto& pathCase : cases) decks.push_back(pathCase->deck().file);
+  requireOwn(options.file, Made::map, decks);
   Table table(
       options.file,
       "problem,order,delta,pade,outcome,steps,factorizations,orders,corrections,points,points_expected,"

@@ -7,6 +7,7 @@
 
 #include "atrapos/exodus/JoinedResults.hpp"
 #include "commands/MeshCommand.hpp"
+#include "output/Files.hpp"
 
 namespace atrapos {
 namespace {
@@ -33,6 +34,9 @@ void joinParts(const std::vector<std::string>& files, const std::string& output,
   }
   const exodus::JoinedResults results(parts.file, parts.parts);
   const std::string file = output.empty() ? parts.file : output;
+  std::vector<std::string> inputs;
+  for (int p = 0; p < parts.parts; ++p) inputs.push_back(exodus::partName(parts.file, parts.parts, p));
+  requireOwn(file, Made::mesh, inputs);
   exodus::writeJoined(results, file);
   if (!progress) return;
   *progress << fmt::format("{}: {}", file, describeMesh(results.joined().mesh));

@@ -8,6 +8,7 @@
 #include "atrapos/fem/StructuredPlane.hpp"
 #include "atrapos/fem/StructuredShell.hpp"
 #include "deck/DeckValue.hpp"
+#include "machine/Memory.hpp"
 
 namespace atrapos {
 namespace {
@@ -24,12 +25,34 @@ struct Builder {
   fem::Mesh operator()(const fem::RectangleOptions& o) const { return fem::rectangleMesh(o); }
 };
 
+/// Before memory is taken for it: nodes and elements with their copies for the file, at most 1 kB an element
+/// (HEX27).
+void requireRoom(const deck::Deck& deck) {
+  const double elements = std::visit(
+      [](const auto& options) {
+        double product = 1;
+        for (const int n : options.divisions) product *= n;
+        return product;
+      },
+      *deck.mesh.generate);
+  constexpr double most = 1e8, bytesEach = 1000;
+  if (elements > most)
+    deck::failAt(deck, "mesh/generate/divisions",
+                 fmt::format("makes {:.3g} elements; expected at most {:.0e}", elements, most));
+  const double room = machineMemory().available;
+  if (room > 0 && elements * bytesEach > room)
+    deck::failAt(deck, "mesh/generate/divisions",
+                 fmt::format("makes {:.3g} elements, which may take {}; the machine has {}", elements,
+                             inBytes(elements * bytesEach), inBytes(room)));
+}
+
 }  // namespace
 
 fem::Mesh generateMesh(const deck::Deck& deck) {
   if (deck.problem) deck::failAt(deck, "problem", "a model problem has no mesh");
   if (!deck.mesh.generate)
     deck::failAt(deck, "mesh/generate", "missing; `atrapos mesh` needs it to make " + deck.mesh.file);
+  requireRoom(deck);
   try {
     fem::Mesh mesh = std::visit(Builder{}, *deck.mesh.generate);
     mesh.title = deck::beginOf(deck.title, 80);  // what Exodus holds

@@ -42,12 +42,15 @@ class FieldFile {
   /// A state of the case that made the file.
   virtual void write(const CaseState& state, const StateNumbers& numbers) = 0;
   /// Takes over the first `count` states of an earlier file: those up to this length of the path. Throws
-  /// std::invalid_argument, one line, where it holds others than this one.
-  virtual void copyFrom(const std::string& file, int count, double pathLength) = 0;
+  /// std::invalid_argument, one line, where it holds others than this one, or than those that `mark` was
+  /// taken of.
+  virtual void copyFrom(const std::string& file, int count, double pathLength, const Mark& mark) = 0;
+  /// The states so far: the same whoever has written them, and in whatever parts.
+  virtual Mark mark() const = 0;
   /// Gives the file another name, under which it goes on.
   virtual void rename(const std::string& file) = 0;
-  /// Removes the file, which is not written again.
-  virtual void discard() = 0;
+  /// Until what was written would outlast a loss of power.
+  virtual void sync() const = 0;
 };
 
 /// Looks at every step for what belongs to one kind of case, and writes it to a table of its own.
@@ -59,8 +62,10 @@ class StepWatch {
   virtual void onStep(int branch, int step, double pathLengthStart, double length, const path::Series& series,
                       const CaseState& end, const std::vector<int>& events) = 0;
   /// Takes over what an earlier run wrote up to the step `last`. Throws std::invalid_argument, one line,
-  /// where that was another table.
-  virtual void copyFrom(const std::string& file, const RestartPlace& last) = 0;
+  /// where that was another table, or its rows are not those that `mark` was taken of.
+  virtual void copyFrom(const std::string& file, const RestartPlace& last, const Mark& mark) = 0;
+  virtual Mark mark() const = 0;  ///< the rows so far
+  virtual void sync() const = 0;  ///< until they would outlast a loss of power
   virtual int count() const = 0;  ///< of what was found
 };
 
@@ -75,6 +80,9 @@ class PathCase {
   virtual path::Stops stops() const = 0;
   /// In which sense the path starts, of which path/direction: -1 is the other.
   virtual double direction() const { return 1; }
+
+  /// What a restart compares of the body; empty where there is none.
+  virtual MeshDigest meshDigest() const { return {}; }
 
   virtual std::vector<std::string> monitorNames() const = 0;
   virtual std::unique_ptr<CaseState> at(const path::State& state) const = 0;

@@ -8,11 +8,14 @@
 #include <optional>
 #include <ostream>
 
+#include "atrapos/exodus/MeshPart.hpp"
 #include "atrapos/path/PathFollower.hpp"
 #include "commands/RunSettings.hpp"
+#include "deck/ProblemLines.hpp"
 #include "machine/Interrupt.hpp"
+#include "machine/Memory.hpp"
+#include "machine/OutputFile.hpp"
 #include "machine/Ranks.hpp"
-#include "output/FieldFiles.hpp"
 #include "output/Files.hpp"
 #include "output/PathPlot.hpp"
 #include "output/Recorder.hpp"
@@ -89,19 +92,31 @@ class Single final : public path::Observer {
   bool changed_ = false;
 };
 
-/// A run that is killed must not leave an earlier run's files beside its own, those of the branches up to
-/// `last` excepted.
-void removeStale(const std::string& directory, int last, const deck::Deck& deck) {
-  if (!ranks::isFirst()) return;
-  for (const char* old : {"summary.json", "branches.csv", "path.png", "sharpen.csv"})
-    std::filesystem::remove(directory + "/" + old);
-  removeOtherFields(directory, last, deck);
+/// Files that the run reads, and must not replace.
+std::vector<std::string> inputsOf(const deck::Deck& deck) {
+  std::vector<std::string> inputs{deck.file};
+  if (deck.problem) return inputs;
+  inputs.push_back(deck.mesh.path);
+  for (const int parts : exodus::findParts(deck.mesh.path))
+    for (int p = 0; p < parts; ++p) inputs.push_back(exodus::partName(deck.mesh.path, parts, p));
+  return inputs;
 }
 
-std::optional<Continued> continuedRun(PathCase& pathCase, const RunOptions& options) {
+bool isOneFolder(const std::string& a, const std::string& b) {
+  std::error_code notThere;
+  return std::filesystem::equivalent(a, b, notThere);
+}
+
+/// A lock of the first rank.
+void lock(std::optional<FolderLock>& of, const std::string& folder, FolderLock::For purpose) {
+  if (ranks::isFirst()) of.emplace(folder, purpose);
+}
+
+std::optional<Continued> continuedRun(PathCase& pathCase, const RunProblem& problem,
+                                      const RunOptions& options) {
   if (options.restart.empty()) return {};
   const deck::Path& settings = pathCase.deck().path;
-  Continued continued = readRestart(options.restart, options.from, pathCase.problem().map());
+  Continued continued = readRestart(options.restart, options.from, problem, pathCase.problem().map());
   const bool tree = settings.branches != path::Follow::none;
   if (continued.tree != tree)
     throw std::invalid_argument(fmt::format("path/branches: the run in {} follows {}branches; expected {}",
@@ -120,6 +135,22 @@ std::optional<Continued> continuedRun(PathCase& pathCase, const RunOptions& opti
   if (continued.progress.path && !settings.autoOrder)
     continued.progress.path->order = 0;  // that of the deck, which may be another one
   return continued;
+}
+
+/// Histories and series are the most of a run that is known before its first factorization. Collective.
+void requireRoom(PathCase& pathCase) {
+  const deck::Path& path = pathCase.deck().path;
+  if (!path.series() || path.autoOrder) return;
+  const double vector =
+      sizeof(double) * static_cast<double>(pathCase.problem().map()->getGlobalNumElements());
+  const double needed = pathCase.historyBytes() + 2 * (path.order + 1) * vector,
+               room = allMachines().available;
+  if (room > 0 && needed > room)
+    deck::failAt(pathCase.deck(), "path/order",
+                 fmt::format("histories and series of order {} take {}, the machine has {} left; a coarser "
+                             "mesh, a lower order "
+                             "or path/method: newton take less",
+                             path.order, inBytes(needed), inBytes(room)));
 }
 
 bool atStop(const path::Branch& branch) {
@@ -150,6 +181,7 @@ RunResult resultOf(const path::BranchDiagram& diagram) {
 RunResult runPath(PathCase& pathCase, const RunOptions& options) {
   const deck::Deck& deck = pathCase.deck();
   path::Problem& problem = pathCase.problem();
+  requireRoom(pathCase);
   const auto solver = tangentSolver(pathCase, options.progress);
   const path::Options settings = pathOptions(pathCase);
   const path::Stops stops = pathCase.stops();
@@ -157,17 +189,23 @@ RunResult runPath(PathCase& pathCase, const RunOptions& options) {
   path::BranchFollower tree(problem, *solver, settings, stops, branchOptions(deck.path));
   follower.watch(pathCase.functionals());
   tree.watch(pathCase.functionals());
-  auto continued = continuedRun(pathCase, options);
+  const RunProblem runProblem{deck::problemLines(deck), pathCase.meshDigest()};
+  const bool inPlace = isOneFolder(options.restart, options.directory);
+  std::optional<FolderLock> reads, writes;
+  if (!options.restart.empty())
+    lock(inPlace ? writes : reads, options.restart,
+         inPlace ? FolderLock::For::writing : FolderLock::For::reading);
+  auto continued = continuedRun(pathCase, runProblem, options);
   auto imperfect = continued ? imperfectUnderWay(pathCase, continued->progress) : nullptr;
   ranks::wait();  // all have read what the first one is going to replace
 
-  prepareFolder(options.directory, {"path.csv", "points.csv", "events.csv", "branches.csv", "results.exo",
-                                    "restart.bin", "sharpen.csv", "summary.json", "path.png"});
+  prepareFolder(options.directory, inputsOf(deck));
+  if (!inPlace) lock(writes, options.directory, FolderLock::For::writing);
   ranks::wait();  // the folder is there
   Interrupt interrupt;
   Recorder recorder(imperfect ? imperfect->pathCase() : pathCase, imperfect ? imperfect->problem() : problem,
-                    options.directory, options.progress, continued);
-  removeStale(options.directory, continued ? continued->progress.current : 0, deck);
+                    runProblem, options.directory, options.progress, continued);
+  reads.reset();
   const path::State start = pathCase.start();
   const std::optional<path::Start> behind = continued ? continued->progress.path : std::nullopt;
   path::BranchProgress progress = continued ? continued->progress : path::BranchProgress(start);

@@ -9,6 +9,7 @@
 #include "atrapos/linear/OnAllRanks.hpp"
 #include "machine/Memory.hpp"
 #include "output/FieldFiles.hpp"
+#include "restart/RunProblem.hpp"
 #include "scene/ContactEvents.hpp"
 #include "scene/Sharpen.hpp"
 
@@ -22,6 +23,8 @@ int SceneCaseState::activeContacts() const {
 }
 
 path::State SceneCase::start() const { return {scene_.problem().initialState(0.0), 0.0}; }
+
+MeshDigest SceneCase::meshDigest() const { return digestOf(scene_.mesh()); }
 
 std::unique_ptr<FieldFile> SceneCase::makeFieldFile(const std::string& file) const {
   return makeSceneFields(scene_, file);

@@ -30,6 +30,7 @@ class SceneCase final : public PathCase {
   path::Problem& problem() override { return scene_.problem(); }
   path::State start() const override;
   path::Stops stops() const override { return scene_.stops(); }
+  MeshDigest meshDigest() const override;
   std::vector<std::string> monitorNames() const override { return scene_.monitorNames(); }
   std::unique_ptr<CaseState> at(const path::State& state) const override {
     return std::make_unique<SceneCaseState>(scene_, state);

@@ -10,6 +10,7 @@
 #include "atrapos/exodus/MeshFile.hpp"
 #include "atrapos/fem/Partition.hpp"
 #include "commands/MeshCommand.hpp"
+#include "output/Files.hpp"
 
 namespace atrapos {
 
@@ -20,6 +21,7 @@ void splitMesh(const std::string& file, int parts, const std::string& output, st
                                             file, mesh.numElements(), parts));
   const exodus::Decomposition cut(mesh, fem::partition(mesh, parts), parts);
   const std::string base = output.empty() ? file : output;
+  for (int p = 0; p < parts; ++p) requireOwn(exodus::partName(base, parts, p), Made::mesh, {file});
   if (progress) *progress << fmt::format("{}: {}\n", file, describeMesh(mesh));
   for (int p = 0; p < parts; ++p) {
     const exodus::MeshPart part = cut.part(p);

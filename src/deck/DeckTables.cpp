@@ -47,7 +47,7 @@ Field<Output> outputShells() {
 Table<Output> pathRowKeys() {
   using Residuals = Output::Residuals;
   static const Choices<Residuals> residuals{{"steps", Residuals::Steps}, {"points", Residuals::Points}};
-  return {integer("points_per_step", optional, &Output::pointsPerStep, check::count,
+  return {integer("points_per_step", optional, &Output::pointsPerStep, check::rows,
                   "rows of path.csv per step, its end included"),
           choice("residuals", optional, &Output::residuals, residuals,
                  "rows of path.csv with the path's residual: at the ends of steps, or all")};

@@ -24,6 +24,7 @@ const Check fraction{[](double x) { return x > 0 && x < 1; }, "above 0 and below
 const Check fractionOrZero{[](double x) { return x >= 0 && x < 1; }, "at least 0 and below 1"};
 const Check count{[](double x) { return x >= 1; }, "at least 1"};
 const Check natural{[](double x) { return x >= 0; }, "at least 0"};
+const Check rows{[](double x) { return x >= 1 && x <= 10000; }, "from 1 to 10000"};
 const Check order{[](double x) { return x >= 1 && x <= 60; }, "from 1 to 60"};
 const Check degree{[](double x) { return x >= 1 && x <= 20; }, "from 1 to 20"};
 const Check direction{[](double x) { return x == 1 || x == -1; }, "1 or -1"};

@@ -18,8 +18,8 @@ struct Check {
 };
 
 namespace check {
-extern const Check any, positive, nonzero, fraction, fractionOrZero, count, natural, order, degree, direction,
-    poissonsRatio, acuteAngle, slopeAngle, exponent;
+extern const Check any, positive, nonzero, fraction, fractionOrZero, count, rows, natural, order, degree,
+    direction, poissonsRatio, acuteAngle, slopeAngle, exponent;
 }
 
 /// A value of the deck with its key path. Every accessor throws DeckError where the value is not of its kind.

@@ -15,6 +15,7 @@
 #include "atrapos/exodus/JoinedResults.hpp"
 #include "atrapos/exodus/ResultReader.hpp"
 #include "atrapos/exodus/ResultWriter.hpp"
+#include "machine/OutputFile.hpp"
 #include "machine/Ranks.hpp"
 
 namespace atrapos {
@@ -96,7 +97,29 @@ class SceneFields final : public FieldFile {
     if (writesParts(scene_.deck())) ranks::wait();  // a step is on disk when all parts are
   }
 
-  void copyFrom(const std::string& file, int count, double pathLength) override {
+  Mark mark() const override { return mark_; }
+
+  void sync() const override {
+    if (writer_) syncFile(ownName(file_));
+  }
+
+  void copyFrom(const std::string& file, int count, double pathLength, const Mark& mark) override {
+    copyStates(file, count, pathLength);
+    if (writer_ && !(mark_ == mark))
+      throw std::invalid_argument(
+          fmt::format("{}: its states were changed; expected the file as the run left it", file));
+  }
+
+  void rename(const std::string& file) override {
+    if (writer_) {
+      renameFile(ownName(file_), ownName(file));
+      writer_->moved(ownName(file));
+    }
+    file_ = file;
+  }
+
+ private:
+  void copyStates(const std::string& file, int count, double pathLength) {
     if (std::filesystem::exists(file)) {
       const exodus::ResultReader reader(file);
       copy(file, reader, reader.nodalNames(), reader.elementNames(), reader.globalNames(),
@@ -116,19 +139,6 @@ class SceneFields final : public FieldFile {
          placesOf(own.elementIds, theirs.elementIds, own.numElements(), file));
   }
 
-  void rename(const std::string& file) override {
-    if (!writer_) return;
-    std::filesystem::rename(ownName(file_), ownName(file));
-    file_ = file;
-  }
-
-  void discard() override {
-    if (!writer_) return;
-    std::error_code ignored;  // on the way out with another error
-    std::filesystem::remove(ownName(file_), ignored);
-  }
-
- private:
   static exodus::ResultNames names(const Scene& scene) {
     exodus::ResultNames names;
     names.nodal = scene.nodalNames();
@@ -149,6 +159,11 @@ class SceneFields final : public FieldFile {
     // Exodus wants times that ascend: a step may be shorter than the rounding of the path's length.
     if (!(time > lastTime_)) time = std::nextafter(lastTime_, std::numeric_limits<double>::infinity());
     lastTime_ = time;
+    digest_.add(&time, 1);
+    for (const Fields* const fields : {&nodal, &element})
+      for (const auto& values : *fields) digest_.add(values);
+    digest_.add(global);
+    mark_ = {mark_.count + 1, digest_.value()};
     if (writesParts(scene_.deck()))
       writer_->writeStep(time, flat(nodal, nodes_), flat(element, elements_), global);
     else
@@ -196,6 +211,8 @@ class SceneFields final : public FieldFile {
   std::vector<int> nodes_, elements_;                           ///< of this rank's part in the result mesh
   std::optional<exodus::ResultWriter> writer_;                  ///< of the first rank, or of each
   double lastTime_ = -std::numeric_limits<double>::infinity();  ///< written last
+  Digest digest_;
+  Mark mark_;
 };
 
 struct ResultFile {

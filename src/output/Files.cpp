@@ -3,31 +3,112 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <cerrno>
-#include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
 
+#include "atrapos/exodus/MeshPart.hpp"
+#include "atrapos/exodus/ResultReader.hpp"
+#include "machine/OutputFile.hpp"
 #include "machine/Ranks.hpp"
 
 namespace atrapos {
+namespace {
+
+/// Results beside fields, and how they begin; empty: no matter how.
+struct KnownFile {
+  const char *name, *begin;
+};
+constexpr std::array<KnownFile, 9> knownFiles{{{"path.csv", "step,path_length,load_factor"},
+                                               {"points.csv", "step,branch,path_length,load_factor,kind"},
+                                               {"events.csv", "step,branch,path_length,load_factor,contact"},
+                                               {"branches.csv", "branch,parent,depth,point"},
+                                               {"sharpen.csv", "factor,"},
+                                               {"restart.bin", "atrapos restart"},
+                                               {"summary.json", "{\n  \"program\": \"atrapos "},
+                                               {"path.png", "\x89PNG"},
+                                               {"path.gp", "set terminal pngcairo"}}};
+constexpr const char* kMapBegins = "problem,order,delta,pade,";
+
+bool begins(const std::string& file, const std::string& text) {
+  std::ifstream in(file, std::ios::binary);
+  std::string start(text.size(), '\0');
+  in.read(start.data(), static_cast<std::streamsize>(start.size()));
+  return in && start == text;
+}
+
+bool isOwnExodus(const std::string& file) {
+  try {
+    const auto records = exodus::ResultReader(file).qa();
+    return std::any_of(records.begin(), records.end(),
+                       [](const exodus::QaRecord& r) { return r.code == "Atrapos"; });
+  } catch (const exodus::Error&) {
+    return false;
+  }
+}
+
+bool looksOwn(const std::string& file, Made as) {
+  if (as == Made::map) return begins(file, kMapBegins);
+  if (as == Made::mesh) return isOwnExodus(file);
+  const std::string name = std::filesystem::path(file).filename().string();
+  for (const KnownFile& known : knownFiles)
+    if (name == known.name) return begins(file, known.begin);
+  return isOwnExodus(file);
+}
+
+}  // namespace
 
 void replaceFile(const std::string& file, const std::string& content) {
   if (!ranks::isFirst()) return;
   const std::string beside = file + ".new";
-  {
-    std::ofstream out(beside, std::ios::binary | std::ios::trunc);
-    out << content;
-    out.flush();
-    if (!out) throw std::runtime_error(fmt::format("{}: cannot be written", beside));
+  try {
+    OutputFile out(beside, false);
+    out.write(content);
+    out.sync();
+  } catch (...) {
+    unlink(beside.c_str());
+    throw;
   }
-  if (std::rename(beside.c_str(), file.c_str()) != 0)
-    throw std::runtime_error(fmt::format("{}: cannot be replaced", file));
+  renameFile(beside, file);
 }
 
-void prepareFolder(const std::string& folder, const std::vector<std::string>& files) {
+bool isResultName(const std::string& name) {
+  if (std::any_of(knownFiles.begin(), knownFiles.end(),
+                  [&](const KnownFile& known) { return name == known.name; }))
+    return true;
+  std::string whole = name;
+  try {
+    whole = exodus::parsePartName(name).file;
+  } catch (const exodus::Error&) {  // no part
+  }
+  int branch = 0, end = 0;
+  const bool ofBranch = std::sscanf(whole.c_str(), "results_branch%d.exo%n", &branch, &end) == 1;
+  return whole == "results.exo" || (ofBranch && end == static_cast<int>(whole.size()));
+}
+
+void requireOwn(const std::string& file, Made as, const std::vector<std::string>& inputs) {
+  std::error_code error;
+  const auto status = std::filesystem::status(file, error);
+  if (!std::filesystem::exists(status)) return;
+  if (std::filesystem::is_directory(status))
+    throw std::invalid_argument(fmt::format("{} is a folder; expected a file or nothing", file));
+  if (!std::filesystem::is_regular_file(status))
+    throw std::invalid_argument(fmt::format("{} is no regular file, and is not written to", file));
+  for (const std::string& input : inputs)
+    if (std::filesystem::equivalent(file, input, error))
+      throw std::invalid_argument(
+          fmt::format("{} is read too, and would be replaced; expected another file or folder", file));
+  if (std::filesystem::file_size(file, error) > 0 && !looksOwn(file, as))
+    throw std::invalid_argument(fmt::format(
+        "{} is there and was not made by atrapos; expected another file or folder, or that it is removed",
+        file));
+}
+
+void prepareFolder(const std::string& folder, const std::vector<std::string>& inputs) {
   if (!ranks::isFirst()) return;
   std::error_code error;
   std::filesystem::create_directories(folder, error);
@@ -42,9 +123,9 @@ void prepareFolder(const std::string& folder, const std::vector<std::string>& fi
         fmt::format("the folder {} cannot be written to: {}", folder, std::strerror(errno)));
   close(file);
   unlink(probe.c_str());
-  for (const std::string& name : files)
-    if (std::filesystem::is_directory(folder + "/" + name))
-      throw std::invalid_argument(fmt::format("{}/{} is a folder; expected a file or nothing", folder, name));
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    if (isResultName(entry.path().filename().string()))
+      requireOwn(entry.path().string(), Made::result, inputs);
 }
 
 }  // namespace atrapos

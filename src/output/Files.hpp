@@ -5,11 +5,22 @@
 
 namespace atrapos {
 
-/// Replaces a file whole or not at all: writes beside it and renames. Throws std::runtime_error, one line.
+/// Replaces a file whole or not at all: writes beside it and renames. Throws FileError.
 void replaceFile(const std::string& file, const std::string& content);
 
+/// Whether runs write files of this name into their folder.
+bool isResultName(const std::string& name);
+
+/// What a file was made as.
+enum class Made { mesh, map, result };
+
+/// Throws std::invalid_argument, one line, where the file is there and may not be replaced: it is not a
+/// regular one, it is one of `inputs`, or it does not look as if this program had made it as the same.
+void requireOwn(const std::string& file, Made as, const std::vector<std::string>& inputs);
+
 /// Makes the folder where it is missing. Throws std::invalid_argument, one line, where no file can be made in
-/// it or one of `files` is a folder there; changes nothing that is in it.
-void prepareFolder(const std::string& folder, const std::vector<std::string>& files);
+/// it, or a run may not replace what has the name of a result there (requireOwn); changes nothing that is in
+/// it.
+void prepareFolder(const std::string& folder, const std::vector<std::string>& inputs);
 
 }  // namespace atrapos

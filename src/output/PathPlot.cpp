@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "machine/Ranks.hpp"
@@ -45,7 +46,8 @@ std::string panel(const std::string& name, int column, int pointColumn, int stab
 std::string plotPath(const std::string& directory, const std::string& title,
                      const std::vector<std::string>& monitors, int branches) {
   if (!ranks::isFirst()) return "";
-  const int plots = std::max<int>(1, static_cast<int>(monitors.size()));
+  constexpr int most = 36;  // more are neither seen nor drawn in a second
+  const int shown = std::min<int>(most, static_cast<int>(monitors.size())), plots = std::max(1, shown);
   const int columns = static_cast<int>(std::ceil(std::sqrt(static_cast<double>(plots))));
   const int rows = (plots + columns - 1) / columns;
   std::string script = fmt::format(
@@ -55,13 +57,15 @@ std::string plotPath(const std::string& directory, const std::string& title,
       480 * columns, 400 * rows + 40, rows, columns, gnuplotText(title));
   const int stability = 4 + static_cast<int>(monitors.size());
   if (monitors.empty()) script += panel("path length", 2, 3, stability, branches);
-  for (int m = 0; m < static_cast<int>(monitors.size()); ++m)
-    script += panel(monitors[m], 4 + m, 9 + m, stability, branches);
+  for (int m = 0; m < shown; ++m) script += panel(monitors[m], 4 + m, 9 + m, stability, branches);
   script += "unset multiplot\n";
   replaceFile(directory + "/path.gp", script);
 
   const std::string why = runGnuplot(directory, "path.gp");
-  return why.empty() ? "" : "path.png not drawn: " + why;
+  if (!why.empty()) return "path.png not drawn: " + why;
+  return shown == static_cast<int>(monitors.size())
+             ? ""
+             : fmt::format("path.png shows the first {} of {} monitors", shown, monitors.size());
 }
 
 }  // namespace atrapos

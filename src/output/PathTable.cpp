@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
+#include <fstream>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 
@@ -11,16 +14,27 @@
 namespace atrapos {
 
 Table::Table(const std::string& file, const std::string& header, bool append)
-    : file_(file), header_(header), writes_(ranks::isFirst()) {
-  if (writes_) out_.open(file, append ? std::ios::app : std::ios::trunc);
-  if (!append) this->append(header);
+    : header_(header), writes_(ranks::isFirst()) {
+  if (!writes_) return;
+  if (append) {
+    std::ifstream in(file);
+    std::string row;
+    std::getline(in, row);  // the header
+    while (std::getline(in, row)) count(row);
+  }
+  out_ = OutputFile(file, append);
+  if (!append) out_.write(header + '\n');
 }
 
 void Table::append(const std::string& row) {
   if (!writes_) return;
-  out_ << row << '\n';
-  out_.flush();
-  if (!out_) throw std::runtime_error(fmt::format("{}: cannot be written (disk full?)", file_));
+  out_.write(row + '\n');
+  count(row);
+}
+
+void Table::count(const std::string& row) {
+  digest_.add(row);
+  mark_ = {mark_.count + 1, digest_.value()};
 }
 
 namespace {
@@ -32,9 +46,18 @@ std::vector<std::string> wordsOf(const std::string& row) {
   return words;
 }
 
+/// A whole number at that place of a row; empty: there is none.
+std::optional<int> numberAt(const std::vector<std::string>& words, std::size_t place) {
+  int number = 0;
+  if (place >= words.size()) return {};
+  const char* const end = words[place].data() + words[place].size();
+  const auto read = std::from_chars(words[place].data(), end, number);
+  return read.ec == std::errc() && read.ptr == end ? std::optional(number) : std::nullopt;
+}
+
 }  // namespace
 
-void Table::copyFrom(const std::string& file, const RestartPlace& last) {
+void Table::copyFrom(const std::string& file, const RestartPlace& last, const Mark& mark) {
   if (!writes_) return;
   std::ifstream in(file);
   std::string line;
@@ -44,16 +67,24 @@ void Table::copyFrom(const std::string& file, const RestartPlace& last) {
         fmt::format("{}: has the columns {}, the deck asks for {}", file, line, header_));
   const auto names = wordsOf(header_);
   const auto column = [&](const char* name) {
-    return std::find(names.begin(), names.end(), name) - names.begin();
+    return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
   };
   const auto step = column("step"), branch = column("branch");
   while (std::getline(in, line)) {
     if (in.eof()) break;  // without its end: a row cut short
     const auto words = wordsOf(line);
-    const int onBranch = std::stoi(words.at(branch));
-    if (onBranch > last.branch || (onBranch == last.branch && std::stoi(words.at(step)) > last.step)) break;
+    const auto onBranch = numberAt(words, branch), ofStep = numberAt(words, step);
+    if (!onBranch || !ofStep)
+      throw std::invalid_argument(fmt::format("{}: row {} is damaged", file, mark_.count + 1));
+    if (*onBranch > last.branch || (*onBranch == last.branch && *ofStep > last.step)) break;
     append(line);
   }
+  if (mark_ == mark) return;
+  throw std::invalid_argument(fmt::format(
+      "{}: {}; expected the file as the run left it", file,
+      mark_.count == mark.count
+          ? std::string("rows were changed")
+          : fmt::format("has {} rows up to where the run goes on, it wrote {}", mark_.count, mark.count)));
 }
 
 namespace {

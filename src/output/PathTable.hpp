@@ -1,31 +1,40 @@
 #pragma once
 
-#include <fstream>
 #include <string>
 #include <vector>
 
+#include "machine/OutputFile.hpp"
 #include "restart/RestartRecord.hpp"
 
 namespace atrapos {
 
-/// A table of comma-separated values that grows by rows; each is on disk when append returns. On several
-/// ranks the first one writes, the others' calls do nothing.
+/// A table of comma-separated values that grows by rows; each is with the system when append returns. On
+/// several ranks the first one writes, the others' calls do nothing.
 class Table {
  public:
-  /// Throws std::runtime_error where the file cannot be written.
+  /// Throws FileError where the file cannot be written.
   /// `append`: goes on with the table of that header which is there.
   Table(const std::string& file, const std::string& header, bool append = false);
 
   void append(const std::string& row);
 
   /// Takes over the rows of an earlier table up to a step of a branch, which are in its columns `step` and
-  /// `branch`. Throws std::invalid_argument, one line, where that table has another header.
-  void copyFrom(const std::string& file, const RestartPlace& last);
+  /// `branch`. Throws std::invalid_argument, one line, where that table has another header, or other rows
+  /// than those that `mark` was taken of.
+  void copyFrom(const std::string& file, const RestartPlace& last, const Mark& mark);
+
+  /// The rows so far.
+  const Mark& mark() const { return mark_; }
+  void sync() const { out_.sync(); }  ///< until it would outlast a loss of power
 
  private:
-  std::string file_, header_;
+  void count(const std::string& row);
+
+  std::string header_;
   bool writes_;
-  std::ofstream out_;
+  OutputFile out_;
+  Mark mark_;
+  Digest digest_;
 };
 
 /// path.csv: one row per output point.

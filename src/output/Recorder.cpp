@@ -10,47 +10,41 @@
 #include <ostream>
 
 #include "machine/Interrupt.hpp"
+#include "machine/OutputFile.hpp"
 #include "machine/Ranks.hpp"
 #include "output/FieldFiles.hpp"
+#include "output/Files.hpp"
 
 namespace atrapos {
 namespace {
 
-/// While an earlier run is taken over, new files stand beside the old ones.
 constexpr const char* kBeside = ".new";
 
 constexpr double kNotEvaluated = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace
 
-Recorder::Recorder(PathCase& pathCase, path::Problem& problem, std::string directory, std::ostream* progress,
-                   const std::optional<Continued>& continued)
+Recorder::Recorder(PathCase& pathCase, path::Problem& problem, const RunProblem& runProblem,
+                   std::string directory, std::ostream* progress, const std::optional<Continued>& continued)
     : case_(&pathCase),
       problem_(&problem),
       functionals_(pathCase.functionals()),
       directory_(std::move(directory)),
       progress_(progress),
-      path_(file("path.csv") + (continued ? kBeside : ""), pathHeader(case_->monitorNames())),
-      points_(file("points.csv") + (continued ? kBeside : ""), pointHeader(case_->monitorNames())),
+      beside_(directory_),
+      path_(beside_.name("path.csv"), pathHeader(case_->monitorNames())),
+      points_(beside_.name("points.csv"), pointHeader(case_->monitorNames())),
       residual_(Teuchos::rcp(new path::Vector(case_->problem().map()))),
       start_(std::chrono::steady_clock::now()) {
-  const std::string beside = continued ? kBeside : "";
   const deck::Path& settings = case_->deck().path;
   if (settings.restart)
-    restart_.emplace(file("restart.bin") + beside, settings.branches != path::Follow::none);
+    restart_.emplace(beside_.name("restart.bin"), runProblem, settings.branches != path::Follow::none);
   if (continued) branch_ = continued->progress.current;
   if (!continued || continued->progress.path)
-    fields_ = case_->makeFieldFile(file(fieldsName(branch_)) + beside);
+    fields_ = case_->makeFieldFile(beside_.name(fieldsName(branch_)));
   // Between the ends of Newton steps nothing is known for sure.
-  if (settings.series()) watch_ = case_->makeWatch(file("events.csv") + beside, false);
-  if (continued) try {
-      goOn(*continued);
-    } catch (...) {
-      if (fields_) fields_->discard();
-      for (const char* name : {"path.csv", "points.csv", "events.csv", "restart.bin"})
-        std::filesystem::remove(file(name) + kBeside);
-      throw;
-    }
+  if (settings.series()) watch_ = case_->makeWatch(beside_.name("events.csv"), false);
+  if (continued) goOn(*continued);
   if (progress_)
     for (const std::string& line : case_->remarks()) *progress_ << line << '\n';
   printHead();
@@ -58,31 +52,84 @@ Recorder::Recorder(PathCase& pathCase, path::Problem& problem, std::string direc
 
 Recorder::~Recorder() = default;
 
+void Recorder::Beside::remove() const {
+  std::error_code ignored;  // on the way out with another error, or of an earlier run that was killed
+  std::vector<std::filesystem::path> left;
+  for (const auto& entry : std::filesystem::directory_iterator(directory_, ignored)) {
+    const std::string file = entry.path().filename().string();
+    const auto suffix = file.find(kBeside);
+    if (suffix != std::string::npos && isResultName(file.substr(0, suffix))) left.push_back(entry.path());
+  }
+  for (const auto& file : left) std::filesystem::remove(file, ignored);
+}
+
+std::string Recorder::Beside::name(const std::string& file) const {
+  return directory_ + "/" + file + kBeside;
+}
+
 void Recorder::goOn(const Continued& continued) {
   const auto& path = continued.progress.path;
   const RestartPlace last{branch_, path ? path->steps : std::numeric_limits<int>::max()};
   const auto old = [&](const std::string& name) { return continued.directory + "/" + name; };
-  path_.copyFrom(old("path.csv"), last);
-  points_.copyFrom(old("points.csv"), last);
+  path_.copyFrom(old("path.csv"), last, continued.marks.path);
+  points_.copyFrom(old("points.csv"), last, continued.marks.points);
   if (fields_)
     fields_->copyFrom(old(fieldsName(branch_)), 1 + numFieldStates(path->steps, !path->stop.empty()),
-                      path->pathLength);
-  if (watch_) watch_->copyFrom(old("events.csv"), last);
+                      path->pathLength, continued.marks.fields);
+  if (watch_) watch_->copyFrom(old("events.csv"), last, continued.marks.events);
   if (restart_) restart_->goOn(old("restart.bin"), continued);
   started_ = true;
   ranks::wait();  // all have taken over what is replaced now
   if (ranks::isFirst() && !std::filesystem::equivalent(directory_, continued.directory))
     copyFields(continued.directory, directory_, fields_ ? branch_ - 1 : branch_);
-  // The restart file first: whatever ends this in the middle, the others hold at least what it names.
+  settle(branch_);
+}
+
+void Recorder::settle(int kept) {
+  if (settled_) return;
+  settled_ = true;
+  sync();
+  ranks::wait();
+  if (ranks::isFirst()) {
+    // A run that is killed must not leave an earlier run's files beside its own.
+    for (const char* const old : {"summary.json", "branches.csv", "path.png", "sharpen.csv"})
+      std::filesystem::remove(file(old));
+    removeOtherFields(directory_, kept, case_->deck());
+  }
   const auto replace = [&](const std::string& name) {
-    if (ranks::isFirst()) std::filesystem::rename(file(name) + kBeside, file(name));
+    if (ranks::isFirst()) renameFile(beside_.name(name), file(name));
   };
-  if (restart_) replace("restart.bin");
+  // The restart file first: whatever ends this in the middle, the others hold at least what it names.
+  if (restart_)
+    replace("restart.bin");
+  else if (ranks::isFirst())
+    std::filesystem::remove(file("restart.bin"));
   ranks::wait();
   if (fields_) fields_->rename(file(fieldsName(branch_)));
-  if (watch_) replace("events.csv");
+  if (watch_)
+    replace("events.csv");
+  else if (ranks::isFirst())
+    std::filesystem::remove(file("events.csv"));
   replace("path.csv");
   replace("points.csv");
+  beside_.keep();
+  ranks::wait();
+  if (!ranks::isFirst()) return;
+  beside_.remove();
+  syncFile(directory_);
+}
+
+RunMarks Recorder::marks() const {
+  return {path_.mark(), points_.mark(), watch_ ? watch_->mark() : Mark{}, fields_ ? fields_->mark() : Mark{}};
+}
+
+void Recorder::sync() {
+  path_.sync();
+  points_.sync();
+  if (watch_) watch_->sync();
+  if (fields_) fields_->sync();
+  if (restart_) restart_->sync();
+  synced_ = seconds();
 }
 
 bool Recorder::hasFields(int step, bool atStop) const {
@@ -125,6 +172,7 @@ void Recorder::beginImperfect(PathCase& pathCase, path::Problem& problem, int br
 }
 
 void Recorder::begin(int branch) {
+  settle(fields_ ? branch_ : -1);
   branch_ = branch;
   started_ = false;
   fields_.reset();  // the file of the branch before is complete
@@ -169,11 +217,16 @@ void Recorder::onSearch(int /*branch*/, int found, int wanted) {
 }
 
 void Recorder::onProgress(const path::BranchProgress& progress) {
-  if (restart_) restart_->append(progress);
+  constexpr double often = 1;  // s; the disk takes some hundredths of it
+  if (restart_) restart_->append(progress, marks());
+  settle(fields_ ? branch_ : -1);
+  if (seconds() - synced_ > often) sync();
 }
 
 void Recorder::finish(const path::State& start) {
   if (!started_) writeStart(start, -1);
+  settle(fields_ ? branch_ : -1);
+  sync();
 }
 
 void Recorder::writeStart(const path::State& start, long long negative) {

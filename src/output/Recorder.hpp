@@ -14,15 +14,20 @@
 namespace atrapos {
 
 /// Writes what a run finds, step by step: path.csv, points.csv, events.csv, restart.bin, results.exo and
-/// results_branch<n>.exo; one line a step for the user. Every finished step is on disk before the next one
-/// begins, its restart record last. On several ranks all call it and the first one writes, but for
-/// result files in parts (output/parts).
+/// results_branch<n>.exo; one line a step for the user. Every finished step is with the system before the
+/// next one begins, its restart record last; about every second all files are made to outlast a loss of
+/// power. On several ranks all call it and the first one writes, but for result files in parts
+/// (output/parts).
+///
+/// Files are written beside those of an earlier run, and take their places with the first step, or when what
+/// the run goes on with is taken over whole: what ends a run before leaves the earlier results as they were.
 class Recorder final : public path::BranchObserver {
  public:
   /// `progress` may be null; `problem`: whose path is under way at the beginning, that of the case or an
-  /// imperfect one. Throws std::invalid_argument where the continued run does not fit the deck.
-  Recorder(PathCase& pathCase, path::Problem& problem, std::string directory, std::ostream* progress,
-           const std::optional<Continued>& continued);
+  /// imperfect one; `runProblem`: of the perfect one. Throws std::invalid_argument where the continued run
+  /// does not fit the deck.
+  Recorder(PathCase& pathCase, path::Problem& problem, const RunProblem& runProblem, std::string directory,
+           std::ostream* progress, const std::optional<Continued>& continued);
   ~Recorder() override;
 
   void onBranch(const path::BranchDiagram& diagram, int branch) override;
@@ -35,7 +40,7 @@ class Recorder final : public path::BranchObserver {
   void onSearch(int branch, int found, int wanted) override;
   void onProgress(const path::BranchProgress& progress) override;
 
-  /// The start of the path under way where no step was made.
+  /// Writes the start of the path under way where no step was made.
   void finish(const path::State& start);
 
   int limitPoints() const { return limitPoints_; }
@@ -46,9 +51,32 @@ class Recorder final : public path::BranchObserver {
   double seconds() const;
 
  private:
+  /// The new files beside the others, removed where they do not take their places.
+  class Beside {
+   public:
+    explicit Beside(std::string directory) : directory_(std::move(directory)) {}
+    Beside(const Beside&) = delete;
+    Beside& operator=(const Beside&) = delete;
+    ~Beside() {
+      if (!kept_) remove();
+    }
+    void remove() const;
+    std::string name(const std::string& file) const;
+    void keep() { kept_ = true; }
+
+   private:
+    std::string directory_;
+    bool kept_ = false;
+  };
+
   std::string file(const std::string& name) const { return directory_ + "/" + name; }
   void begin(int branch);
   void goOn(const Continued& continued);
+  /// Puts the new files in their places and removes what an earlier run has besides, the result files of
+  /// branches up to `kept` excepted. Collective.
+  void settle(int kept);
+  RunMarks marks() const;
+  void sync();
   void writeStart(const path::State& state, long long negative);
   void writeRow(int step, double pathLength, double lambda, const CaseState& state, long long negative,
                 double residual);
@@ -66,6 +94,7 @@ class Recorder final : public path::BranchObserver {
   std::vector<path::Monitor> functionals_;
   std::string directory_;
   std::ostream* progress_;
+  Beside beside_;
   Table path_, points_;
   std::optional<RestartFile> restart_;
   std::unique_ptr<FieldFile> fields_;  ///< of the branch under way
@@ -74,10 +103,12 @@ class Recorder final : public path::BranchObserver {
   std::chrono::steady_clock::time_point start_;
   int branch_ = 0;
   bool started_ = false;  ///< the start of the branch under way is written
+  bool settled_ = false;
   int limitPoints_ = 0, unexplained_ = 0;
   int watched_ = 0;  ///< by watches of other cases
   double worstResidual_ = 0, outputSeconds_ = 0;
   double printed_ = 0;  ///< seconds() at the last line for the user
+  double synced_ = 0;   ///< the same where files were made to last
 };
 
 }  // namespace atrapos

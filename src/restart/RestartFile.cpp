@@ -4,10 +4,13 @@
 
 #include <cstdint>
 #include <cstring>
+#include <fstream>
 #include <functional>
 #include <stdexcept>
+#include <utility>
 
 #include "machine/Ranks.hpp"
+#include "restart/RunProblem.hpp"
 
 namespace atrapos {
 namespace {
@@ -18,12 +21,13 @@ struct Head {
   std::uint32_t version = 5, byteOrder = 0x01020304;
 };
 
-/// Fowler, Noll and Vo's hash (FNV-1a, 64 bits): sees a record that was cut or damaged.
 std::uint64_t checkSum(const std::string& bytes) {
-  std::uint64_t hash = 14695981039346656037ull;
-  for (const unsigned char c : bytes) hash = (hash ^ c) * 1099511628211ull;
-  return hash;
+  Digest digest;
+  digest.add(bytes);
+  return digest.value();
 }
+
+std::string bytesOf(std::uint64_t number) { return {reinterpret_cast<const char*>(&number), sizeof number}; }
 
 /// Calls f(record) for every whole record until it returns false.
 void forEachRecord(const std::string& file, const std::function<bool(const std::string&)>& f) {
@@ -52,59 +56,61 @@ void forEachRecord(const std::string& file, const std::function<bool(const std::
 
 }  // namespace
 
-RestartFile::RestartFile(const std::string& file, bool tree)
-    : file_(file), tree_(tree), writes_(ranks::isFirst()) {
+RestartFile::RestartFile(const std::string& file, const RunProblem& problem, bool tree)
+    : tree_(tree), writes_(ranks::isFirst()) {
   if (!writes_) return;
-  out_.open(file, std::ios::binary | std::ios::trunc);
+  out_ = OutputFile(file, false);
   const Head head;
-  out_.write(reinterpret_cast<const char*>(&head), sizeof head);
-  out_.flush();
-  if (!out_) throw std::runtime_error(fmt::format("{}: cannot be written", file_));
+  out_.write({reinterpret_cast<const char*>(&head), sizeof head});
+  put(packed(problem));
 }
 
 void RestartFile::goOn(const std::string& file, const Continued& run) {
   branches_ = run.progress.diagram.branches.size();
   points_ = run.progress.diagram.points.size();
   if (!writes_) return;
-  std::size_t left = run.records;
+  std::size_t number = 0;
   forEachRecord(file, [&](const std::string& record) {
-    if (left == 0) return false;
-    --left;
-    put(record);
+    if (number > run.records) return false;
+    if (number++ > 0) put(record);  // the first one is there
     return true;
   });
 }
 
-void RestartFile::append(const path::BranchProgress& progress) {
-  put(packed(progress, branches_, points_, tree_));
+void RestartFile::append(const path::BranchProgress& progress, const RunMarks& marks) {
+  put(packed(progress, branches_, points_, tree_, marks));
   branches_ = progress.diagram.branches.size();
   points_ = progress.diagram.points.size();
 }
 
 void RestartFile::put(const std::string& record) {
-  if (!writes_) return;
-  const std::uint64_t length = record.size(), sum = checkSum(record);
-  out_.write(reinterpret_cast<const char*>(&length), sizeof length);
-  out_.write(reinterpret_cast<const char*>(&sum), sizeof sum);
-  out_.write(record.data(), static_cast<std::streamsize>(record.size()));
-  out_.flush();
-  if (!out_) throw std::runtime_error(fmt::format("{}: cannot be written (disk full?)", file_));
+  if (writes_) out_.write(bytesOf(record.size()) + bytesOf(checkSum(record)) + record);
 }
 
 Continued readRestart(const std::string& directory, std::optional<RestartPlace> place,
-                      const path::RCP<const path::Map>& map) {
+                      const RunProblem& problem, const path::RCP<const path::Map>& map) {
   Continued run;
   run.directory = directory;
   const std::string file = directory + "/restart.bin";
   std::size_t records = 0;
   RestartPlace last;
+  bool first = true;
   forEachRecord(file, [&](const std::string& record) {
+    if (std::exchange(first, false)) {
+      const std::string other = firstDifference(problemOf(record, file), problem);
+      if (!other.empty())
+        throw std::invalid_argument(fmt::format("{}: is of another problem: {}", file, other));
+      return true;
+    }
     ++records;
-    const RestartHead head = headOf(record);
+    const RestartHead head = headOf(record, file);
     run.tree = head.tree;
     last = head.place;
     const bool asked = place && !head.over && last.branch == place->branch && last.step == place->step;
-    if (asked || !place) run.records = records;
+    if (asked || !place) {
+      run.records = records;
+      run.marks = head.marks;
+    }
     return !asked;
   });
   if (records == 0) throw std::invalid_argument(fmt::format("{}: holds no finished step", file));
@@ -112,11 +118,10 @@ Continued readRestart(const std::string& directory, std::optional<RestartPlace> 
     throw std::invalid_argument(
         fmt::format("{}: holds no step {} of branch {}; its last one is {} of branch {}", file, place->step,
                     place->branch, last.step, last.branch));
-  std::size_t left = run.records;
+  std::size_t number = 0;
   forEachRecord(file, [&](const std::string& record) {
-    --left;
-    apply(record, left == 0, file, map, run.progress);
-    return left > 0;
+    if (number > 0) apply(record, number == run.records, file, map, run.progress);
+    return number++ < run.records;
   });
   return run;
 }

@@ -5,6 +5,7 @@
 #include <Teuchos_CommHelpers.hpp>
 #include <Tpetra_Vector.hpp>
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <memory>
@@ -16,6 +17,9 @@
 
 namespace atrapos {
 namespace {
+
+/// Decks may ask for less (deck/PathTables.cpp).
+constexpr int mostOrder = 1000;
 
 class Packer {
  public:
@@ -68,7 +72,13 @@ class Packer {
   std::string bytes_;
 };
 
-/// Reads what a Packer wrote; the check sum has said that it is whole.
+// Enumerators from a file: those that there are.
+int numberOf(path::CriticalKind) { return static_cast<int>(path::CriticalKind::hilltop) + 1; }
+int numberOf(path::EndReason) { return static_cast<int>(path::EndReason::problemFailed) + 1; }
+int numberOf(path::BranchEnd) { return static_cast<int>(path::BranchEnd::noStart) + 1; }
+
+/// Reads what a Packer wrote. The check sum has told damage; nothing is taken from beyond the record or
+/// without bounds where it is forged.
 class Unpacker {
  public:
   Unpacker(const std::string& bytes, const std::string& file, const path::RCP<const path::Map>& map)
@@ -76,11 +86,17 @@ class Unpacker {
 
   template <class T>
   void get(T& value) {
-    std::memcpy(&value, take(sizeof value), sizeof value);
+    if constexpr (std::is_same_v<T, bool>) {
+      value = *take(1) != 0;
+    } else {
+      std::memcpy(&value, take(sizeof value), sizeof value);
+      if constexpr (std::is_enum_v<T>)
+        require(static_cast<int>(value) >= 0 && static_cast<int>(value) < numberOf(value));
+    }
   }
   template <class T>
   void get(std::vector<T>& values) {
-    values.resize(count());
+    values.resize(count(sizeof(T)));
     if (!values.empty())
       std::memcpy(values.data(), take(values.size() * sizeof(T)), values.size() * sizeof(T));
   }
@@ -120,6 +136,7 @@ class Unpacker {
     get(counts);
     get(all);
     if (all.empty()) return;
+    for (const std::uint64_t count : counts) require(count <= all.size());
     const auto& comm = *map_->getComm();
     const std::size_t ranks = comm.getSize(), rank = comm.getRank();
     if (counts.size() != ranks ||
@@ -142,14 +159,25 @@ class Unpacker {
     get(value);
     return value;
   }
-  std::uint64_t count() {
+  /// Of things that take at least so many bytes each.
+  std::size_t count(std::size_t bytes = 1) {
     std::uint64_t value = 0;
     get(value);
+    require(value <= (bytes_.size() - place_) / bytes);
     return value;
   }
+  void require(bool sense) const {
+    if (!sense) throw std::invalid_argument(fmt::format("{}: holds a record that no run writes", file_));
+  }
+  /// An index of one of `size` things, or from `least` on.
+  void requireIndex(int index, std::size_t size, int least = 0) const {
+    require(index >= least && (index < 0 || static_cast<std::size_t>(index) < size));
+  }
+  void requireEnd() const { require(place_ == bytes_.size()); }
 
  private:
   const char* take(std::size_t count) {
+    require(count <= bytes_.size() - place_);
     const char* at = bytes_.data() + place_;
     place_ += count;
     return at;
@@ -212,6 +240,8 @@ path::Start startOf(Unpacker& u) {
   u.get(s.state);
   if (u.yes()) u.get(s.weight.emplace());
   if (u.yes()) u.get(s.tangent.emplace());
+  u.require(s.state.u != Teuchos::null && std::isfinite(s.state.lambda) && std::isfinite(s.pathLength));
+  u.require(s.steps >= 0 && s.order >= 0 && s.order <= mostOrder);
   s.eigenvalues.resize(u.count());
   for (auto& e : s.eigenvalues) {
     u.get(e.value);
@@ -250,6 +280,7 @@ path::BranchPoint pointOf(Unpacker& u) {
   u.get(found.step);
   getPlain(point, u);
   u.get(point.state);
+  u.require(point.state.u != Teuchos::null && found.step >= 0);
   point.tangents.resize(u.count());
   for (auto& t : point.tangents) u.get(t);
   point.nullVectors.resize(u.count());
@@ -257,17 +288,52 @@ path::BranchPoint pointOf(Unpacker& u) {
   return found;
 }
 
+template <class F>
+void eachMark(RunMarks& marks, const F& f) {
+  for (Mark* const mark : {&marks.path, &marks.points, &marks.events, &marks.fields}) {
+    f(mark->count);
+    f(mark->digest);
+  }
+}
+
+template <class F>
+void eachNumber(MeshDigest& mesh, const F& f) {
+  for (std::uint64_t* const number : {&mesh.nodes, &mesh.elements, &mesh.places, &mesh.blocks, &mesh.sets})
+    f(*number);
+}
+
 void get(RestartHead& head, Unpacker& u) {
   u.get(head.place.branch);
   u.get(head.place.step);
   u.get(head.over);
   u.get(head.tree);
+  eachMark(head.marks, [&](std::uint64_t& number) { u.get(number); });
+  u.require(head.place.branch >= 0 && head.place.step >= 0);
 }
 
 }  // namespace
 
-std::string packed(const path::BranchProgress& progress, std::size_t branches, std::size_t points,
-                   bool tree) {
+std::string packed(const RunProblem& problem) {
+  Packer p;
+  MeshDigest mesh = problem.mesh;
+  eachNumber(mesh, [&](std::uint64_t number) { p.put(number); });
+  p.put(static_cast<std::uint64_t>(problem.deck.size()));
+  for (const std::string& line : problem.deck) p.put(line);
+  return p.bytes();
+}
+
+RunProblem problemOf(const std::string& record, const std::string& file) {
+  Unpacker u(record, file, Teuchos::null);
+  RunProblem problem;
+  eachNumber(problem.mesh, [&](std::uint64_t& number) { u.get(number); });
+  problem.deck.resize(u.count(sizeof(std::uint64_t)));
+  for (std::string& line : problem.deck) u.get(line);
+  u.requireEnd();
+  return problem;
+}
+
+std::string packed(const path::BranchProgress& progress, std::size_t branches, std::size_t points, bool tree,
+                   const RunMarks& marks) {
   const path::BranchDiagram& diagram = progress.diagram;
   Packer p;
   const path::Branch& current = diagram.branches.at(progress.current);
@@ -275,6 +341,8 @@ std::string packed(const path::BranchProgress& progress, std::size_t branches, s
   p.put(progress.path ? progress.path->steps : current.outcome.steps);
   p.put(!progress.path);
   p.put(tree);
+  RunMarks numbers = marks;
+  eachMark(numbers, [&](std::uint64_t number) { p.put(number); });
   p.put(static_cast<std::uint64_t>(diagram.branches.size() - branches));
   for (std::size_t b = branches; b < diagram.branches.size(); ++b) {
     putPlain(diagram.branches[b], p);
@@ -298,8 +366,8 @@ std::string packed(const path::BranchProgress& progress, std::size_t branches, s
   return p.bytes();
 }
 
-RestartHead headOf(const std::string& record) {
-  Unpacker u(record, record, Teuchos::null);
+RestartHead headOf(const std::string& record, const std::string& file) {
+  Unpacker u(record, file, Teuchos::null);
   RestartHead head;
   get(head, u);
   return head;
@@ -312,28 +380,40 @@ void apply(const std::string& record, bool last, const std::string& file,
   RestartHead head;
   get(head, u);
   progress.current = head.place.branch;
-  for (std::uint64_t n = u.count(); n > 0; --n) {
+  for (std::size_t n = u.count(); n > 0; --n) {
     path::Branch& b = diagram.branches.emplace_back();
     getPlain(b, u);
     u.get(b.direction);
     u.get(b.start);
+    u.requireIndex(b.parent, diagram.branches.size() - 1, -1);
+    u.require(b.start.u != Teuchos::null || b.end != path::BranchEnd::path);
   }
   const int known = static_cast<int>(diagram.points.size());
-  for (std::uint64_t n = u.count(); n > 0; --n) diagram.points.push_back(pointOf(u));
+  for (std::size_t n = u.count(); n > 0; --n) {
+    diagram.points.push_back(pointOf(u));
+    u.requireIndex(diagram.points.back().branch, diagram.branches.size());
+  }
+  u.requireIndex(progress.current, diagram.branches.size());
+  for (const path::Branch& b : diagram.branches)
+    u.requireIndex(b.point, diagram.points.size(), b.parent < 0 ? -1 : 0);
   progress.addHalves(known);
   std::vector<char> taken;
   u.get(taken);
-  for (std::size_t i = 0; i < taken.size(); ++i) progress.halves.at(i).taken = taken[i] != 0;
+  u.require(taken.size() <= progress.halves.size());  // without branches none
+  for (std::size_t i = 0; i < taken.size(); ++i) progress.halves[i].taken = taken[i] != 0;
   u.get(progress.next);
   u.get(progress.followed);
+  u.requireIndex(progress.next, progress.halves.size() + 1);
+  u.require(progress.followed >= 0);
   u.get(diagram.switchFactorizations);
   u.get(diagram.complete);
-  u.get(diagram.branches.at(progress.current).end);
+  u.get(diagram.branches[progress.current].end);
   progress.path.reset();
   if (head.over)
-    get(diagram.branches.at(progress.current).outcome, u);
+    get(diagram.branches[progress.current].outcome, u);
   else if (last)
     progress.path = startOf(u);
+  if (head.over || last) u.requireEnd();
 }
 
 }  // namespace atrapos

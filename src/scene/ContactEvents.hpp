@@ -30,13 +30,17 @@ struct ContactEvent {
 /// on faces close and open at the ends of steps, where the set of active ones changes.
 class ContactEvents final : public StepWatch {
  public:
-  /// Throws std::runtime_error where the file cannot be written.
+  /// Throws FileError where the file cannot be written.
   /// `append`: goes on with the file.
   ContactEvents(const Scene& scene, const std::string& file, bool append = false);
 
   void onStep(int branch, int step, double pathLengthStart, double length, const path::Series& series,
               const CaseState& end, const std::vector<int>& changes) override;
-  void copyFrom(const std::string& file, const RestartPlace& last) override { table_.copyFrom(file, last); }
+  void copyFrom(const std::string& file, const RestartPlace& last, const Mark& mark) override {
+    table_.copyFrom(file, last, mark);
+  }
+  Mark mark() const override { return table_.mark(); }
+  void sync() const override { table_.sync(); }
   int count() const override { return count_; }
 
  private:

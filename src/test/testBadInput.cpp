@@ -110,6 +110,16 @@ TEST_F(BadInput, MonitorsNamedAsColumns) {
   EXPECT_EQ(columns, 6 + 8);
 }
 
+TEST_F(BadInput, WhatWouldTakeTooMuch) {
+  refusesDeck("points_per_step: 2", "points_per_step: 2000000000",
+              {"output/points_per_step", "from 1 to 10000"});
+  for (const char* divisions : {"[2000000000, 2000000000, 2000000000]", "[100000000, 2, 1]"}) {
+    writeFile(folder_ / "deck.yaml",
+              edited(kSmallDeck, "divisions: [4, 1, 1]", std::string("divisions: ") + divisions));
+    refuses({"mesh", "deck.yaml"}, {"mesh/generate/divisions", "elements; expected at most 1e+08"});
+  }
+}
+
 TEST_F(BadInput, UnknownKey) {
   refusesDeck("order: 15", "ordre: 15", {"path/ordre", "did you mean 'order'?"});
 }

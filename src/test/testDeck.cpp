@@ -880,7 +880,7 @@ TEST(BadDeck, valuesOutOfRange) {
   expectError("output:", "output:\n  fields_every: 0", "output/fields_every: must be at least 1, got 0", {});
   expectError("output:", "output:\n  residuals: all", "output/residuals: 'all' is not a choice here",
               {"steps", "points"});
-  expectError("output:", "output:\n  points_per_step: 0", "output/points_per_step: must be at least 1, got 0",
+  expectError("output:", "output:\n  points_per_step: 0", "output/points_per_step: must be from 1 to 10000, got 0",
               {});
   const std::string box = "shape: box, lengths: [10, 2.0, 1]";
   expectError(box, "shape: strip, length: 1, width: 1, thickness: -0.8",

@@ -1,11 +1,18 @@
 // Runs that go on: behind a kill, behind any step, into another folder, with other settings; every number is
 // that of one run.
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <signal.h>
+#include <sys/file.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
+#include <cstring>
+#include <functional>
 #include <nlohmann/json.hpp>
+#include <random>
 #include <sstream>
 #include <thread>
 
@@ -335,7 +342,7 @@ TEST_F(Restart, AnotherDeckIsRefused) {
   const std::string monitors = "tip_uz: {type: displacement, set: x_max, component: z}";
   writeFile(folder_ / "deck.yaml",
             edited(kSmallDeck, monitors, "tip_uy: {type: displacement, set: x_max, component: y}"));
-  refuses({"--restart", "whole"}, {"path.csv", "tip_uz", "tip_uy"});
+  refuses({"--restart", "whole"}, {"restart.bin: is of another problem", "output/monitors/tip_uz"});
   writeFile(folder_ / "deck.yaml",
             edited(kSmallDeck, "points_per_step: 2", "points_per_step: 2\n  fields: [displacement]"));
   refuses({"--restart", "whole"}, {"results.exo", "other fields"});
@@ -343,7 +350,140 @@ TEST_F(Restart, AnotherDeckIsRefused) {
   refuses({"--restart", "whole"}, {"path/branches"});
   writeFile(folder_ / "deck.yaml", edited(kSmallDeck, "divisions: [4, 1, 1]", "divisions: [5, 1, 1]"));
   ASSERT_EQ(runAtrapos({"mesh", "-q", "deck.yaml"}, folder_.path()).exitCode, 0);
-  refuses({"--restart", "whole"}, {"unknowns"});
+  refuses({"--restart", "whole"}, {"the mesh had 20 nodes and 4 elements and has 24 and 5 now"});
+}
+
+// 20.4: everything that the path is of is compared; how it is followed and what is written is the user's
+// choice.
+TEST_F(Restart, AnotherProblemIsToldByItsFirstDifference) {
+  const std::vector<std::array<std::string, 3>> edits{
+      {"youngs_modulus: 1000", "youngs_modulus: 500",
+       "materials/rubber/youngs_modulus was 1000 and is 500 now"},
+      {"poissons_ratio: 0.3", "poissons_ratio: 0", "materials/rubber/poissons_ratio was 0.3 and is 0 now"},
+      {"x: 0, y: 0, z: 0}", "x: 0, y: 0, z: 0.01}", "supports/clamp/z"},
+      {"total: [0, 0, -10]", "total: [0, 0, -11]", "loads/tip/total"},
+      {"tip: {type: surface", "top: {type: surface", "loads/tip/type was surface and is not there now"},
+      {"radius: 1}", "radius: 0.9}", "tools/roll/radius was 1 and is 0.9 now"},
+      {"stiffness: 1000", "stiffness: 1001", "contact/lower/stiffness"},
+      {"component: z}", "component: x}", "output/monitors/tip_uz/component was z and is x now"},
+      {"contact: lower}", "contact: lower, component: z}", "output/monitors/force/component"}};
+  for (const auto& [from, to, word] : edits) {
+    SCOPED_TRACE(to);
+    writeFile(folder_ / "deck.yaml", edited(kSmallDeck, from, to));
+    refuses({"--restart", "whole"}, {"deck.yaml: whole/restart.bin: is of another problem: ", word});
+  }
+  // Another mesh of the same size, by its file alone.
+  writeFile(folder_ / "deck.yaml", edited(kSmallDeck, "lengths: [4, 1, 1]", "lengths: [4.01, 1, 1]"));
+  ASSERT_EQ(runAtrapos({"mesh", "-q", "deck.yaml"}, folder_.path()).exitCode, 0);
+  writeFile(folder_ / "deck.yaml", kSmallDeck);
+  refuses({"--restart", "whole"}, {"the nodes of the mesh were in other places"});
+}
+
+TEST_F(Restart, FilesThatAreNotAsTheRunLeftThem) {
+  const auto changed = [&](const std::string& name, const std::string& content,
+                           const std::vector<std::string>& words) {
+    const std::string before = readFile(folder_ / "whole" / name);
+    ASSERT_NE(content, before);
+    writeFile(folder_ / "whole" / name, content);
+    std::vector<std::string> all{"whole/" + name};
+    all.insert(all.end(), words.begin(), words.end());
+    refuses({"--restart", "whole"}, all);
+    writeFile(folder_ / "whole" / name, before);
+  };
+  const auto lines = [](const std::string& text, const std::function<void(std::vector<std::string>&)>& edit) {
+    std::vector<std::string> all;
+    std::istringstream in(text);
+    for (std::string line; std::getline(in, line);) all.push_back(line);
+    edit(all);
+    std::string result;
+    for (const auto& line : all) result += line + '\n';
+    return result;
+  };
+  changed("path.csv", lines(whole_, [](auto& all) { all.erase(all.begin() + 3); }),
+          {"rows up to where the run goes on"});
+  changed("path.csv", lines(whole_, [](auto& all) { all.pop_back(); }), {"rows up to where the run goes on"});
+  changed("path.csv", lines(whole_, [](auto& all) { all[4][all[4].find('.') + 3] ^= 1; }),
+          {"rows were changed"});
+  changed("path.csv", lines(whole_, [](auto& all) { std::swap(all[2], all[3]); }), {"rows were changed"});
+  changed("path.csv", lines(whole_, [](auto& all) { all[4] = "garbage"; }), {"row 4 is damaged"});
+  changed("path.csv", lines(whole_, [](auto& all) { all[4] = "99999999999999999999" + all[4]; }),
+          {"row 4 is damaged"});
+  changed("path.csv", lines(whole_, [](auto& all) { all[4].clear(); }), {"row 4 is damaged"});
+  const std::string events = readFile(folder_ / "whole" / "events.csv");
+  changed("events.csv", lines(events, [](auto& all) { all.push_back(all.back()); }), {"rows"});
+  // The last value of the last state.
+  std::string states = readFile(folder_ / "whole" / "results.exo");
+  states[states.size() - 5] ^= 1;
+  changed("results.exo", states, {"its states were changed"});
+  // Nothing of it counts where the run goes on before.
+  writeFile(folder_ / "whole" / "results.exo", states);
+  run({"--restart", "whole", "--from", "2", "-o", "again"});
+}
+
+std::uint64_t checkSum(const std::string& bytes) {
+  std::uint64_t hash = 14695981039346656037ull;
+  for (const unsigned char c : bytes) hash = (hash ^ c) * 1099511628211ull;
+  return hash;
+}
+
+/// The records of a restart file behind its head of 24 bytes, with sums that are right again.
+std::string forged(const std::string& file, const std::function<void(std::vector<std::string>&)>& edit) {
+  std::vector<std::string> records;
+  for (std::size_t at = 24; at + 16 <= file.size();) {
+    std::uint64_t length = 0;
+    std::memcpy(&length, &file[at], sizeof length);
+    records.push_back(file.substr(at + 16, length));
+    at += 16 + length;
+  }
+  edit(records);
+  std::string result = file.substr(0, 24);
+  for (const auto& record : records)
+    for (const std::uint64_t number : {std::uint64_t{record.size()}, checkSum(record)}) {
+      result.append(reinterpret_cast<const char*>(&number), sizeof number);
+      if (number == checkSum(record)) result += record;
+    }
+  return result;
+}
+
+// Sums that are right on records that no run writes: lengths beyond everything, indices of nothing, records
+// cut short.
+TEST_F(Restart, ForgedRecords) {
+  const std::string file = readFile(folder_ / "whole" / "restart.bin");
+  ASSERT_EQ(forged(file, [](auto&) {}), file);
+  std::mt19937 random(6);
+  int refused = 0;
+  for (int trial = 0; trial < 36; ++trial) {
+    SCOPED_TRACE(trial);
+    const std::string changed = forged(file, [&](std::vector<std::string>& records) {
+      std::string& record = trial % 10 == 0 ? records.front() : trial % 2 == 0 ? records[1] : records.back();
+      const std::size_t at = random() % std::min<std::size_t>(record.size() - 8, 700);
+      if (trial % 3 == 0) record.resize(at);
+      const std::uint64_t numbers[]{~std::uint64_t{0}, std::uint64_t{1} << 40, 0x7fffffff, 0x80000000,
+                                    random()};
+      if (trial % 3 != 0) std::memcpy(&record[at], &numbers[random() % 5], 8);
+    });
+    writeFile(folder_ / "whole" / "restart.bin", changed);
+    const CommandResult r = runDeck({"--restart", "whole", "-o", "again"}, folder_.path());
+    // A number of the state, or of costs: another path, or none.
+    EXPECT_TRUE(r.exitCode == 0 || r.exitCode == 2 || r.exitCode == 3)
+        << r.exitCode << ' ' << r.signal << ' ' << r.err;
+    refused += r.exitCode == 2 ? 1 : 0;
+    EXPECT_LE(r.errorLines().size(), r.exitCode == 3 ? 2u : 1u) << r.err;
+  }
+  EXPECT_GT(refused, 12);
+}
+
+TEST_F(Restart, AFolderIsOneRunsAtATime) {
+  const int folder = open((folder_ / "whole").c_str(), O_RDONLY | O_DIRECTORY);
+  ASSERT_EQ(flock(folder, LOCK_EX | LOCK_NB), 0);
+  refuses({"-o", "whole"}, {"another run uses the folder whole"});
+  refuses({"--restart", "whole"}, {"another run uses the folder whole"});
+  refuses({"--restart", "whole", "-o", "other"}, {"another run writes into the folder whole"});
+  ASSERT_EQ(flock(folder, LOCK_SH | LOCK_NB), 0);  // of another restart, which reads
+  run({"--restart", "whole", "-o", "other"});
+  refuses({"--restart", "whole"}, {"another run uses the folder whole"});
+  close(folder);
+  run({"--restart", "whole"});
 }
 
 TEST_F(Restart, NothingIsKeptWhereNotWanted) {

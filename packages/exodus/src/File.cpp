@@ -1,9 +1,12 @@
 #include "File.hpp"
 
 #include <fcntl.h>
+#include <netcdf.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <utility>
 
@@ -71,9 +74,12 @@ File File::open(const std::string& name) {
 File File::create(const std::string& name) {
   silence();
   int computeWords = sizeof(double), fileWords = sizeof(double);
+  errno = 0;
   const int id = ex_create(name.c_str(), EX_CLOBBER | EX_LARGE_MODEL | EX_NOSHARE | EX_ALL_INT64_API,
                            &computeWords, &fileWords);
-  if (id < 0) throw Error(name + ": the file cannot be created");
+  if (id < 0)
+    throw Error(name + ": the file cannot be created" +
+                (errno != 0 ? std::string(" (") + std::strerror(errno) + ")" : ""));
   return File(id, name);
 }
 
@@ -90,8 +96,12 @@ File::~File() {
 }
 
 void File::check(int status, const std::string& doing) const {
-  if (status < 0)
-    throw Error(name_ + ": " + doing + " failed (library status " + std::to_string(status) + ")");
+  if (status >= 0) return;
+  // The library keeps the reason: numbers of the system from 1, of NetCDF below 0, its own from 1000.
+  const bool known = exerrval != 0 && exerrval < EX_MEMFAIL;
+  throw Error(name_ + ": " + doing + " failed (" +
+              (known ? std::string(nc_strerror(exerrval)) : "library status " + std::to_string(status)) +
+              ")");
 }
 
 void File::close() {

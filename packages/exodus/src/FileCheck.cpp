@@ -202,4 +202,16 @@ void padFile(const std::string& file) {
   if (error) throw Error(file + ": writing failed (" + error.message() + ")");
 }
 
+void cutRecords(const std::string& file, std::uint32_t records) {
+  {
+    // Behind the magic number; big-endian in 32 bits, as in all files that this package makes.
+    std::fstream stream(file, std::ios::binary | std::ios::in | std::ios::out);
+    stream.seekp(4);
+    for (int shift = 24; shift >= 0; shift -= 8) stream.put(static_cast<char>(records >> shift));
+  }
+  const Sizes sizes = sizesOf(file);
+  std::error_code ignored;  // on the way out with another error
+  if (sizes.actual > sizes.required) std::filesystem::resize_file(file, sizes.required, ignored);
+}
+
 }  // namespace atrapos::exodus

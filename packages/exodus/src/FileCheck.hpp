@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 namespace atrapos::exodus {
@@ -18,5 +19,9 @@ Format checkFile(const std::string& file);
 /// Gives a classic file the length that its header asks for, with zeros at the end. The library writes
 /// names without the zeros that fill their rows, and so leaves the end of a file out until it closes it.
 void padFile(const std::string& file);
+
+/// Makes a classic file that the library could not write to its end (full disk) one of so many records: the library counts
+/// a record whose values are not all there. Needs no room.
+void cutRecords(const std::string& file, std::uint32_t records);
 
 }  // namespace atrapos::exodus

@@ -182,7 +182,12 @@ class MeshWriter {
 class Draft {
  public:
   explicit Draft(const std::string& target)
-      : target_(target), path_(target + ".part" + std::to_string(getpid())) {}
+      : target_(target), path_(target + ".part" + std::to_string(getpid())) {
+    std::error_code notThere;
+    const auto status = std::filesystem::status(target, notThere);
+    if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
+      throw Error(target + ": is no regular file, and is not replaced");
+  }
   Draft(const Draft&) = delete;
   Draft& operator=(const Draft&) = delete;
   ~Draft() {

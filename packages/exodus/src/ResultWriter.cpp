@@ -5,6 +5,7 @@
 #include <set>
 
 #include "File.hpp"
+#include "FileCheck.hpp"
 #include "MeshWriter.hpp"
 
 namespace atrapos::exodus {
@@ -94,6 +95,19 @@ struct ResultWriter::Impl {
 
   void write(double newTime, ConstSpan nodal, ConstSpan element, ConstSpan global) {
     checkStep(newTime, nodal, element, global);
+    try {
+      put(newTime, nodal, element, global);
+    } catch (const Error&) {
+      const std::string name = file->name();
+      file.reset();  // nothing more can be written
+      cutRecords(name, static_cast<std::uint32_t>(step));
+      throw;
+    }
+    ++step;
+    time = newTime;
+  }
+
+  void put(double newTime, ConstSpan nodal, ConstSpan element, ConstSpan global) const {
     const int number = step + 1;
     const std::string doing = "writing step " + std::to_string(number);
     file->check(ex_put_time(file->id(), number, &newTime), doing);
@@ -116,8 +130,6 @@ struct ResultWriter::Impl {
       }
     }
     file->check(ex_update(file->id()), doing);
-    step = number;
-    time = newTime;
   }
 
   std::size_t numNodal, numElement, numGlobal, numNodes, numElements;
@@ -136,8 +148,11 @@ ResultWriter::ResultWriter(ResultWriter&&) noexcept = default;
 ResultWriter& ResultWriter::operator=(ResultWriter&&) noexcept = default;
 
 void ResultWriter::writeStep(double time, ConstSpan nodal, ConstSpan element, ConstSpan global) {
+  if (!impl_->file) throw Error("a result file is written to again after it could not be");
   impl_->write(time, nodal, element, global);
 }
+
+void ResultWriter::moved(const std::string& file) { impl_->file->rename(file); }
 
 int ResultWriter::numSteps() const { return impl_->step; }
 

@@ -58,10 +58,13 @@ class ResultWriter {
   /// Appends a step. `nodal` is [variable][node], `element` [variable][element over all blocks],
   /// `global` [variable].
   /// Throws Error where `time` is not finite or not above the last one, a span has not the length that the
-  /// names ask for, or writing fails (full disk).
+  /// names ask for, or writing fails (full disk): the steps before can be read then, and no others written.
   void writeStep(double time, ConstSpan nodal, ConstSpan element, ConstSpan global);
 
   int numSteps() const;
+
+  /// The file has another name now (of a part: its own).
+  void moved(const std::string& file);
 
  private:
   struct Impl;
