@@ -23,3 +23,4 @@ ATRAPOS_DECLARE_POINT_LAW(atrapos::contact::PressureStage<atrapos::contact::Smoo
 ATRAPOS_DECLARE_POINT_LAW(atrapos::contact::SharpenedStage)
 ATRAPOS_DECLARE_POINT_LAW(atrapos::contact::HardStage)
 ATRAPOS_DECLARE_POINT_LAW(atrapos::contact::CurveStage)
+ATRAPOS_DECLARE_POINT_LAW(atrapos::contact::OverclosureStage)

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <stdexcept>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -124,6 +125,12 @@ std::unique_ptr<fem::PointLaw> stagedSharpenedContact(const ToolStages& tool,
   const auto f = chain.add(fem::pointLaw(stage), {hn[0], hn[1], hn[2], hn[3], 3}, {0});
   chain.show(hn[0], f[3]);
   return chain.law({f[0], f[1], f[2]});
+}
+
+std::unique_ptr<fem::PointLaw> stagedProjection(const ToolStages& tool) {
+  if (tool.patches) throw std::logic_error("stagedProjection: of tools without patches");
+  Chain chain(tool.motion ? 4 : 3, 0, tool.symmetric);
+  return chain.law(chain.project(tool, {0, 1, 2}, 3, tool.motion, -1, 0));
 }
 
 std::unique_ptr<fem::PointLaw> stagedHardContact(const ToolStages& tool) {

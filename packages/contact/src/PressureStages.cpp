@@ -8,3 +8,4 @@ ATRAPOS_POINT_LAW(atrapos::contact::PressureStage<atrapos::contact::SmoothedPena
 ATRAPOS_POINT_LAW(atrapos::contact::SharpenedStage)
 ATRAPOS_POINT_LAW(atrapos::contact::HardStage)
 ATRAPOS_POINT_LAW(atrapos::contact::CurveStage)
+ATRAPOS_POINT_LAW(atrapos::contact::OverclosureStage)

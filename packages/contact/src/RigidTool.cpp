@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "CompiledStages.hpp"
 #include "atrapos/contact/ContactStages.hpp"
 #include "atrapos/contact/CurveContact.hpp"
 #include "atrapos/contact/PatchSearch.hpp"
@@ -79,6 +80,18 @@ class StagedTool : public RigidTool {
     // The load factor stands behind the place on the curve.
     model.terms.push_back(onPieces(forPoints(stagedCurveContact(stages_, pressure), points), curves,
                                    withTool(referenceGaps, 1), pieces(points, 1, points.components + 1)));
+  }
+
+  std::unique_ptr<fem::Term> zones(const Overclosure& pressure, const fem::LineSet& lines,
+                                   fem::ZoneOptions options) const override {
+    if (stages_.patches)
+      throw std::invalid_argument(
+          "zones of contact are found on smooth tools, not on patches: expected nodes or quadrature");
+    if (!stages_.symmetric)
+      throw std::invalid_argument("zones of contact need a tool whose normal is the gradient of its gap");
+    pressure.validate();
+    return fem::zoneTerm({stagedProjection(stages_), fem::pointLaw(OverclosureStage{pressure})}, lines,
+                         options);
   }
 
   std::unique_ptr<fem::Term> sharpened(const RegularisedPressure& pressure, const fem::PointSet& points,

@@ -133,7 +133,44 @@ void EventTerms::setConditions(const std::vector<int>& conditions) {
 }
 
 int EventTerms::constraintPivots() const {
-  return static_cast<int>(std::count(conditions_.begin(), conditions_.end(), 1));
+  int count = 0;
+  for (const Entry& entry : entries_)
+    if (entry.term->owesPivots()) {
+      const auto first = conditions_.begin() + entry.first;
+      count += static_cast<int>(std::count(first, first + entry.term->eventCount(), 1));
+    }
+  return count;
+}
+
+std::optional<EventTerm::Gradient> EventTerms::gradient(int index, const ConstDofView& u, double lambda,
+                                                        const DofView& byU) const {
+  EventTerm::Gradient own;
+  ranks_.together([&] {
+    for (const Entry& entry : entries_)
+      if (index >= entry.first && index < entry.first + entry.term->eventCount())
+        own = entry.term->eventGradient(index - entry.first, u, lambda, byU);
+  });
+  std::vector<double> sums{own.has, own.value, own.byLambda};
+  ranks_.sum(sums);
+  if (sums[0] == 0) return std::nullopt;
+  return EventTerm::Gradient{sums[0], sums[1], sums[2]};
+}
+
+bool EventTerms::renews() const {
+  return std::any_of(entries_.begin(), entries_.end(),
+                     [](const Entry& entry) { return !entry.term->owesPivots(); });
+}
+
+void EventTerms::renew(const ConstDofView& u, double lambda) {
+  std::vector<int> now = conditions_;
+  for (const Entry& entry : entries_) {
+    if (entry.term->owesPivots()) continue;
+    std::vector<double> on(count(), 0.0);
+    ranks_.together([&] { put(entry, entry.term->renewed(u, lambda), on); });
+    ranks_.sum(on);
+    for (int c = entry.first; c < entry.first + entry.term->eventCount(); ++c) now[c] = on[c] > 0;
+  }
+  setConditions(now);
 }
 
 void EventTerms::setStiffness(const std::vector<double>& ofNodes) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "Distribution.hpp"
@@ -32,6 +33,13 @@ class EventTerms {
   const std::vector<int>& conditions() const { return conditions_; }
   void setConditions(const std::vector<int>& conditions);  ///< the same ones on every rank
   int constraintPivots() const;
+  /// path::Problem::eventGradient, this rank's part of byU; nothing where there is none.
+  std::optional<EventTerm::Gradient> gradient(int index, const ConstDofView& u, double lambda,
+                                              const DofView& byU) const;
+  /// Whether some conditions follow from the state.
+  bool renews() const;
+  /// Brings conditions up to date that follow from the state, on every rank.
+  void renew(const ConstDofView& u, double lambda);
   void setStiffness(const std::vector<double>& ofNodes);
 
  private:

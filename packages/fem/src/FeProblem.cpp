@@ -105,6 +105,8 @@ struct FeProblem::Impl {
   std::vector<int> wholeCounts;  // [term] entities on all ranks (several ranks)
   int numParameters = 0, numMultipliers = 0;  // of the whole model
   double parameterInner = 1;                  // factor of a parameter's square in inner()
+  double internalInner = 0;                   // and of an internal variable's
+  bool hasInternal = false;                   // on some rank
   Sizes scaleFloor;                           // least scale of each balance
   std::vector<int> balances;                  // [own dof] number of its balance
   int numFree = 0;
@@ -430,6 +432,14 @@ struct FeProblem::Impl {
     return ranks->sum(sum);
   }
 
+  double ofInternal(const path::Increment& x, const path::Increment& y) const {
+    if (!hasInternal) return 0;
+    double sum = 0;
+    for (std::size_t i = 0; i < std::min(x.internal.size(), y.internal.size()); ++i)
+      sum += x.internal[i] * y.internal[i];
+    return ranks->sum(sum);
+  }
+
   /// The smallest diagonal entry of the tangent among the free dofs of a node of the rank; 0 where there is
   /// none.
   std::vector<double> nodalStiffness() const {
@@ -518,6 +528,7 @@ FeProblem::FeProblem(FeModel model) : impl_(std::make_unique<Impl>(std::move(mod
   impl_->findStart();
   Vector F(impl_->map);
   tangent({initialState(0.0), 0.0}, F);  // gives the prescribed rows their size
+  impl_->hasInternal = impl_->ranks->max(internalCount()) > 0;
   if (events.empty()) return;
   events.setStiffness(impl_->nodalStiffness());
   // A tool that moves drives the body through the points that it touches.
@@ -592,6 +603,7 @@ RCP<const CrsMatrix> FeProblem::tangent(const path::State& at, Vector& F) {
 
 void FeProblem::beginSeries(const path::State& at, int maxOrder) {
   const ConstDofView state = onRank(at);
+  impl_->events->renew(state, at.lambda);
   impl_->ranks->together([&] {
     for (const auto& term : impl_->model.terms) term->beginSeries(state, at.lambda, maxOrder);
   });
@@ -617,14 +629,33 @@ void FeProblem::completeOrder(int, const Vector& Uk, double lambdaK) {
   impl_->lastLambda = lambdaK;
 }
 
+int FeProblem::internalCount() const {
+  int count = 0;
+  for (const auto& term : impl_->model.terms) count += term->internalCount();
+  return count;
+}
+
+void FeProblem::internalOrder(int k, const Vector& v, double mu, std::vector<double>& y) const {
+  const ConstDofView state = impl_->local(v);
+  impl_->ranks->together([&] {
+    double* own = y.data();
+    for (const auto& term : impl_->model.terms) {
+      term->internalOrder(k, state, mu, own);
+      own += term->internalCount();
+    }
+  });
+}
+
 double FeProblem::inner(const path::Increment& x, const path::Increment& y) const {
-  return Problem::inner(x, y) + (impl_->parameterInner - 1) * impl_->ofParameters(*x.u, *y.u);
+  return Problem::inner(x, y) + (impl_->parameterInner - 1) * impl_->ofParameters(*x.u, *y.u) +
+         impl_->internalInner * impl_->ofInternal(x, y);
 }
 
 double FeProblem::weight(const path::Increment& Xhat, std::optional<double> given) {
   const double displacements = Problem::inner(Xhat, Xhat) - impl_->ofParameters(*Xhat.u, *Xhat.u);
   const double w = given ? *given : 1 / displacements;
   impl_->parameterInner = impl_->model.parameterWeight / w;
+  impl_->internalInner = impl_->model.internalWeight / w;
   return w;
 }
 
@@ -634,6 +665,19 @@ int FeProblem::eventCount() const { return impl_->events->count(); }
 
 void FeProblem::eventOrder(int k, std::vector<double>& g) const {
   g = impl_->events->order(k, impl_->last, impl_->lastLambda);
+}
+
+bool FeProblem::eventGradient(int index, const path::State& state, double& value, Vector& byU,
+                              double& byLambda) {
+  const ConstDofView u = onRank(state);
+  Kokkos::deep_copy(impl_->sum, 0.0);
+  const auto own = impl_->events->gradient(index, u, state.lambda, impl_->sum);
+  if (!own) return false;
+  impl_->ranks->collect(impl_->sum);
+  impl_->copyOwned(impl_->sum, writable(byU));
+  value = own->value;
+  byLambda = own->byLambda;
+  return true;
 }
 
 std::vector<int> FeProblem::eventsAt(const path::State& state) {
@@ -693,10 +737,13 @@ std::vector<std::vector<double>> FeProblem::memoryOrders() {
 }
 
 path::State FeProblem::settled(const path::State& state) {
-  if (!remembers()) return state;
+  if (!remembers() && !impl_->events->renews()) return state;
   const ConstDofView u = onRank(state);
   auto memory = std::make_shared<path::Memory>();
-  memory->conditions = impl_->conditionsOf(state.memory.get());
+  impl_->events->renew(u, state.lambda);
+  memory->conditions = impl_->conditions();
+  impl_->remembered = nullptr;  // the terms may be those of another memory than `state` has
+  if (!remembers()) return {state.u, state.lambda, memory};
   memory->u = rcp(new Vector(*state.u, Teuchos::Copy));
   memory->lambda = state.lambda;
   impl_->ranks->together([&] {

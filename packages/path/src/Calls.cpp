@@ -113,13 +113,16 @@ State Calls::afterEvent(const std::vector<int>& indices, const State& state) {
   return problemCall([&] { return problem_.afterEvent(indices, state); });
 }
 
+bool Calls::eventGradient(int index, const State& state, double& value, Vector& byU, double& byLambda) {
+  return problemCall([&] { return problem_.eventGradient(index, state, value, byU, byLambda); });
+}
+
 std::vector<std::vector<double>> Calls::memoryOrders() {
   Stopwatch watch(work_.seconds.orderRhs);
   return problemCall([&] { return problem_.memoryOrders(); });
 }
 
 State Calls::settled(const State& state) {
-  if (!problem_.remembers()) return state;
   Stopwatch watch(work_.seconds.residual);
   return problemCall([&] { return problem_.settled(state); });
 }

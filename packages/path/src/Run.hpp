@@ -113,6 +113,7 @@ class Run {
   bool passesStop(const State& from, const State& to) const;
   bool passJump();
   void correctBehindEvents();
+  bool correctWithEvent(int event);
   Series seriesAfterEvents(StepReport& report);
   Series seriesAfterRestart();
 

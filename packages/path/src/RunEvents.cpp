@@ -173,6 +173,9 @@ Series Run::seriesOfChoice(const std::vector<int>& zero, const std::vector<int>&
   jump_ = 0;
   residual_ = calls_.residual(outcome_.final, *r_).relative();
   if (residual_ > bound() && !chosen.empty() && calls_.hasPieces()) passJump();
+  if (options_.maxCorrections > 0)
+    for (const int i : chosen)
+      if (!isBreak(i) && correctWithEvent(i)) break;
   for (const int i : chosen)
     if (!(residual_ <= boundAtEvents()) && isBreak(i))
       throw PathError(EndReason::problemFailed,
@@ -185,6 +188,45 @@ Series Run::seriesOfChoice(const std::vector<int>& zero, const std::vector<int>&
                          residual_, ')'));
   if (residual_ > bound() && options_.maxCorrections > 0) correctBehindEvents();
   return seriesTo({}, zero);
+}
+
+/// What begins or ends at an event has a size there: the state that solves the changed Problem with the event
+/// function zero, a little further along the path. Newton iterations with that function as their border, the
+/// first two with factorizations of their own, as the first may be made before there is anything of that
+/// size. False, and nothing changed, where the event needs none of it, they do not converge or would miss a
+/// stop.
+bool Run::correctWithEvent(int event) {
+  auto byU = calls_.newVector(), F = calls_.newVector(), Uhat = calls_.newVector(), x = calls_.newVector();
+  auto r = calls_.newVector();
+  State state = outcome_.final.copy();
+  constexpr int maxIterations = 12, factored = 2;
+  const double enough = 1e-3 * bound();
+  double residual = calls_.residual(state, *r).relative();
+  for (int i = 0; i < maxIterations && !(i >= factored && residual <= enough); ++i) {
+    double value = 0, byLambda = 0;
+    if (!calls_.eventGradient(event, state, value, *byU, byLambda)) return false;
+    if (i < factored) {
+      calls_.factor(state, *F);
+      calls_.solve(*F, *Uhat);
+      ++outcome_.corrections;
+      if (pending_) ++pending_->corrections;
+    }
+    calls_.solve(*r, *x);
+    // dU = -x + dlambda Uhat with value + byU . dU + byLambda dlambda = 0.
+    const double dLambda = (linear::dot(*byU, *x) - value) / (linear::dot(*byU, *Uhat) + byLambda);
+    x->update(dLambda, *Uhat, -1);
+    state.u->update(1, *x, 1);
+    state.lambda += dLambda;
+    const double before = residual;
+    residual = calls_.residual(state, *r).relative();
+    if (!std::isfinite(residual)) return false;
+    if (i >= factored && residual > 0.5 * before) break;
+  }
+  if (!(residual <= bound()) || passesStop(outcome_.final, state)) return false;
+  outcome_.final = calls_.settled(state);
+  r_ = r;
+  residual_ = residual;
+  return true;
 }
 
 /// The state does not quite solve the Problem that an event has changed: what its series left out of the

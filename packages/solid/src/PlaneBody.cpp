@@ -137,6 +137,27 @@ std::vector<fem::PointSet> planeEdgePoints(const fem::Mesh& mesh, const fem::Sid
   return result;
 }
 
+std::vector<fem::LineSet> planeEdgeLines(const fem::Mesh& mesh, const fem::SideSet& set,
+                                         const PlaneSection& section, int degree) {
+  const bool ring = section.kind == Kind::axisymmetric;
+  std::vector<fem::LineSet> result;
+  for (const fem::PointSet& edges : planeEdgePoints(mesh, set, section, degree)) {
+    fem::LineSet lines;
+    lines.degree = edges.nodesPerEntity - 1;
+    lines.nodes = edges.nodes;
+    for (const int node : edges.nodes)
+      lines.coordinates.insert(lines.coordinates.end(), &mesh.coordinates[3 * static_cast<std::size_t>(node)],
+                               &mesh.coordinates[3 * static_cast<std::size_t>(node)] + 2);
+    lines.depth = ring ? 0 : section.thickness;
+    lines.depthPerX = ring ? 2 * std::acos(-1.0) : 0;
+    const Tabulation t = fem::tabulateFace(lines.degree == 1 ? fem::Face::Line2 : fem::Face::Line3, degree);
+    lines.shown = t.points;
+    lines.weights = edges.weights;
+    result.push_back(std::move(lines));
+  }
+  return result;
+}
+
 std::unique_ptr<fem::PointLaw> planeLaw(std::unique_ptr<fem::PointLaw> material, Kind kind) {
   // H by rows: xx, xy, xz, yx, yy, yz, zx, zy, zz.
   if (kind == Kind::axisymmetric)

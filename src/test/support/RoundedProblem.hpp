@@ -28,6 +28,10 @@ class RoundedProblem final : public path::Problem {
   }
   int eventCount() const override { return exact_.eventCount(); }
   void eventOrder(int k, std::vector<double>& g) const override { exact_.eventOrder(k, g); }
+  bool eventGradient(int index, const path::State& state, double& value, path::Vector& byU,
+                     double& byLambda) override {
+    return exact_.eventGradient(index, state, value, byU, byLambda);
+  }
   bool remembers() const override { return exact_.remembers(); }
   std::vector<std::vector<double>> memoryOrders() override { return exact_.memoryOrders(); }
   path::State settled(const path::State& state) override { return exact_.settled(state); }

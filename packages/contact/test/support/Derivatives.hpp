@@ -39,13 +39,14 @@ inline void expectDerivative(fem::FeProblem& problem, const fem::test::Tangent& 
 }
 
 /// The relative residual along a series of this order at an equilibrium falls as a^(order + 1). Returns an a
-/// where it is 1e-6: high above rounding, inside the radius.
-inline double expectOrder(fem::FeProblem& problem, const path::Series& series, int order) {
+/// where it is `high`: high above rounding, inside the radius.
+inline double expectOrder(fem::FeProblem& problem, const path::Series& series, int order,
+                          double high = 1e-6) {
   auto r = fem::test::zeroVector(problem);
   double a = 1e-3, size = 0;
   const auto at = [&](double length) { return problem.residual(series.state(length), *r).relative(); };
-  for (int i = 0; i < 60 && (size = at(a)) > 1e-6; ++i) a *= 0.8;
-  for (int i = 0; i < 60 && (size = at(a)) < 1e-6; ++i) a *= 1.1;
+  for (int i = 0; i < 60 && (size = at(a)) > high; ++i) a *= 0.8;
+  for (int i = 0; i < 60 && (size = at(a)) < high; ++i) a *= 1.1;
   const double half = at(a / 2);
   EXPECT_GT(half, 1e-13);  // not rounding
   // The next term adds a (K+2)/(K+1)-th power: a few percent of the exponent.

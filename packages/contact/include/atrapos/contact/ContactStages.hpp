@@ -32,6 +32,8 @@ std::unique_ptr<fem::PointLaw> stagedContact(const ToolStages& tool, const AnyPr
 std::unique_ptr<fem::PointLaw> stagedHardContact(const ToolStages& tool);
 std::unique_ptr<fem::PointLaw> stagedCurveContact(const ToolStages& tool,
                                                   const RegularisedPressure& pressure);
+/// Place (and load factor) -> h, n: the projection alone. Not of patches.
+std::unique_ptr<fem::PointLaw> stagedProjection(const ToolStages& tool);
 /// The tool stands where it is at `loadFactor`.
 std::unique_ptr<fem::PointLaw> stagedSharpenedContact(const ToolStages& tool,
                                                       const RegularisedPressure& pressure, double loadFactor);

@@ -9,10 +9,12 @@
 
 #include "atrapos/contact/MovingTool.hpp"
 #include "atrapos/contact/OneOf.hpp"
+#include "atrapos/contact/Overclosure.hpp"
 #include "atrapos/contact/PatchSet.hpp"
 #include "atrapos/fem/FeProblem.hpp"
 #include "atrapos/fem/PointSet.hpp"
 #include "atrapos/fem/Term.hpp"
+#include "atrapos/fem/ZoneTerm.hpp"
 
 namespace atrapos::contact {
 
@@ -52,6 +54,11 @@ class RigidTool {
   /// behind the others for each point. Throws std::invalid_argument, one line, for gaps the law cannot have.
   virtual void addCurve(fem::FeModel& model, const RegularisedPressure& pressure, const fem::PointSet& points,
                         const std::vector<double>& referenceGaps) const = 0;
+
+  /// Contact of lines of a plane body, integrated over the zones where they are in the tool. Throws
+  /// std::invalid_argument, one line, for tools of patches and where n is not the gradient of the gap.
+  virtual std::unique_ptr<fem::Term> zones(const Overclosure& pressure, const fem::LineSet& lines,
+                                           fem::ZoneOptions options = {}) const = 0;
 
   /// The contact with law (15) where eta falls to eta exp(-s), s what the term sees as the load factor, and
   /// the tool stands where it is at `loadFactor`.

@@ -3,6 +3,7 @@
 #include "atrapos/contact/CurveContactLaw.hpp"
 #include "atrapos/contact/ExponentialPressure.hpp"
 #include "atrapos/contact/MovingTool.hpp"
+#include "atrapos/contact/Overclosure.hpp"
 #include "atrapos/contact/PatchTool.hpp"
 #include "atrapos/contact/PowerBarrier.hpp"
 #include "atrapos/contact/SharpenedContact.hpp"
@@ -113,6 +114,24 @@ struct SharpenedStage {
     taylor::solveImplicit<2, 1, 1>(pressure, static_cast<const T*>(hs), data, R);
     for (int i = 0; i < 3; ++i) out[i] = -(R[0] * in[1 + i]);
     out[3] = R[0];
+  }
+};
+
+/// h (1) -> p (1) where h <= 0, and its analytic continuation beyond.
+struct OverclosureStage {
+  static constexpr bool stage = true, symmetric = true;
+  static constexpr int numInputs = 1, numOutputs = 1, numData = 0;
+  Overclosure law;
+
+  template <class T>
+  KOKKOS_INLINE_FUNCTION void operator()(const T* h, const taylor::Passive<T>*, T* out) const {
+    const T depth = -h[0];
+    T power = depth;
+    for (int m = 1; m < law.exponent; ++m) {
+      const T next = power * depth;
+      power = next;
+    }
+    out[0] = law.stiffness * power;
   }
 };
 

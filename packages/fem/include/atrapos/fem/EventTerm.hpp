@@ -34,6 +34,15 @@ class EventTerm : public Term {
     std::vector<double> sum, covered;
   };
   virtual MeanGaps gapsAt(const ConstDofView& u, double lambda) const = 0;
+  /// path::Problem::eventGradient of a condition, by its number in the whole term, the part that sums over
+  /// all ranks: derivatives by the unknowns are added to byU. `has`: 1 where this part tells it, 0 elsewhere.
+  struct Gradient {
+    double has = 0, value = 0, byLambda = 0;
+  };
+  virtual Gradient eventGradient(int /*number*/, const ConstDofView& /*u*/, double /*lambda*/,
+                                 const DofView& /*byU*/) const {
+    return {};
+  }
   /// Gaps below this are the rounding of coordinates.
   virtual double touching(const ConstDofView& u) const = 0;
   /// [own condition] not 0: at this state one of its points here is on another piece than in the series.
@@ -41,6 +50,12 @@ class EventTerm : public Term {
 
   /// Whether the own conditions are active, 1, or free, 0.
   virtual void setConditions(const std::vector<int>& conditions) = 0;
+
+  /// Whether an active condition has a multiplier among the unknowns, and so owes a negative pivot.
+  virtual bool owesPivots() const { return true; }
+  /// Whether the own conditions are active at a state, in parts that sum over all ranks, where they follow
+  /// from it but next to their changes; empty where they change at events alone.
+  virtual std::vector<double> renewed(const ConstDofView& /*u*/, double /*lambda*/) const { return {}; }
 
   /// The least stiffness of the body (force per length) at a node of each own condition, given those of the
   /// nodes (0 where a node cannot move); infinity where none can move.

@@ -31,6 +31,8 @@ struct FeModel {
   /// w_t: the square of the change of the load factor that counts in the path parameter as much as a change
   /// of one parameter t of a law (Role::parameter: places on contact curves) by 1.
   double parameterWeight = 1;
+  /// The same for internal variables of terms, the relative widths of contact zones.
+  double internalWeight = 1e-2;
   /// Where the mesh came in parts, [term][entity] the rank that works on an element; terms at the end and
   /// terms of others than elements may have empty lists. Empty: METIS decides.
   std::vector<std::vector<int>> ranks;

@@ -46,7 +46,12 @@ class FeProblem final : public path::Problem {
   void orderRhs(int k, path::Vector& Fk) override;
   void completeOrder(int k, const path::Vector& Uk, double lambdaK) override;
 
-  /// Displacements, and parameters of laws with their own weight: w <x, y> = w x_u . y_u + w_t x_t . y_t.
+  /// Those of the terms, of this rank's entities.
+  int internalCount() const override;
+  void internalOrder(int k, const path::Vector& v, double mu, std::vector<double>& y) const override;
+
+  /// Displacements, and parameters of laws and internal variables with their own weights:
+  /// w <x, y> = w x_u . y_u + w_t x_t . y_t + w_i x_i . y_i.
   double inner(const path::Increment& x, const path::Increment& y) const override;
   /// Chosen from the displacements alone.
   double weight(const path::Increment& Xhat, std::optional<double> given) override;
@@ -56,6 +61,8 @@ class FeProblem final : public path::Problem {
   /// Number of the first one of this term.
   int firstEvent(int term) const;
   void eventOrder(int k, std::vector<double>& g) const override;
+  bool eventGradient(int index, const path::State& state, double& value, path::Vector& byU,
+                     double& byLambda) override;
   std::vector<int> eventsAt(const path::State& state) override;
   path::State afterEvent(const std::vector<int>& indices, const path::State& state) override;
   int constraintPivots() const override;

@@ -97,6 +97,12 @@ class Term {
   /// F(u(a), lambda(a)) with U_k = 0 and lambda_k = 0.
   virtual void addOrder(int k, const ConstDofView& last, double lastLambda, const DofView& f) = 0;
 
+  /// Internal variables that take part in the path parameter, of this rank's entities: numbers of which a
+  /// change by 1 is much (path::Problem::internalOrder). The same number at all states.
+  virtual int internalCount() const { return 0; }
+  /// y[i] = their order k if U_k were v and lambda_k were mu, between addOrder(k) and the next.
+  virtual void internalOrder(int /*k*/, const ConstDofView& /*v*/, double /*mu*/, double* /*y*/) const {}
+
   /// The pieces that its points are on, the term's own; null where the law is analytic everywhere.
   virtual PointPieces* pieces() { return nullptr; }
   /// What pieces are found from, in the state (u, lambda): [point][input] (PieceSearch); empty where there

@@ -35,6 +35,9 @@ class ImperfectProblem : public Problem {
   State afterEvent(const std::vector<int>& indices, const State& state) override {
     return perfect_.afterEvent(indices, state);
   }
+  bool eventGradient(int index, const State& state, double& value, Vector& byU, double& byLambda) override {
+    return perfect_.eventGradient(index, state, value, byU, byLambda);
+  }
   std::vector<int> eventsAt(const State& state) override { return perfect_.eventsAt(state); }
   bool remembers() const override { return perfect_.remembers(); }
   std::vector<std::vector<double>> memoryOrders() override { return perfect_.memoryOrders(); }

@@ -92,6 +92,15 @@ class Problem {
   /// eventCount() on are those of breaks (pieces()).
   virtual State afterEvent(const std::vector<int>& /*indices*/, const State& state) { return state; }
 
+  /// Where an event lets something begin or end that has a size there already (a zone of contact counts from
+  /// a depth on), the state behind it is looked for where the event function still vanishes, not at the same
+  /// load: its value, derivatives by the unknowns (overwritten) and by lambda at the state, up to one factor.
+  /// False where the state solves the changed Problem as it is.
+  virtual bool eventGradient(int /*index*/, const State& /*state*/, double& /*value*/, Vector& /*byU*/,
+                             double& /*byLambda*/) {
+    return false;
+  }
+
   /// Where the Problem is analytic piece by piece only; null: everywhere between its events. The object is
   /// the Problem's own.
   virtual Pieces* pieces() { return nullptr; }

@@ -5,6 +5,7 @@
 
 #include "atrapos/fem/PointLaw.hpp"
 #include "atrapos/fem/PointSet.hpp"
+#include "atrapos/fem/ZoneTerm.hpp"
 
 /// Bodies whose displacements are those of a plane (docs/theory/solid.md, "Plane bodies").
 namespace atrapos::solid {
@@ -36,6 +37,10 @@ fem::PointSet planeValuePoints(const fem::Mesh& mesh, const fem::Block& block, c
 /// without length.
 std::vector<fem::PointSet> planeEdgePoints(const fem::Mesh& mesh, const fem::SideSet& set,
                                            const PlaneSection& section, int degree);
+
+/// The same edges as lines; `shown`: the points of that cubature.
+std::vector<fem::LineSet> planeEdgeLines(const fem::Mesh& mesh, const fem::SideSet& set,
+                                         const PlaneSection& section, int degree);
 
 /// A material of solids (H to P, 9 each) at planePoints.
 std::unique_ptr<fem::PointLaw> planeLaw(std::unique_ptr<fem::PointLaw> material, PlaneSection::Kind kind);

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "atrapos/fem/EventTerm.hpp"
+#include "atrapos/fem/PointLaw.hpp"
+
+namespace atrapos::fem {
+
+/// Lines of a plane body, the edges of its cells: x(xi) = sum over nodes of x_n N_n(xi), xi in [-1, 1].
+struct LineSet {
+  int degree = 1;                   ///< 1 or 2: of the shape functions
+  std::vector<int> nodes;           ///< [line][degree + 1]: both ends, then the middle
+  std::vector<double> coordinates;  ///< [line][degree + 1][2] in the undeformed body
+  /// What lengths are multiplied by: depth + depthPerX X.
+  double depth = 1, depthPerX = 0;
+  std::vector<double> shown;    ///< [point] xi where gaps and pressures are shown, ascending
+  std::vector<double> weights;  ///< [line][point] of these points: area
+
+  int nodesPerLine() const { return degree + 1; }
+  int numLines() const { return static_cast<int>(nodes.size()) / nodesPerLine(); }
+};
+
+/// A condition of zoneTerm as messages and lists of events show it.
+struct ZoneCondition {
+  int node = 0;        ///< the end of lines, or the middle of the line
+  bool opens = false;  ///< it is a maximum of the gap: active where it is out of contact
+};
+/// In the order of the conditions.
+std::vector<ZoneCondition> zoneConditions(const LineSet& lines);
+
+/// What acts on lines: laws that stand behind others (`stage`).
+struct ZoneLaws {
+  /// x, y, 0 (and the load factor) -> h, n (3): a gap and its gradient.
+  std::unique_ptr<PointLaw> projection;
+  /// h -> p: positive for h < 0 and zero at h = 0, analytic.
+  std::unique_ptr<PointLaw> pressure;
+};
+
+/// How zones begin and end.
+struct ZoneOptions {
+  /// Ends of lines change sides at events of the path alone; false: wherever the state says so (paths without
+  /// events).
+  bool events = true;
+};
+
+/// Pressure p(h) on the zones of lines where h < 0, integrated between their limits, which move with the
+/// state (docs/theory/moving_edges.md): virtual work of -p n over each zone. Conditions: for each end of a
+/// line whether it is in contact, then for each line three extrema of the gap inside it. Throws
+/// std::logic_error for laws of other inputs and outputs.
+std::unique_ptr<EventTerm> zoneTerm(ZoneLaws laws, const LineSet& lines, ZoneOptions options = {});
+
+}  // namespace atrapos::fem

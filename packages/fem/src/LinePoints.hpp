@@ -1,0 +1,92 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "LineStages.hpp"
+#include "atrapos/fem/ZoneTerm.hpp"
+
+namespace atrapos::fem {
+
+/// The laws of lines of one degree, put together when the program runs.
+struct LineLaws {
+  LineLaws(int degree, ZoneLaws laws);
+
+  int degree;
+  std::unique_ptr<PointLaw> curve, slope, cubature, force, projection, pressure;
+
+  int coefficients() const { return 2 * (degree + 1); }  ///< of a line, [k][component]
+  int placeInputs() const { return projection->shape().inputs; }
+  bool moves() const { return placeInputs() == 4; }
+};
+
+/// What keeps a point of a line at its place.
+enum class Hold {
+  place,    ///< xi stays
+  root,     ///< h = 0
+  extremum  ///< dh/dxi = 0
+};
+
+/// Gap and derivatives at points of lines. All arrays are [point][...][lane], c is [coefficient][lane].
+struct LineProbe {
+  std::vector<double> gap, slope, bend;  ///< h, dh/dxi, d2h/dxi2 along the line
+  std::vector<double> gradient;          ///< [4] dh/dx, dh/dlambda at the point
+  std::vector<double> normal;            ///< [2]
+  std::vector<double> turn;              ///< [2][3] dn_i/d(x, y, lambda)
+  std::vector<double> along;             ///< [2] dx/dxi
+};
+LineProbe probe(const LineLaws& laws, int numPoints, const double* xi, const double* c, double lambda);
+
+/// Series of points of lines whose places are local unknowns xi(a): roots of the gap, or of its slope. To
+/// order k, with what r(xi, c) = 0 leaves at xi_k = 0,
+///     xi_k = -(r_k + dr/dc c_k)/(dr/dxi),
+/// the second part when c_k comes.
+class LinePoints {
+ public:
+  LinePoints(const LineLaws& laws, int perLine) : laws_(laws), P_(perLine) {}
+
+  void reserve(int batches, int maxOrder);
+  std::size_t bytes(int batches, int maxOrder) const;
+
+  /// Order 0 at xi, [point][lane], with the gaps.
+  void start(int b, const double* xi, const Hold* hold, const double* c, double lambda, double* gap,
+             PointFailure& failure);
+
+  struct Orders {
+    std::vector<double> last;     ///< xi_{k-1}: what it gains from the coefficients of that order
+    std::vector<double> current;  ///< xi_k with c_k = 0
+    std::vector<double> gap;      ///< h_k with c_k = 0; of roots also with xi_k = 0
+  };
+  /// Makes order k - 1 that of the coefficients (last, lastLambda), then order k.
+  void advance(int b, const SeriesOrder& order, const double* last, double lastLambda, Orders& out);
+
+  /// What (c, lambda) of the order under way adds to h_k.
+  double gapBy(int b, int point, int lane, const double* c, double lambda) const;
+  /// And to xi_k.
+  double placeBy(int b, int point, int lane, const double* c, double lambda) const;
+  /// xi_k with c_k = 0, of the order swept last; of order 0 the place.
+  double place(int b, int point, int lane) const { return at(b, point, lane).pending; }
+
+ private:
+  struct Point {
+    double xi = 0, pending = 0;     ///< place of order 0; xi_k with c_k = 0
+    double byGap = 0, bySlope = 0;  ///< -1/(dr/dxi) of r = h or dh/dxi
+    double gradient[2] = {0, 0}, gradientLambda = 0;
+    double normal[2] = {0, 0}, slopeBy[2] = {0, 0}, slopeLambda = 0;  ///< d(dh/dxi) by dx/dxi, x, lambda
+  };
+  const Point& at(int b, int p, int lane) const {
+    return points_[(static_cast<std::size_t>(b) * P_ + p) * kLanes + lane];
+  }
+  /// sum_k c_k xi^k and its derivative, at order 0 of xi.
+  void motion(const Point& point, const double* c, int lane, double* x, double* along) const;
+  double* memory(int b) { return &history_[static_cast<std::size_t>(b) * perBatch_]; }
+
+  const LineLaws& laws_;
+  int P_;
+  std::size_t curveDoubles_ = 0, projectionDoubles_ = 0, perBatch_ = 0;
+  SeriesOrder start_;
+  std::vector<double> history_;
+  std::vector<Point> points_;
+};
+
+}  // namespace atrapos::fem

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <vector>
+
+#include "LinePoints.hpp"
+
+namespace atrapos::fem {
+
+/// Zones of up to kLanes lines, side by side; lanes beyond the last zone repeat the first.
+struct ZoneBatch {
+  int lanes = 0;
+  std::vector<double> limits;     ///< [2][lane] xi
+  std::vector<Hold> hold;         ///< [2][lane] of the limits
+  std::vector<double> c;          ///< [coefficient][lane] of the places
+  std::vector<double> reference;  ///< [coefficient][lane] of the undeformed lines
+};
+
+/// What the pressure on zones does on the lines' coefficients: F_k = integral from xi_1 to xi_2 of -p n xi^k
+/// dA, by Gauss points that lie between the limits and move with them.
+class ZoneForces {
+ public:
+  /// Points of a zone: integrands that are analytic within a distance of several zones are then exact to
+  /// rounding, and the tangent needs no part of the limits.
+  static constexpr int kPoints = 10;
+
+  ZoneForces(const LineLaws& laws, double depth, double depthPerX);
+
+  /// forces [coefficient][lane].
+  void value(const ZoneBatch& zones, double lambda, double* forces) const;
+  /// And their derivatives, [coefficient][coefficient, lambda][lane]. The limits have no part in them: p
+  /// vanishes at those that move.
+  void tangent(const ZoneBatch& zones, double lambda, double* forces, double* jacobian) const;
+  /// shares[share][lane] = integral of p f_j dA, f_j the hat functions of these places xi on the line: sums
+  /// are the integral of p.
+  void pressures(const ZoneBatch& zones, double lambda, const std::vector<double>& places,
+                 double* shares) const;
+
+  void reserve(int batches, int maxOrder);
+  std::size_t bytes(int batches, int maxOrder) const;
+  void start(int b, const ZoneBatch& zones, double lambda, PointFailure& failure);
+  /// Makes order k - 1 that of the coefficients (last, lastLambda), then forces of order k with c_k = 0.
+  void advance(int b, const SeriesOrder& order, const double* last, double lastLambda, double* forces);
+
+  const LinePoints& limits() const { return limits_; }
+
+ private:
+  /// What is at the Gauss points, [point][...][lane].
+  struct Points {
+    std::vector<double> places, weights, hn, pressure;  ///< xi; dA; h, n; p
+  };
+  Points pointsOf(const ZoneBatch& zones, double lambda) const;
+  std::vector<double> inputs(const double* limits, const double* c) const;
+  std::vector<double> dataOf(const ZoneBatch& zones) const;
+
+  const LineLaws& laws_;
+  double depth_, depthPerX_;
+  std::vector<double> abscissae_, weights_;  ///< of Gauss' rule on [0, 1]
+  LinePoints limits_;
+  SeriesOrder start_;
+  std::size_t cubatureDoubles_ = 0, projectionDoubles_ = 0, pressureDoubles_ = 0, perBatch_ = 0;
+  std::vector<double> history_, data_;
+};
+
+}  // namespace atrapos::fem

@@ -1,0 +1,652 @@
+#include "atrapos/fem/ZoneTerm.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <optional>
+#include <set>
+#include <stdexcept>
+#include <utility>
+
+#include "ZoneForces.hpp"
+#include "ZoneSearch.hpp"
+#include "atrapos/fem/DofMap.hpp"
+#include "atrapos/fem/Rows.hpp"
+#include "atrapos/taylor/Domain.hpp"
+
+namespace atrapos::fem {
+namespace {
+
+constexpr int L = kLanes;
+
+constexpr int kSlots = 3;  ///< extrema of a line that events know: two minima, a maximum
+
+class ZoneTerm final : public EventTerm {
+  static constexpr int kPlaces = 2 + kSlots;
+  static constexpr int kMostCoefficients = 6;
+
+ public:
+  ZoneTerm(ZoneLaws laws, const LineSet& lines, ZoneOptions options)
+      : laws_(lines.degree, std::move(laws)),
+        lines_(lines),
+        options_(options),
+        forces_(laws_, lines.depth, lines.depthPerX),
+        eventPoints_(laws_, kPlaces) {
+    const int N = lines_.nodesPerLine(), E = lines_.numLines();
+    std::map<int, int> vertices;
+    for (int e = 0; e < E; ++e)
+      for (int end = 0; end < 2; ++end) vertices.try_emplace(lines_.nodes[e * N + end], 0);
+    for (auto& [node, number] : vertices) {
+      number = static_cast<int>(firstLine_.size());
+      firstLine_.push_back(E);
+    }
+    for (int e = 0; e < E; ++e)
+      for (int end = 0; end < 2; ++end) {
+        const int v = vertices.at(lines_.nodes[e * N + end]);
+        vertexOf_.push_back(v);
+        firstLine_[v] = std::min(firstLine_[v], e);
+      }
+    numVertices_ = static_cast<int>(vertices.size());
+    numLines_ = E;
+    lineNumbers_.resize(E);
+    std::iota(lineNumbers_.begin(), lineNumbers_.end(), 0);
+    for (const double x : lines_.coordinates) extent_ = std::max(extent_, std::abs(x));
+    makeArrays();
+  }
+
+  int numEntities() const override { return lines_.numLines(); }
+  int nodesPerEntity() const override { return lines_.nodesPerLine(); }
+  const std::vector<int>& nodes() const override { return lines_.nodes; }
+  bool symmetric() const override { return true; }
+  bool seesLoadFactor() const override { return laws_.moves(); }
+  std::size_t historyBytes(int maxOrder) const override {
+    return forces_.bytes(1, maxOrder) + eventPoints_.bytes(batches(), maxOrder);
+  }
+
+  int eventCount() const override { return options_.events ? numVertices_ + kSlots * numLines_ : 0; }
+  const std::vector<int>& eventNumbers() const override { return numbers_; }
+  std::string eventText(int number) const override {
+    if (number < numVertices_)
+      return "end " + std::to_string(number + 1) + " (of " + std::to_string(numVertices_) +
+             ") of contact edges is";
+    return "contact edge " + std::to_string((number - numVertices_) / kSlots + 1) + " (of " +
+           std::to_string(numLines_) + ") is";
+  }
+  bool owesPivots() const override { return false; }
+
+  void keep(const TermPart& part) override {
+    const std::size_t N = lines_.nodesPerLine();
+    lines_.coordinates = rowsOf(lines_.coordinates, part.entities, 2 * N);
+    lines_.weights = rowsOf(lines_.weights, part.entities, lines_.shown.size());
+    lines_.nodes = part.nodes;
+    vertexOf_ = rowsOf(vertexOf_, part.entities, 2);
+    lineNumbers_ = part.entities;
+    makeArrays();
+  }
+
+  void connect(const DofMap& dofs, const std::vector<int>& positions) override {
+    dofs_.clear();
+    for (const int node : lines_.nodes) {
+      if (dofs.firstFieldSize(node) < 2)
+        throw std::logic_error("zoneTerm: node " + std::to_string(node + 1) +
+                               " has no displacement in a plane");
+      dofs_.push_back(dofs.firstDof(node));
+      balance_ = dofs.balanceOf(dofs.addressOf(dofs_.back()).field);
+    }
+    positions_ = positions;
+  }
+
+  OwnForces addResidual(const ConstDofView& u, double lambda, const DofView& f) const override {
+    double squares = 0;
+    std::vector<double> forces(laws_.coefficients() * L);
+    forEachBatch(u, lambda, [&](const ZoneBatch& batch, const int* lines) {
+      forces_.value(batch, lambda, forces.data());
+      for (int lane = 0; lane < batch.lanes; ++lane) squares += scatter(lines[lane], &forces[lane], f);
+    });
+    OwnForces own(balance_ + 1, 0.0);
+    own[balance_] = squares;
+    return own;
+  }
+
+  void addTangent(const ConstDofView& u, double lambda, const TangentSink& sink) const override {
+    const int C = laws_.coefficients(), N = lines_.nodesPerLine();
+    std::vector<double> forces(C * L), jacobian(C * (C + 1) * L);
+    forEachBatch(u, lambda, [&](const ZoneBatch& batch, const int* lines) {
+      forces_.tangent(batch, lambda, forces.data(), jacobian.data());
+      for (int lane = 0; lane < batch.lanes; ++lane) {
+        const int e = lines[lane];
+        const auto entry = [&](int row, int column) { return jacobian[(row * (C + 1) + column) * L + lane]; };
+        for (int a = 0; a < N; ++a)
+          for (int i = 0; i < 2; ++i) {
+            const int dof = dofs_[e * N + a] + i;
+            for (int k = 0; k < N; ++k)
+              if (laws_.moves()) sink.loadDirection(dof) -= nodal(a, k) * entry(2 * k + i, C);
+            for (int b = 0; b < N; ++b)
+              for (int j = 0; j < 2; ++j) {
+                double sum = 0;
+                for (int k = 0; k < N; ++k)
+                  for (int l = 0; l < N; ++l) sum += nodal(a, k) * entry(2 * k + i, 2 * l + j) * nodal(b, l);
+                sink.values(sink.rowStart(dof) + positions_[(e * N + a) * N + b] + j) += sum;
+              }
+          }
+      }
+    });
+  }
+
+  void beginSeries(const ConstDofView& u, double lambda, int maxOrder) override {
+    maxOrder_ = maxOrder;
+    seriesLines_.clear();
+    seriesWidths_.clear();
+    std::vector<ZoneBatch> zones;
+    forEachBatch(u, lambda, [&](const ZoneBatch& batch, const int* lines) {
+      zones.push_back(batch);
+      seriesLines_.emplace_back(lines, lines + batch.lanes);
+      for (int lane = 0; lane < L; ++lane) {
+        const bool free = batch.hold[lane] == Hold::root && batch.hold[L + lane] == Hold::root;
+        seriesWidths_.push_back(free ? batch.limits[L + lane] - batch.limits[lane] : 0);
+      }
+    });
+    forces_.reserve(static_cast<int>(zones.size()), maxOrder);
+    PointFailure failure;
+    for (std::size_t b = 0; b < zones.size(); ++b) {
+      forces_.start(static_cast<int>(b), zones[b], lambda, failure);
+      if (failure.lane >= 0) fail(failure, seriesLines_[b][std::min<int>(failure.lane, zones[b].lanes - 1)]);
+    }
+    if (options_.events) beginEvents(u, lambda, maxOrder);
+  }
+
+  void addOrder(int k, const ConstDofView& last, double lastLambda, const DofView& f) override {
+    const int C = laws_.coefficients();
+    const SeriesOrder order = seriesOrder(k, maxOrder_);
+    std::vector<double> c(C * L), forces(C * L);
+    for (std::size_t b = 0; b < seriesLines_.size(); ++b) {
+      const auto& lines = seriesLines_[b];
+      if (k > 1) gather(lines.data(), static_cast<int>(lines.size()), last, 0, c.data());
+      forces_.advance(static_cast<int>(b), order, c.data(), lastLambda, forces.data());
+      for (std::size_t lane = 0; lane < lines.size(); ++lane) scatter(lines[lane], &forces[lane], f);
+    }
+    if (!options_.events) return;
+    LinePoints::Orders points;
+    for (int b = 0; b < batches(); ++b) {
+      const auto lines = linesOf(b);
+      if (k > 1) gather(lines.data(), static_cast<int>(lines.size()), last, 0, c.data());
+      eventPoints_.advance(b, order, c.data(), lastLambda, points);
+      for (std::size_t lane = 0; lane < lines.size(); ++lane)
+        for (int p = 0; p < kPlaces; ++p) eventGap_[lines[lane] * kPlaces + p] = points.gap[p * L + lane];
+    }
+  }
+
+  /// Of each line the width of zones between two roots, in units of what it was at the start of the series.
+  int internalCount() const override { return numEntities(); }
+  void internalOrder(int, const ConstDofView& v, double mu, double* y) const override {
+    std::fill_n(y, numEntities(), 0.0);
+    std::vector<double> c(laws_.coefficients() * L);
+    for (std::size_t b = 0; b < seriesLines_.size(); ++b) {
+      const auto& lines = seriesLines_[b];
+      gather(lines.data(), static_cast<int>(lines.size()), v, 0, c.data());
+      for (std::size_t lane = 0; lane < lines.size(); ++lane) {
+        const double width = seriesWidths_[b * L + lane];
+        if (width == 0) continue;
+        const auto limit = [&](int r) {
+          const int at = static_cast<int>(lane), batch = static_cast<int>(b);
+          return forces_.limits().place(batch, r, at) + forces_.limits().placeBy(batch, r, at, c.data(), mu);
+        };
+        y[lines[lane]] += (limit(1) - limit(0)) / width;
+      }
+    }
+  }
+
+  std::vector<double> eventOrder(int k, const ConstDofView& Uk, double lambdaK) const override {
+    std::vector<double> all(numbers_.size(), 0.0), c(laws_.coefficients() * L);
+    for (int b = 0; b < batches(); ++b) {
+      const auto lines = linesOf(b);
+      if (k > 0) gather(lines.data(), static_cast<int>(lines.size()), Uk, 0, c.data());
+      for (std::size_t lane = 0; lane < lines.size(); ++lane)
+        for (int p = 0; p < kPlaces; ++p) {
+          const int e = lines[lane], own = conditionOf_[e * kPlaces + p];
+          if (!tells(e, p)) continue;
+          const EventFunction& function = functions_[e * kPlaces + p];
+          if (function.sign == 0) {
+            all[own] = k == 0 ? 1 : 0;
+            continue;
+          }
+          double h = (k == 0 ? eventStart_ : eventGap_)[e * kPlaces + p];
+          if (k > 0) h += eventPoints_.gapBy(b, p, static_cast<int>(lane), c.data(), lambdaK);
+          all[own] = function.sign * (k == 0 ? h - function.level : h);
+        }
+    }
+    return all;
+  }
+
+  /// Of minima: a zone counts from a depth on, where it has a force.
+  Gradient eventGradient(int number, const ConstDofView& u, double lambda,
+                         const DofView& byU) const override {
+    const auto own = std::lower_bound(numbers_.begin(), numbers_.end(), number) - numbers_.begin();
+    const auto at =
+        std::find(conditionOf_.begin(), conditionOf_.end(), static_cast<int>(own)) - conditionOf_.begin();
+    const int e = static_cast<int>(at) / kPlaces, slot = static_cast<int>(at) % kPlaces - 2;
+    if (own == static_cast<long>(numbers_.size()) || numbers_[own] != number || slot < 0) return {};
+    std::vector<double> c(laws_.coefficients() * L);
+    gather(&e, 1, u, 1, c.data());
+    const GapShape shape = gapShapes(laws_, c.data(), lambda)[0];
+    const Extremum* x = slotsOf(shape).of[slot];
+    if (x == nullptr || !x->least || std::abs(x->xi) > 1) return {};
+    const std::vector<double> xi(L, x->xi);
+    const LineProbe there = probe(laws_, 1, xi.data(), c.data(), lambda);
+    const int N = lines_.nodesPerLine();
+    for (int n = 0; n < N; ++n) {
+      double value = 0, power = 1;
+      for (int k = 0; k < N; ++k, power *= x->xi) value += nodal(n, k) * power;
+      for (int i = 0; i < 2; ++i) byU(dofs_[e * N + n] + i) += value * there.gradient[i * L];
+    }
+    return {1, x->gap + least(e), there.gradient[3 * L]};
+  }
+
+  std::vector<double> covered() const override {
+    std::vector<double> all(numbers_.size(), 0.0);
+    for (int e = 0; options_.events && e < numEntities(); ++e)
+      for (int p = 0; p < kPlaces; ++p)
+        if (tells(e, p)) all[conditionOf_[e * kPlaces + p]] = 1;
+    return all;
+  }
+
+  /// Ends that touch; what is deeper is in contact already.
+  MeanGaps gapsAt(const ConstDofView& u, double lambda) const override {
+    MeanGaps gaps{std::vector<double>(numbers_.size(), 0.0), std::vector<double>(numbers_.size(), 0.0)};
+    if (!options_.events) return gaps;
+    const double small = touching(u);
+    forEachShape(u, lambda, [&](int e, const double*, const GapShape& shape) {
+      for (int end = 0; end < 2; ++end) {
+        const int own = conditionOf_[e * kPlaces + end];
+        if (!tells(e, end) || active_[own] != 0 || !(std::abs(shape.ends[end]) <= small)) continue;
+        gaps.sum[own] = shape.ends[end];
+        gaps.covered[own] = 1;
+      }
+    });
+    return gaps;
+  }
+  double touching(const ConstDofView& u) const override {
+    double size = extent_;
+    for (const int dof : dofs_)
+      for (int i = 0; i < 2; ++i) size = std::max(size, std::abs(u(dof + i)));
+    return 1e-11 * size;
+  }
+  std::vector<double> moved(const ConstDofView&, double) const override {
+    return std::vector<double>(numbers_.size(), 0.0);
+  }
+
+  void setConditions(const std::vector<int>& conditions) override {
+    if (conditions.size() != active_.size())
+      throw std::logic_error("ZoneTerm: not the conditions of this part");
+    active_ = conditions;
+  }
+
+  /// What is clear from the state, and what was there where it is not.
+  std::vector<double> renewed(const ConstDofView& u, double lambda) const override {
+    std::vector<double> all(numbers_.size(), 0.0);
+    if (!options_.events) return all;
+    forEachShape(u, lambda, [&](int e, const double*, const GapShape& shape) {
+      const Slots slots = slotsOf(shape);
+      for (int p = 0; p < kPlaces; ++p) {
+        if (!tells(e, p)) continue;
+        const int own = conditionOf_[e * kPlaces + p];
+        bool on = active_[own] != 0;
+        if (p < 2) {
+          on = isIn(e, p, shape.ends[p]);
+        } else if (const Extremum* x = slots.of[p - 2]) {
+          const double depth = x->least ? -x->gap : x->gap;
+          if (depth >= 4 * least(e)) on = true;
+          if (depth < -border(e)) on = false;
+        } else {
+          on = false;
+        }
+        all[own] = on;
+      }
+    });
+    return all;
+  }
+
+  std::vector<double> leastStiffness(const std::vector<double>&) const override {
+    return std::vector<double>(numbers_.size(), std::numeric_limits<double>::infinity());
+  }
+  void setStiffness(const std::vector<double>&, double) override {}
+
+  PointValues observe(const ConstDofView& u, double lambda) const override {
+    const std::size_t Q = lines_.shown.size(), E = numEntities();
+    PointValues result{{"contact_gap", "contact_pressure"}, std::vector<double>(2 * E * Q, 0.0)};
+    std::vector<double> xi, c(laws_.coefficients() * L);
+    for (const double place : lines_.shown) xi.insert(xi.end(), L, place);
+    for (int b = 0; b < batches(); ++b) {
+      const auto lines = linesOf(b);
+      gather(lines.data(), static_cast<int>(lines.size()), u, 1, c.data());
+      const LineProbe at = probe(laws_, static_cast<int>(Q), xi.data(), c.data(), lambda);
+      for (std::size_t lane = 0; lane < lines.size(); ++lane)
+        for (std::size_t q = 0; q < Q; ++q) result.values[2 * (lines[lane] * Q + q)] = at.gap[q * L + lane];
+    }
+    std::vector<double> shares(Q * L);
+    forEachBatch(u, lambda, [&](const ZoneBatch& batch, const int* lines) {
+      forces_.pressures(batch, lambda, lines_.shown, shares.data());
+      for (int lane = 0; lane < batch.lanes; ++lane)
+        for (std::size_t q = 0; q < Q; ++q) {
+          const std::size_t point = lines[lane] * Q + q;
+          result.values[2 * point + 1] += shares[q * L + lane] / lines_.weights[point];
+        }
+    });
+    return result;
+  }
+
+ private:
+  struct Zone {
+    int line;
+    double limits[2];
+    Hold hold[2];
+  };
+  /// sign (h - level) >= 0; sign 0: nothing to tell.
+  struct EventFunction {
+    double sign = 0, level = 0;
+  };
+  /// The extrema that events know: the two deepest minima, the highest maximum.
+  struct Slots {
+    const Extremum* of[kSlots] = {nullptr, nullptr, nullptr};
+  };
+  static Slots slotsOf(const GapShape& shape) {
+    Slots slots;
+    for (const Extremum& x : shape.extrema) {
+      if (!x.least) {
+        if (!slots.of[2] || x.gap > slots.of[2]->gap) slots.of[2] = &x;
+      } else if (!slots.of[0] || x.gap < slots.of[0]->gap) {
+        slots.of[1] = std::exchange(slots.of[0], &x);
+      } else if (!slots.of[1] || x.gap < slots.of[1]->gap) {
+        slots.of[1] = &x;
+      }
+    }
+    return slots;
+  }
+
+  /// The depth from which on a zone counts that does not reach an end of its line.
+  double least(int e) const { return 1e-7 * lengths_[e]; }
+  /// Next to zero the condition says on which side an end is: gaps there are as good as event functions are.
+  /// The zone that lies wrong has a depth below it.
+  double border(int e) const { return 1e-4 * lengths_[e]; }
+  bool isIn(int e, int end, double gap) const {
+    if (options_.events && std::abs(gap) <= border(e)) return active_[conditionOf_[e * kPlaces + end]] != 0;
+    return gap < 0;
+  }
+  /// Whether a minimum is in contact, or a maximum is out of it.
+  bool counts(int e, const Extremum& x, const Slots& slots) const {
+    const double depth = x.least ? -x.gap : x.gap;
+    if (depth >= 4 * least(e)) return true;
+    if (depth < 0.5 * least(e)) return false;
+    for (int s = 0; options_.events && s < kSlots; ++s)
+      if (slots.of[s] == &x) return active_[conditionOf_[e * kPlaces + 2 + s]] != 0;
+    return depth >= least(e);
+  }
+
+  /// The zones of a line. Between neighbours of which one is in contact and one is not lies one limit.
+  void addZones(int e, const double* c, double lambda, const GapShape& shape,
+                std::vector<Zone>& zones) const {
+    struct Stop {
+      double xi, gap;
+      bool in, end;
+    };
+    const Slots slots = slotsOf(shape);
+    std::vector<Stop> stops{{-1, shape.ends[0], isIn(e, 0, shape.ends[0]), true}};
+    for (const Extremum& x : shape.extrema)
+      if (std::abs(x.xi) < 1 && counts(e, x, slots)) stops.push_back({x.xi, x.gap, x.least, false});
+    stops.push_back({1, shape.ends[1], isIn(e, 1, shape.ends[1]), true});
+    const auto limit = [&](const Stop& a, const Stop& b) -> std::optional<double> {
+      if ((a.gap < 0) != (b.gap < 0)) return rootBetween(laws_, c, lambda, a.xi, b.xi);
+      // An end that is on the other side by its condition: the limit lies there, or just beyond.
+      const Stop& end = !a.end ? b : !b.end ? a : std::abs(a.gap) < std::abs(b.gap) ? a : b;
+      return rootNear(laws_, c, lambda, end.xi, 0.5);
+    };
+    std::optional<Zone> open;
+    if (stops[0].in) open = Zone{e, {-1, 1}, {Hold::place, Hold::place}};
+    for (std::size_t i = 0; i + 1 < stops.size(); ++i) {
+      if (stops[i].in == stops[i + 1].in) continue;
+      const auto at = limit(stops[i], stops[i + 1]);
+      if (stops[i + 1].in) {
+        open.reset();
+        if (at) open = Zone{e, {*at, 1}, {Hold::root, Hold::place}};
+      } else if (open) {
+        if (at) {
+          open->limits[1] = *at;
+          open->hold[1] = Hold::root;
+          zones.push_back(*open);
+        }
+        open.reset();
+      }
+    }
+    if (open) zones.push_back(*open);
+  }
+
+  /// f(batch of zones, [lane] their lines), in the lines' order.
+  template <class F>
+  void forEachBatch(const ConstDofView& u, double lambda, const F& f) const {
+    std::vector<Zone> zones;
+    forEachShape(
+        u, lambda,
+        [&](int e, const double* c, const GapShape& shape) { addZones(e, c, lambda, shape, zones); }, true);
+    const int C = laws_.coefficients();
+    for (std::size_t first = 0; first < zones.size(); first += L) {
+      ZoneBatch batch;
+      batch.lanes = static_cast<int>(std::min<std::size_t>(L, zones.size() - first));
+      batch.limits.resize(2 * L);
+      batch.hold.resize(2 * L);
+      batch.c.resize(C * L);
+      batch.reference.resize(C * L);
+      int lines[L];
+      for (int lane = 0; lane < L; ++lane) {
+        const Zone& zone = zones[first + (lane < batch.lanes ? lane : 0)];
+        lines[lane] = zone.line;
+        for (int r = 0; r < 2; ++r) {
+          batch.limits[r * L + lane] = zone.limits[r];
+          batch.hold[r * L + lane] = zone.hold[r];
+        }
+        for (int m = 0; m < C; ++m) batch.reference[m * L + lane] = reference_[zone.line * C + m];
+      }
+      gather(lines, L, u, 1, batch.c.data());
+      f(batch, lines);
+    }
+  }
+
+  /// f(line, its coefficients, shape of its gap); where only zones are asked for, lines are left out that
+  /// cannot have any.
+  template <class F>
+  void forEachShape(const ConstDofView& u, double lambda, const F& f, bool onlyNear = false) const {
+    const int C = laws_.coefficients();
+    std::vector<double> c(C * L);
+    for (int b = 0; b < batches(); ++b) {
+      const auto lines = linesOf(b);
+      gather(lines.data(), static_cast<int>(lines.size()), u, 1, c.data());
+      if (onlyNear && !anyNear(c.data(), lambda)) continue;
+      const auto shapes = gapShapes(laws_, c.data(), lambda);
+      for (std::size_t lane = 0; lane < lines.size(); ++lane) {
+        double own[kMostCoefficients];
+        for (int m = 0; m < C; ++m) own[m] = c[m * L + lane];
+        f(lines[lane], own, shapes[lane]);
+      }
+    }
+  }
+
+  /// Whether a line of the batch may come to the tool: gaps change by no more than places do.
+  bool anyNear(const double* c, double lambda) const {
+    const std::vector<double> middle(L, 0.0);
+    const LineProbe at = probe(laws_, 1, middle.data(), c, lambda);
+    for (int lane = 0; lane < L; ++lane) {
+      double reach = 0;
+      for (int k = 1; k <= laws_.degree; ++k)
+        reach += std::hypot(c[2 * k * L + lane], c[(2 * k + 1) * L + lane]);
+      if (!(at.gap[lane] > reach)) return true;
+    }
+    return false;
+  }
+
+  void beginEvents(const ConstDofView& u, double lambda, int maxOrder) {
+    const int C = laws_.coefficients();
+    eventPoints_.reserve(batches(), maxOrder);
+    functions_.assign(static_cast<std::size_t>(numEntities()) * kPlaces, {});
+    std::vector<double> xi(kPlaces * L), c(C * L), gaps(kPlaces * L);
+    std::vector<Hold> hold(kPlaces * L);
+    PointFailure failure;
+    for (int b = 0; b < batches(); ++b) {
+      const auto lines = linesOf(b);
+      gather(lines.data(), static_cast<int>(lines.size()), u, 1, c.data());
+      const auto shapes = gapShapes(laws_, c.data(), lambda);
+      for (int lane = 0; lane < L; ++lane) {
+        const bool real = lane < static_cast<int>(lines.size());
+        const int e = lines[real ? lane : 0];
+        const GapShape& shape = shapes[real ? lane : 0];
+        const Slots slots = slotsOf(shape);
+        for (int p = 0; p < kPlaces; ++p) {
+          EventFunction function;
+          const bool on = active_[conditionOf_[e * kPlaces + p]] != 0;
+          xi[p * L + lane] = p == 0 ? -1 : 1;
+          hold[p * L + lane] = Hold::place;
+          if (p < 2) {
+            function = {isIn(e, p, shape.ends[p]) ? -1.0 : 1.0, 0};
+          } else if (const Extremum* x = slots.of[p - 2]) {
+            xi[p * L + lane] = x->xi;
+            hold[p * L + lane] = Hold::extremum;
+            const double depth = least(e);
+            function =
+                x->least ? EventFunction{on ? -1.0 : 1.0, -depth} : EventFunction{on ? 1.0 : -1.0, depth};
+          }
+          if (real) functions_[e * kPlaces + p] = function;
+        }
+      }
+      eventPoints_.start(b, xi.data(), hold.data(), c.data(), lambda, gaps.data(), failure);
+      if (failure.lane >= 0) fail(failure, lines[std::min<std::size_t>(failure.lane, lines.size() - 1)]);
+      for (std::size_t lane = 0; lane < lines.size(); ++lane)
+        for (int p = 0; p < kPlaces; ++p) eventStart_[lines[lane] * kPlaces + p] = gaps[p * L + lane];
+    }
+  }
+
+  [[noreturn]] void fail(const PointFailure& failure, int line) const {
+    throw taylor::DomainError(failure.operation, failure.value,
+                              "contact edge " + std::to_string(lineNumbers_[line] + 1));
+  }
+
+  /// c [coefficient][lane] of displacements, with the undeformed places times `places`; lanes beyond the last
+  /// line repeat the first.
+  void gather(const int* lines, int count, const ConstDofView& u, double places, double* c) const {
+    const int C = laws_.coefficients(), N = lines_.nodesPerLine();
+    for (int lane = 0; lane < L; ++lane) {
+      const int e = lines[lane < count ? lane : 0];
+      for (int k = 0; k < N; ++k)
+        for (int i = 0; i < 2; ++i) {
+          double sum = places == 0 ? 0 : places * reference_[e * C + 2 * k + i];
+          for (int n = 0; n < N; ++n) sum += nodal(n, k) * u(dofs_[e * N + n] + i);
+          c[(2 * k + i) * L + lane] = sum;
+        }
+    }
+  }
+
+  /// Adds what forces on coefficients, [coefficient] kLanes apart, are at the nodes; returns their squares.
+  double scatter(int e, const double* forces, const DofView& f) const {
+    const int N = lines_.nodesPerLine();
+    double squares = 0;
+    for (int n = 0; n < N; ++n)
+      for (int i = 0; i < 2; ++i) {
+        double sum = 0;
+        for (int k = 0; k < N; ++k) sum += nodal(n, k) * forces[(2 * k + i) * L];
+        f(dofs_[e * N + n] + i) += sum;
+        squares += sum * sum;
+      }
+    return squares;
+  }
+
+  /// Coefficient of xi^k in the shape function of a node: ends at -1 and 1, then the middle.
+  double nodal(int node, int k) const {
+    static constexpr double linear[2][2] = {{0.5, -0.5}, {0.5, 0.5}};
+    static constexpr double quadratic[3][3] = {{0, -0.5, 0.5}, {0, 0.5, 0.5}, {1, 0, -1}};
+    return laws_.degree == 1 ? linear[node][k] : quadratic[node][k];
+  }
+
+  int batches() const { return (numEntities() + L - 1) / L; }
+  std::vector<int> linesOf(int b) const {
+    std::vector<int> lines;
+    for (int e = b * L; e < std::min((b + 1) * L, numEntities()); ++e) lines.push_back(e);
+    return lines;
+  }
+  /// Whether this part tells what the end or extremum p of its line e is.
+  bool tells(int e, int p) const { return p >= 2 || firstLine_[vertexOf_[2 * e + p]] == lineNumbers_[e]; }
+
+  /// What belongs to lines, and their conditions.
+  void makeArrays() {
+    const int N = lines_.nodesPerLine(), C = laws_.coefficients();
+    reference_.clear();
+    lengths_.clear();
+    for (int e = 0; e < numEntities(); ++e) {
+      const double* X = &lines_.coordinates[e * 2 * N];
+      for (int k = 0; k < N; ++k)
+        for (int i = 0; i < 2; ++i) {
+          double sum = 0;
+          for (int n = 0; n < N; ++n) sum += nodal(n, k) * X[2 * n + i];
+          reference_.push_back(sum);
+        }
+      lengths_.push_back(2 * std::hypot(reference_[e * C + 2], reference_[e * C + 3]));
+    }
+    std::vector<int> all;
+    for (int e = 0; options_.events && e < numEntities(); ++e)
+      for (int p = 0; p < kPlaces; ++p) all.push_back(numberOf(e, p));
+    numbers_ = all;
+    std::sort(numbers_.begin(), numbers_.end());
+    numbers_.erase(std::unique(numbers_.begin(), numbers_.end()), numbers_.end());
+    conditionOf_.clear();
+    for (const int number : all)
+      conditionOf_.push_back(
+          static_cast<int>(std::lower_bound(numbers_.begin(), numbers_.end(), number) - numbers_.begin()));
+    active_.assign(numbers_.size(), 0);
+    eventStart_.assign(static_cast<std::size_t>(numEntities()) * kPlaces, 0.0);
+    eventGap_ = eventStart_;
+  }
+  int numberOf(int e, int p) const {
+    return p < 2 ? vertexOf_[2 * e + p] : numVertices_ + kSlots * lineNumbers_[e] + p - 2;
+  }
+
+  LineLaws laws_;
+  LineSet lines_;
+  ZoneOptions options_;
+  ZoneForces forces_;
+  LinePoints eventPoints_;
+  int numVertices_ = 0, numLines_ = 0;  ///< of the whole term
+  std::vector<int> vertexOf_;           ///< [line][end]
+  std::vector<int> firstLine_;          ///< [vertex of the whole term]
+  std::vector<int> lineNumbers_;        ///< [line] in the whole term
+  std::vector<int> numbers_;            ///< [own condition]
+  std::vector<int> conditionOf_;        ///< [line][end or extremum] its own condition
+  std::vector<int> active_;             ///< [own condition]
+  std::vector<double> reference_;       ///< [line][coefficient]
+  std::vector<double> lengths_;         ///< [line]
+  std::vector<int> dofs_;               ///< [line][node]
+  int balance_ = 0;                     ///< of the forces (DofMap::balances)
+  std::vector<int> positions_;          ///< [line][node][node] in the tangent's rows
+  double extent_ = 0;                   ///< largest coordinate
+  int maxOrder_ = 0;
+  std::vector<std::vector<int>> seriesLines_;  ///< [batch of zones] their lines, of the series under way
+  std::vector<double> seriesWidths_;      ///< [batch of zones][lane] of those between two roots; 0 of others
+  std::vector<EventFunction> functions_;  ///< [line][end or extremum]
+  std::vector<double> eventStart_, eventGap_;  ///< the same: h of order 0 and of the order swept last
+};
+
+}  // namespace
+
+std::vector<ZoneCondition> zoneConditions(const LineSet& lines) {
+  const int N = lines.nodesPerLine();
+  std::set<int> ends;
+  for (int e = 0; e < lines.numLines(); ++e) ends.insert({lines.nodes[e * N], lines.nodes[e * N + 1]});
+  std::vector<ZoneCondition> all;
+  for (const int node : ends) all.push_back({node, false});
+  for (int e = 0; e < lines.numLines(); ++e)
+    for (int s = 0; s < kSlots; ++s) all.push_back({lines.nodes[e * N + N - 1], s == 2});
+  return all;
+}
+
+std::unique_ptr<EventTerm> zoneTerm(ZoneLaws laws, const LineSet& lines, ZoneOptions options) {
+  return std::make_unique<ZoneTerm>(std::move(laws), lines, options);
+}
+
+}  // namespace atrapos::fem
