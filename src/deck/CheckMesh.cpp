@@ -181,7 +181,7 @@ class MeshCheck {
 
   void contact(const Contact& contact) const {
     const std::string path = "contact/" + contact.name;
-    if (contact.points == Contact::Points::Quadrature) {
+    if (contact.points != Contact::Points::Nodes) {
       faces(path, contact.set, contact.at);
       return;
     }

@@ -304,8 +304,9 @@ struct Tool {
 /// Contact of a set with a tool: a law between the pressure R and the gap h with R = 0 at h = Delta.
 struct Contact {
   enum class Points {
-    Nodes,      ///< R, eta: force at each node; alpha: force per length
-    Quadrature  ///< R, eta: pressure; alpha: pressure per length
+    Nodes,       ///< R, eta: force at each node; alpha: force per length
+    Quadrature,  ///< R, eta: pressure; alpha: pressure per length
+    Zones  ///< the zones of edges where the gap is below zero, up to their limits; alpha as with quadrature
   };
   enum class Law {
     Hyperbola,    ///< R (R/alpha + h) = eta (Delta - h), eq. (15) of the paper
@@ -313,7 +314,9 @@ struct Contact {
     Power,        ///< (R + eta) ((h + R/alpha)/Delta)^m = eta
     Exponential,  ///< R = R_0 (exp(-h/l) - exp(-Delta/l))
     Penalty,      ///< alpha max(-h, 0), its corner smoothed over l
-    Hard          ///< h >= 0, R >= 0, h R = 0: the active set changes at events; at nodes, or over faces
+    Hard,         ///< h >= 0, R >= 0, h R = 0: the active set changes at events; at nodes, or over faces
+    Linear,       ///< alpha max(-h, 0), with zones
+    Overclosure   ///< alpha max(-h, 0)^m, with zones
   };
   /// What part of R, eta and alpha a node has.
   enum class Shares {
@@ -341,7 +344,7 @@ struct Contact {
   bool rigid = false;                    ///< 1/alpha = 0: hyperbola and power
   std::optional<double> stiffness;       ///< alpha > 0; empty = chosen, unless rigid
   std::optional<double> regularisation;  ///< eta > 0; empty = chosen
-  double exponent = 2;                   ///< m of the power law
+  double exponent = 2;                   ///< m of the laws power and power_overclosure
   std::optional<double> touching;        ///< R_0 > 0 of the exponential law; empty = chosen
   std::optional<double> length;          ///< l > 0 of the exponential and penalty laws; empty = chosen
   std::optional<double> referenceGap;    ///< Delta > eta/alpha; empty = each point's own initial gap

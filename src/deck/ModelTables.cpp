@@ -1,5 +1,6 @@
 // Keys of the blocks that describe the body and what acts on it: materials, loads, contact.
 #include <algorithm>
+#include <cmath>
 
 #include "deck/DeckTables.hpp"
 
@@ -93,7 +94,8 @@ const Choices<ContactLaw>& contactLaws() {
   static const Choices<ContactLaw> laws{
       {"hyperbola", ContactLaw::Hyperbola}, {"barrier", ContactLaw::Barrier},
       {"power", ContactLaw::Power},         {"exponential", ContactLaw::Exponential},
-      {"penalty", ContactLaw::Penalty},     {"hard", ContactLaw::Hard}};
+      {"penalty", ContactLaw::Penalty},     {"hard", ContactLaw::Hard},
+      {"linear", ContactLaw::Linear},       {"power_overclosure", ContactLaw::Overclosure}};
   return laws;
 }
 
@@ -123,8 +125,9 @@ Field<Contact> contactStiffness() {
               return;
             }
             s.rigid = v.text() == "rigid";
-            if (s.rigid && s.law == ContactLaw::Penalty) {
-              v.fail("a penalty has a finite stiffness");
+            if (s.rigid && (s.law == ContactLaw::Penalty || s.law == ContactLaw::Linear ||
+                            s.law == ContactLaw::Overclosure)) {
+              v.fail(fmt::format("a law {} has a finite stiffness", wordOf(s.law, contactLaws())));
             }
             if (!s.rigid && v.text() != "auto") {
               v.fail(fmt::format("expected {}, got {}", accepts, v.shown()));
@@ -265,12 +268,33 @@ const Variants<Load, decltype(Load::load)>& loadVariants() {
 
 const Table<Contact>& contactTable() {
   static const Choices<Contact::Points> points{{"nodes", Contact::Points::Nodes},
-                                               {"quadrature", Contact::Points::Quadrature}};
+                                               {"quadrature", Contact::Points::Quadrature},
+                                               {"zones", Contact::Points::Zones}};
   static const Table<Contact> table = [] {
+    auto where =
+        choice("points", optional, &Contact::points, points,
+               "where the law acts; zones: where edges are in the tool, integrated between their limits");
+    where.read = [inner = where.read](const Value& v, Contact& s) {
+      inner(v, s);
+      if (s.points == Contact::Points::Zones) {
+        s.law = ContactLaw::Linear;
+      }
+    };
+    auto law = choice("law", optional, &Contact::law, contactLaws(), "pressure as a function of the gap");
+    law.read = [inner = law.read](const Value& v, Contact& s) {
+      inner(v, s);
+      const bool edge = s.law == ContactLaw::Linear || s.law == ContactLaw::Overclosure;
+      if (edge && s.points != Contact::Points::Zones) {
+        v.fail("a pressure with an edge is integrated up to it; expected points: zones beside it");
+      }
+      if (!edge && s.points == Contact::Points::Zones) {
+        v.fail("zones begin where the pressure does; expected linear or power_overclosure");
+      }
+    };
     auto degree = integer("quadrature_degree", optional, &Contact::quadratureDegree, check::degree,
                           "polynomial degree integrated exactly on a face");
     degree.print = [inner = degree.print](const Contact& s) {
-      return s.points == Contact::Points::Quadrature ? inner(s) : Node{};
+      return s.points != Contact::Points::Nodes ? inner(s) : Node{};
     };
     degree.read = [inner = degree.read](const Value& v, Contact& s) {
       if (s.points == Contact::Points::Nodes) {
@@ -315,23 +339,32 @@ const Table<Contact>& contactTable() {
         v.fail("near has no meaning with unknown: curve; expected all");
       }
     };
+    auto exponent = real("exponent", optional, &Contact::exponent, check::exponent,
+                         "m of the power law; of power_overclosure a whole number");
+    exponent.read = [inner = exponent.read](const Value& v, Contact& s) {
+      inner(v, s);
+      if (s.law == Law::Overclosure &&
+          !(s.exponent == std::floor(s.exponent) && s.exponent >= 1 && s.exponent <= 8)) {
+        v.fail(fmt::format("zones have Taylor series for whole exponents only; expected 1 to 8, got {}",
+                           v.shown()));
+      }
+    };
     const std::vector<Law> withDelta{Law::Hyperbola, Law::Barrier, Law::Power, Law::Exponential,
                                      Law::Penalty};
     return Table<Contact>{
         name("tool", required, &Contact::tool, "the name of a tool", "what the set may touch"),
         name("set", required, &Contact::set, "a side set (with points: nodes also a node set), name or id",
              "where the body may touch it"),
-        choice("points", optional, &Contact::points, points, "where the law acts"),
+        where,
         choice("at", optional, &Contact::at, shellPlaces(), "where in the thickness of shells"),
         degree,
-        choice("law", optional, &Contact::law, contactLaws(), "pressure as a function of the gap"),
+        law,
         ofLaws(shares, withDelta),
-        ofLaws(contactStiffness(), {Law::Hyperbola, Law::Power, Law::Penalty}),
+        ofLaws(contactStiffness(), {Law::Hyperbola, Law::Power, Law::Penalty, Law::Linear, Law::Overclosure}),
         ofLaws(positiveOr("regularisation", &Contact::regularisation, "auto",
                           "eta: a pressure, with points: nodes a force"),
                {Law::Hyperbola, Law::Barrier, Law::Power}),
-        ofLaws(real("exponent", optional, &Contact::exponent, check::exponent, "m of the power law"),
-               {Law::Power}),
+        ofLaws(exponent, {Law::Power, Law::Overclosure}),
         ofLaws(positiveOr("touching", &Contact::touching, "auto",
                           "R_0 of the exponential law, the pressure (nodes: force) at zero gap"),
                {Law::Exponential}),

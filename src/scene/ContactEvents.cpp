@@ -175,8 +175,8 @@ void ContactEvents::onStep(int branch, int step, double pathLengthStart, double 
   std::vector<ContactEvent> events;
   for (std::size_t c = 0; c < scene_.contacts().size(); ++c) {
     const ContactPoints& contact = scene_.contacts()[c];
-    if (contact.hardFaces) {
-      findCorners(c, series, length, changes, events);
+    if (contact.hardFaces || !contact.lines.empty()) {
+      findConditions(c, series, length, changes, events);
       continue;
     }
     closed_[c].resize(contact.count);
@@ -250,8 +250,8 @@ void ContactEvents::remember(const CaseState& end) {
   }
 }
 
-void ContactEvents::findCorners(std::size_t c, const path::Series& series, double length,
-                                const std::vector<int>& changes, std::vector<ContactEvent>& events) const {
+void ContactEvents::findConditions(std::size_t c, const path::Series& series, double length,
+                                   const std::vector<int>& changes, std::vector<ContactEvent>& events) const {
   if (changes.empty()) return;
   const ContactPoints& contact = scene_.contacts()[c];
   const fem::FeProblem& problem = scene_.problem();
@@ -260,20 +260,24 @@ void ContactEvents::findCorners(std::size_t c, const path::Series& series, doubl
   const std::vector<int> active = problem.conditionsAt(state);
   int number = 0;  // of the term's first corner
   for (std::size_t t = 0; t < contact.terms.size(); ++t) {
-    const std::vector<int> corners = fem::cornersOf(contact.points[t]);
-    const int count = static_cast<int>(corners.size()), first = problem.firstEvent(contact.terms[t]);
+    std::vector<fem::ZoneCondition> conditions;
+    if (contact.hardFaces)
+      for (const int corner : fem::cornersOf(contact.points[t])) conditions.push_back({corner, false});
+    else
+      conditions = fem::zoneConditions(contact.lines[t]);
+    const int count = static_cast<int>(conditions.size()), first = problem.firstEvent(contact.terms[t]);
     for (const int change : changes) {
       const int i = change - first;
       if (i < 0 || i >= count) continue;
       ContactEvent event;
       event.a = length;
       event.loadFactor = state.lambda;
-      event.closes = active[change] == 0;
+      event.closes = (active[change] == 0) != conditions[i].opens;
       event.contact = static_cast<int>(c);
       event.point = number + i;
-      event.node = corners[i];
+      event.node = conditions[i].node;
       for (int d = 0; d < 3; ++d) {
-        const std::size_t dof = 3 * static_cast<std::size_t>(corners[i]) + d;
+        const std::size_t dof = 3 * static_cast<std::size_t>(conditions[i].node) + d;
         event.place[d] = scene_.mesh().coordinates[dof] + u[dof];
       }
       events.push_back(event);

@@ -27,7 +27,8 @@ struct ContactEvent {
 /// The gap of a point is projected at 17 places of the step; between two with different signs its root is
 /// found on the series to rounding. Two events of one point within a sixteenth of a step are not seen. Points
 /// whose way in the step is shorter than their distance from closing are passed over. Corners of hard contact
-/// on faces close and open at the ends of steps, where the set of active ones changes.
+/// on faces, and the ends of zones, close and open at the ends of steps, where the set of active ones
+/// changes.
 class ContactEvents final : public StepWatch {
  public:
   /// Throws FileError where the file cannot be written.
@@ -44,8 +45,8 @@ class ContactEvents final : public StepWatch {
   int count() const override { return count_; }
 
  private:
-  void findCorners(std::size_t c, const path::Series& series, double length, const std::vector<int>& changes,
-                   std::vector<ContactEvent>& events) const;
+  void findConditions(std::size_t c, const path::Series& series, double length,
+                      const std::vector<int>& changes, std::vector<ContactEvent>& events) const;
 
   /// Gaps that have been evaluated at the end of the last step.
   struct KnownGaps {

@@ -83,6 +83,16 @@ ContactPressure contactPressure(const deck::Contact& contact, const BodySize& bo
       result.law = contact::SmoothedPenalty{alpha, length};
       break;
     }
+    case Law::Linear:
+    case Law::Overclosure: {
+      result.text = contact.law == Law::Linear ? "linear" : "power_overclosure";
+      const double alpha = number("stiffness", contact.stiffness, alpha0);
+      const int m = contact.law == Law::Linear ? 1 : static_cast<int>(contact.exponent);
+      if (m > 1) number("exponent", contact.exponent, m);
+      result.overclosure = contact::Overclosure{alpha, m};
+      result.overclosure->validate();
+      return result;
+    }
   }
   if (contact.isRigid()) result.closedGap = -1;
   result.law.validate();

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "atrapos/contact/OneOf.hpp"
+#include "atrapos/contact/Overclosure.hpp"
 #include "deck/Deck.hpp"
 
 namespace atrapos {
@@ -24,6 +25,7 @@ struct ContactPressure {
   bool hard = false;  ///< no law: h >= 0, R >= 0, h R = 0
   contact::AnyPressure law;
   std::optional<contact::RegularisedPressure> regularised;  ///< the law where it is (15)
+  std::optional<contact::Overclosure> overclosure;          ///< the law of zones
   double leastReference = 0;  ///< least sensible Delta of a point that touches at the start; 0: none
   double closedGap = 0;       ///< a point with a smaller gap is closed; < 0: 1e-3 of its reference gap
   std::string text;           ///< name and numbers, with (chosen) after those that the deck leaves open

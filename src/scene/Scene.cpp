@@ -166,7 +166,7 @@ void Scene::requireSupport(const fem::FeModel& model) const {
         if (n >= mesh_.numNodes()) continue;  // a director
         // Hard contact holds what touches, as long as it is pressed; open points hold nothing.
         const double* gaps = &contact.gaps[t][i / N * Q];
-        if (contact.pressure.hard &&
+        if ((contact.pressure.hard || !contact.lines.empty()) &&
             std::any_of(gaps, gaps + Q, [&](double h) { return h > contact.closedGaps[t][i / N * Q]; }))
           continue;
         const double* x = &mesh_.coordinates[3 * static_cast<std::size_t>(n)];

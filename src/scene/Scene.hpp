@@ -44,7 +44,8 @@ struct ContactPoints {
   const contact::RigidTool* tool = nullptr;
   std::vector<contact::NearContact*> near;  ///< [term]; empty where all points carry the law
   ContactPressure pressure;
-  bool hardFaces = false;  ///< hard, with conditions on mean gaps around the corners of faces
+  bool hardFaces = false;           ///< hard, with conditions on mean gaps around the corners of faces
+  std::vector<fem::LineSet> lines;  ///< [term] of zones; empty: points carry the law
   int count = 0;
   double smallestGap = 0;  ///< at the start
   int attracted = 0;       ///< points farther off than a uniform Delta, which pulls at them
@@ -56,7 +57,7 @@ struct ContactPoints {
 struct ContactState {
   double normalForce = 0;  ///< sum of weight * R over the points
   /// Closed points: h <= 2 eta/alpha, the vertex of the hyperbola (15); rigid: h <= 1e-3 Delta; h <= 0 with
-  /// laws without eta; hard on faces: pressed by an active corner.
+  /// laws without eta; hard on faces: pressed by an active corner; zones: points within them.
   int active = 0;
 };
 
@@ -154,6 +155,7 @@ class Scene {
   void addMonitors();
   void makeTools();
   BodySize bodySize() const;
+  void addZones(const deck::Contact& contact, ContactPoints& entry, fem::FeModel& model) const;
   void measureGaps(const deck::Contact& contact, ContactPoints& entry) const;
   void choosePressure(const deck::Contact& contact, BodySize body, ContactPoints& entry) const;
   void requireSupport(const fem::FeModel& model) const;

@@ -64,6 +64,11 @@ void Scene::addContacts(fem::FeModel& model) {
     measureGaps(contact, entry);
     choosePressure(contact, body, entry);
     entry.hardFaces = entry.pressure.hard && contact.points == deck::Contact::Points::Quadrature;
+    if (contact.points == deck::Contact::Points::Zones) {
+      addZones(contact, entry, model);
+      contacts_.push_back(std::move(entry));
+      continue;
+    }
     for (std::size_t t = 0; t < entry.points.size(); ++t) {
       entry.terms.push_back(static_cast<int>(model.terms.size()));
       const auto& references = entry.references[t];
@@ -88,6 +93,21 @@ void Scene::addContacts(fem::FeModel& model) {
     }
     contacts_.push_back(std::move(entry));
   }
+}
+
+void Scene::addZones(const deck::Contact& contact, ContactPoints& entry, fem::FeModel& model) const {
+  const std::string key = "contact/" + contact.name + "/points";
+  if (!plane_) fail(key, "zones are those of the edges of plane bodies; expected nodes or quadrature");
+  const auto& set = mesh_.sideSets.at(fem::findSideSet(mesh_, contact.set));
+  entry.lines = solid::planeEdgeLines(mesh_, set, *plane_, contact.quadratureDegree);
+  fem::ZoneOptions options;
+  options.events = deck_.path.series();
+  for (const fem::LineSet& lines : entry.lines) try {
+      entry.terms.push_back(static_cast<int>(model.terms.size()));
+      model.terms.push_back(entry.tool->zones(*entry.pressure.overclosure, lines, options));
+    } catch (const std::invalid_argument& e) {
+      fail(key, e.what());
+    }
 }
 
 /// Where the points are over the tool at the start, refusing places that cannot be.

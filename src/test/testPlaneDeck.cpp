@@ -105,3 +105,45 @@ TEST(PlaneDeck, badValuesAreNamed) {
   EXPECT_EQ(errorOf("lengths: [4, 2]", "lengths: [4, 0]"),
             "plane.yaml:3:41: mesh/generate/lengths: each must be positive, got the list [4, 0]");
 }
+
+namespace {
+
+/// The line with which a contact with these keys is refused; the law that it has where it is not.
+std::string zonesOf(const std::string& keys) {
+  const std::string text =
+      "tools:\n  roll: {type: cylinder, center: [2, -9, 0], axis: [0, 0, 1], radius: 8}\n"
+      "contact:\n  lower: {tool: roll, set: y_min, " +
+      keys + "}\npath:\n";
+  try {
+    const Deck deck = readDeckText(changed("path:\n", text), "plane.yaml");
+    checkAgainstMesh(deck, meshOf(deck));
+    std::ostringstream first, second;
+    describe(deck, first);
+    describe(readDeckText(first.str(), "plane.yaml"), second);
+    EXPECT_EQ(first.str(), second.str());
+    return deck.contacts[0].law == Contact::Law::Linear ? "linear" : "another law";
+  } catch (const DeckError& error) {
+    return error.what();
+  }
+}
+
+}  // namespace
+
+TEST(PlaneDeck, zonesHavePressuresWithAnEdge) {
+  EXPECT_EQ(zonesOf("points: zones"), "linear");
+  EXPECT_EQ(zonesOf("points: zones, law: linear, stiffness: 100"), "linear");
+  EXPECT_EQ(zonesOf("points: zones, law: power_overclosure, stiffness: 100, exponent: 3"), "another law");
+  EXPECT_EQ(zonesOf("points: zones, law: penalty"),
+            "plane.yaml:16:55: contact/lower/law: zones begin where the pressure does; expected linear or "
+            "power_overclosure");
+  EXPECT_EQ(
+      zonesOf("law: linear"),
+      "plane.yaml:16:40: contact/lower/law: a pressure with an edge is integrated up to it; expected points: "
+      "zones beside it");
+  EXPECT_EQ(zonesOf("points: zones, law: power_overclosure, exponent: 1.5"),
+            "plane.yaml:16:84: contact/lower/exponent: zones have Taylor series for whole exponents only; "
+            "expected 1 to "
+            "8, got 1.5");
+  EXPECT_EQ(zonesOf("points: zones, stiffness: rigid"),
+            "plane.yaml:16:61: contact/lower/stiffness: a law linear has a finite stiffness");
+}

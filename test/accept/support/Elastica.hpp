@@ -15,19 +15,24 @@ struct StripState {
 /// 0.0002 N at worst, so with all points by about a sixteenth of that.
 class Elastica {
  public:
-  Elastica();
+  /// The lower surface touches, mid-line radius 50.4 (B), or the mid-line bends to a radius of 50 (A).
+  enum class Case { A, B };
+  explicit Elastica(Case which = Case::B);
 
   /// Beam: bending stiffness EI.
   StripState beam(double loadFactor) const;
   /// Plate, EI / (1 - nu^2) with nu = 0.3: the same shape at loads, and with forces, larger by 1/0.91.
   StripState plate(double loadFactor) const;
 
-  static double touch();  ///< load factor of first contact of the beam, where the curves have a kink
+  double touch() const {
+    return touch_;
+  }  ///< load factor of first contact of the beam, where the curves have a kink
 
  private:
   struct Branch {
     std::vector<double> loadFactor, ux, uz, force;
   };
+  double touch_;
   Branch free_, touching_;
 };
 
