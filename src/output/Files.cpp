@@ -19,7 +19,7 @@
 namespace atrapos {
 namespace {
 
-/// Results beside fields, and how they begin; empty: no matter how.
+/// Results beside fields, and how they begin.
 struct KnownFile {
   const char *name, *begin;
 };

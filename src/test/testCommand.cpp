@@ -239,6 +239,14 @@ TEST_F(CommandTest, StepsOfTheDeckEndThePath) {
   EXPECT_EQ(summary("deck_results").at("steps"), 3);
 }
 
+TEST_F(CommandTest, StopsNextToTheStartAreHitInTheFirstStep) {
+  writeFile(folder_ / "deck.yaml", edited(kSmallDeck, "{load_factor: 0.5}", "{load_factor: 1.0e-300}"));
+  const CommandResult r = runAtrapos({"run", "-q", "deck.yaml"}, folder_.path());
+  EXPECT_EQ(r.exitCode, 0) << r.err;
+  EXPECT_EQ(summary("deck_results").at("steps"), 1);
+  EXPECT_EQ(summary("deck_results").at("load_factor"), 1e-300);
+}
+
 TEST_F(CommandTest, ASecondRunReplacesTheFirst) {
   ASSERT_EQ(runAtrapos({"run", "-q", "deck.yaml"}, folder_.path()).exitCode, 0);
   const std::string first = readFile(folder_ / "deck_results" / "path.csv");
