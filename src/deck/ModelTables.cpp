@@ -125,9 +125,11 @@ Field<Contact> contactStiffness() {
               return;
             }
             s.rigid = v.text() == "rigid";
-            if (s.rigid && (s.law == ContactLaw::Penalty || s.law == ContactLaw::Linear ||
-                            s.law == ContactLaw::Overclosure)) {
-              v.fail(fmt::format("a law {} has a finite stiffness", wordOf(s.law, contactLaws())));
+            if (s.rigid && s.law == ContactLaw::Penalty) {
+              v.fail("a penalty has a finite stiffness");
+            }
+            if (s.rigid && (s.law == ContactLaw::Linear || s.law == ContactLaw::Overclosure)) {
+              v.fail("a pressure with an edge has a finite stiffness");
             }
             if (!s.rigid && v.text() != "auto") {
               v.fail(fmt::format("expected {}, got {}", accepts, v.shown()));

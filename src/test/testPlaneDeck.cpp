@@ -145,5 +145,5 @@ TEST(PlaneDeck, zonesHavePressuresWithAnEdge) {
             "expected 1 to "
             "8, got 1.5");
   EXPECT_EQ(zonesOf("points: zones, stiffness: rigid"),
-            "plane.yaml:16:61: contact/lower/stiffness: a law linear has a finite stiffness");
+            "plane.yaml:16:61: contact/lower/stiffness: a pressure with an edge has a finite stiffness");
 }

@@ -92,6 +92,7 @@ TEST(ZonePaths, FlatContactIsUniform) {
       for (const int n : fem::test::nodesOfSet(mesh, "x_min")) model.prescribe(n, 0, 0, 0);
       for (const int n : fem::test::nodesOfSet(mesh, "y_max")) model.prescribe(n, 1, 0, -way);
       const auto lines = addZones(model, mesh, {}, *rigidTool(Plane{{0, 0, 0}, {0, 1, 0}}), {alpha, 1});
+      model.comm = linear::rcp(new Teuchos::MpiComm<int>(MPI_COMM_SELF));
       fem::FeProblem problem(std::move(model));
       const auto outcome = follow(problem, {problem.initialState(0), 0.0}, 1, loose(1e-9));
       EXPECT_LE(outcome.steps, 4);
