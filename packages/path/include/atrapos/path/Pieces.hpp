@@ -12,7 +12,7 @@ class Series;
 /// Where, on a series, the function that the series continues stops being the Problem's.
 struct Break {
   double a = 0;
-  int index = 0;  ///< for Problem::applyEvent; not below Problem::eventCount()
+  int index = 0;  ///< for Problem::afterEvent; not below Problem::eventCount()
 };
 
 /// What path following asks of a Problem that is analytic piece by piece, where the pieces meet continuously
