@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "atrapos/linear/TangentSolver.hpp"
+#include "atrapos/path/Problem.hpp"
 #include "atrapos/path/Report.hpp"
 
 namespace atrapos::bench {
