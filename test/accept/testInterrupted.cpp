@@ -54,7 +54,8 @@ int consistentSteps(const StripFolder& folder) {
 TEST(Interrupted, KilledRunKeepsEveryFinishedStep) {
   StripFolder folder("solid.yaml");
   std::filesystem::create_directory(folder.path() / "results");
-  writeFile(folder.results("summary.json"), "of an earlier run");
+  // Of an earlier run: what others wrote is not replaced.
+  writeFile(folder.results("summary.json"), "{\n  \"program\": \"atrapos 0.1.0\"\n}\n");
   Command command(StripFolder::run(), folder.path());
   waitForStep(command, folder, 30);
   command.send(SIGKILL);

@@ -286,9 +286,9 @@ TEST(ExodusMesh, writesWholeOrNotAtAll) {
 
   expectMessage(messageOf([&] { exodus::writeMesh(good, file("no/such/directory.exo")); }),
                 "cannot be created");
-  // Onto a directory: the new file is complete but cannot take its place.
+  // Onto a directory: found before anything is written.
   std::filesystem::create_directories(file("directory/inside"));
-  expectMessage(messageOf([&] { exodus::writeMesh(good, file("directory")); }), "cannot be put in its place");
+  expectMessage(messageOf([&] { exodus::writeMesh(good, file("directory")); }), "is no regular file, and is not replaced");
 
   std::size_t entries = 0;
   for (const auto& entry : std::filesystem::directory_iterator(file.directory())) {
