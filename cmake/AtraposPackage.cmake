@@ -81,8 +81,20 @@ function(atrapos_test name)
     add_test(NAME ${name} COMMAND ${name})
     set(tests ${name})
   endif()
+  atrapos_labels(${name} ${arg_LABELS})
   set_tests_properties(${tests} PROPERTIES LABELS "${arg_LABELS}" TIMEOUT ${arg_TIMEOUT}
     ENVIRONMENT "OMPI_ALLOW_RUN_AS_ROOT=1;OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1;OMPI_MCA_mpi_yield_when_idle=1;OMP_PROC_BIND=false;${arg_ENVIRONMENT}")
+endfunction()
+
+# atrapos_labels(<test> <labels>...): tests whose outcome threads might change have the label threads; the target
+# tests_of_threads is all of them (scripts/test --openmp).
+function(atrapos_labels name)
+  if(NOT TARGET tests_of_threads)
+    add_custom_target(tests_of_threads)
+  endif()
+  if("threads" IN_LIST ARGN)
+    add_dependencies(tests_of_threads ${name})
+  endif()
 endfunction()
 
 # The distribution's GoogleTest. A Trilinos prefix may carry headers of its own copy, which would
