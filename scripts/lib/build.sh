@@ -19,6 +19,7 @@ configure() {
   if command -v ccache >/dev/null; then
     options+=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache -DCMAKE_C_COMPILER_LAUNCHER=ccache)
   fi
+  [ -z "${CI:-}" ] || options+=(-DCMAKE_COMPILE_WARNING_AS_ERROR=ON)
   mkdir -p "$root/build"
   (cd "$root" && cmake --preset "$preset" "${options[@]}") >"$log" 2>&1 || {
     cat "$log" >&2

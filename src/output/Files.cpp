@@ -85,9 +85,13 @@ bool isResultName(const std::string& name) {
     whole = exodus::parsePartName(name).file;
   } catch (const exodus::Error&) {  // no part
   }
-  int branch = 0, end = 0;
-  const bool ofBranch = std::sscanf(whole.c_str(), "results_branch%d.exo%n", &branch, &end) == 1;
-  return whole == "results.exo" || (ofBranch && end == static_cast<int>(whole.size()));
+  static const std::string before = "results_branch", after = ".exo";
+  const std::size_t digits = whole.size() - std::min(whole.size(), before.size() + after.size());
+  const bool ofBranch = digits > 0 && whole.compare(0, before.size(), before) == 0 &&
+                        whole.compare(before.size() + digits, after.size(), after) == 0 &&
+                        std::all_of(whole.begin() + before.size(), whole.end() - after.size(),
+                                    [](char c) { return c >= '0' && c <= '9'; });
+  return whole == "results.exo" || ofBranch;
 }
 
 void requireOwn(const std::string& file, Made as, const std::vector<std::string>& inputs) {
