@@ -17,6 +17,7 @@
 #include "atrapos/exodus/ResultWriter.hpp"
 #include "machine/OutputFile.hpp"
 #include "machine/Ranks.hpp"
+#include "output/Files.hpp"
 
 namespace atrapos {
 namespace {
@@ -63,14 +64,6 @@ std::vector<double> reordered(const std::vector<double>& values, const std::vect
   std::vector<double> result;
   for (const int i : places) result.push_back(values[i]);
   return result;
-}
-
-/// The branch in the name of a result file; empty: another file.
-std::optional<int> branchOf(const std::string& name) {
-  if (name == fieldsName(0)) return 0;
-  int branch = 0;
-  if (std::sscanf(name.c_str(), "results_branch%d.exo", &branch) != 1 || branch < 1) return {};
-  return name == fieldsName(branch) ? std::optional<int>(branch) : std::nullopt;
 }
 
 class SceneFields final : public FieldFile {
@@ -193,7 +186,7 @@ class SceneFields final : public FieldFile {
       throw std::invalid_argument(
           fmt::format("{}: holds states of other steps than output/fields_every asks for", file));
     if (!writer_) return;
-    const auto inOrder = [](std::vector<double> values, const std::vector<int>& places) {
+    const auto inOrder = [](const std::vector<double>& values, const std::vector<int>& places) {
       return places.empty() ? values : reordered(values, places);
     };
     for (int step = 0; step < count; ++step) {
@@ -232,7 +225,7 @@ std::vector<ResultFile> resultFiles(const std::string& folder) {
       parts = name.parts;
     } catch (const exodus::Error&) {  // no part
     }
-    if (const auto branch = branchOf(whole)) files.push_back({entry.path(), *branch, parts});
+    if (const auto branch = branchOfFields(whole)) files.push_back({entry.path(), *branch, parts});
   }
   return files;
 }

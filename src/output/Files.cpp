@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <charconv>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -76,6 +77,17 @@ void replaceFile(const std::string& file, const std::string& content) {
   renameFile(beside, file);
 }
 
+std::optional<int> branchOfFields(const std::string& name) {
+  if (name == "results.exo") return 0;
+  static const std::string before = "results_branch", after = ".exo";
+  if (name.size() <= before.size() + after.size() || name.compare(0, before.size(), before) != 0) return {};
+  const char *first = name.data() + before.size(), *end = name.data() + name.size() - after.size();
+  int branch = 0;
+  const auto read = std::from_chars(first, end, branch);
+  if (read.ec != std::errc() || read.ptr != end || end != after || branch < 1 || *first == '0') return {};
+  return branch;
+}
+
 bool isResultName(const std::string& name) {
   if (std::any_of(knownFiles.begin(), knownFiles.end(),
                   [&](const KnownFile& known) { return name == known.name; }))
@@ -85,13 +97,7 @@ bool isResultName(const std::string& name) {
     whole = exodus::parsePartName(name).file;
   } catch (const exodus::Error&) {  // no part
   }
-  static const std::string before = "results_branch", after = ".exo";
-  const std::size_t digits = whole.size() - std::min(whole.size(), before.size() + after.size());
-  const bool ofBranch = digits > 0 && whole.compare(0, before.size(), before) == 0 &&
-                        whole.compare(before.size() + digits, after.size(), after) == 0 &&
-                        std::all_of(whole.begin() + before.size(), whole.end() - after.size(),
-                                    [](char c) { return c >= '0' && c <= '9'; });
-  return whole == "results.exo" || ofBranch;
+  return branchOfFields(whole).has_value();
 }
 
 void requireOwn(const std::string& file, Made as, const std::vector<std::string>& inputs) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -7,6 +8,9 @@ namespace atrapos {
 
 /// Replaces a file whole or not at all: writes beside it and renames. Throws FileError.
 void replaceFile(const std::string& file, const std::string& content);
+
+/// The branch whose fields a file of this name holds, 0 for results.exo; empty: it is another file.
+std::optional<int> branchOfFields(const std::string& name);
 
 /// Whether runs write files of this name into their folder.
 bool isResultName(const std::string& name);

@@ -24,7 +24,7 @@ class ClassicHeader {
   std::uint64_t requiredSize() {
     std::array<char, 4> magic{};
     stream_.read(magic.data(), 4);
-    version_ = magic[3];
+    version_ = static_cast<unsigned char>(magic[3]);
     const std::uint64_t numRecords = count();
     // All bits set: a writer that streams does not know the number of records.
     const bool streaming = numRecords == (version_ == 5 ? ~std::uint64_t{0} : 0xFFFFFFFFu);

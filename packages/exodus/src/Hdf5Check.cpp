@@ -15,6 +15,7 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <fstream>
 
 #include "FileLayout.hpp"
 #include "atrapos/exodus/Error.hpp"
@@ -34,9 +35,7 @@ std::uint64_t secondsFor(std::uint64_t bytes) { return 2 + bytes / (std::uint64_
 
 std::uint64_t addressSpace() {
   unsigned long long pages = 0;
-  std::FILE* const in = std::fopen("/proc/self/statm", "r");
-  if (in == nullptr || std::fscanf(in, "%llu", &pages) != 1) pages = 0;
-  if (in != nullptr) std::fclose(in);
+  std::ifstream("/proc/self/statm") >> pages;
   return pages * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
 }
 
