@@ -19,6 +19,7 @@
 #include "atrapos/exodus/ResultReader.hpp"
 #include "atrapos/fem/Processor.hpp"
 #include "commands/Check.hpp"
+#include "commands/ImportCommand.hpp"
 #include "commands/JoinCommand.hpp"
 #include "commands/MapCommand.hpp"
 #include "commands/MeshCommand.hpp"
@@ -26,6 +27,7 @@
 #include "commands/Run.hpp"
 #include "commands/SceneCase.hpp"
 #include "commands/SplitCommand.hpp"
+#include "import/Import.hpp"
 #include "machine/OutputFile.hpp"
 #include "machine/Ranks.hpp"
 #include "machine/Runtime.hpp"
@@ -48,6 +50,8 @@ int reported(const std::string& named, const F& f) {
   } catch (const atrapos::deck::DeckError& e) {
     return fail(e.what(), kBadInput);
   } catch (const atrapos::exodus::Error& e) {
+    return fail(e.what(), kBadInput);
+  } catch (const atrapos::import::Error& e) {
     return fail(e.what(), kBadInput);
   } catch (const atrapos::FileError& e) {
     return fail(e.what(), kBadInput);
@@ -227,6 +231,17 @@ int main(int argc, char** argv) {
   meshCommand->add_option("-o,--output", output, "Exodus file (default: the deck's mesh/file)");
   meshCommand->add_flag("-q,--quiet", quiet, "print nothing");
 
+  atrapos::ImportWords importWords;
+  auto* importCommand = app.add_subcommand(
+      "import", "make a mesh, and a deck, of a file of Abaqus or CalculiX (.inp); docs/import.md");
+  importCommand->add_option("FILE", importWords.file, "input file: .inp")->required();
+  importCommand->add_option("-o,--output", importWords.output,
+                            "Exodus file (default: FILE's name with .exo, here)");
+  importCommand->add_flag(
+      "--deck", importWords.deck,
+      "write a deck of the same problem beside the mesh, with .yaml; says line by line what it leaves out");
+  importCommand->add_flag("-q,--quiet", importWords.quiet, "print nothing");
+
   std::string meshFile;
   int parts = 0;
   auto* splitCommand = app.add_subcommand("split", "cut a mesh into part files for several ranks");
@@ -288,11 +303,13 @@ int main(int argc, char** argv) {
   const bool hasCommand = !app.get_subcommands().empty();
   const auto extras = app.remaining(true);
   if (!hasCommand || !extras.empty()) {
-    std::cerr << (extras.empty() ? "atrapos: a command is needed: run, mesh, split, join, check or map"
+    std::cerr << (extras.empty()
+                      ? "atrapos: a command is needed: run, mesh, import, split, join, check or map"
                   : hasCommand
                       ? fmt::format("atrapos: '{}' is not expected", extras.front())
-                      : fmt::format("atrapos: '{}' is not a command: run, mesh, split, join, check or map",
-                                    extras.front()))
+                      : fmt::format(
+                            "atrapos: '{}' is not a command: run, mesh, import, split, join, check or map",
+                            extras.front()))
               << " (see atrapos --help)\n";
     return kBadInput;
   }
@@ -311,6 +328,10 @@ int main(int argc, char** argv) {
     }
     if (*meshCommand) return makeMesh(deck, output, quiet);
     std::ostream* const progress = quiet ? nullptr : &std::cout;
+    if (*importCommand) {
+      atrapos::importFile(importWords, std::cout);
+      return 0;
+    }
     if (*splitCommand) {
       atrapos::splitMesh(meshFile, parts, output, progress);
       return 0;

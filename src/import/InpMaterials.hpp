@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+
+#include "import/InpModel.hpp"
+
+namespace atrapos::import {
+
+/// Law and constants of a material as keys of a deck, "law: saint_venant_kirchhoff, youngs_modulus: ...".
+/// Remarks what it leaves out; throws Error where no law is equal.
+std::string inpLaw(InpModel& model, const std::string& name);
+
+/// Throws Error, for `place`, where the material has none.
+double inpDensity(const InpModel& model, const std::string& material, const InpPlace& place);
+
+}  // namespace atrapos::import

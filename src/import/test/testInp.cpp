@@ -1,0 +1,297 @@
+// Input files of Abaqus and CalculiX: what is read, how it is refused, and what cells, sets and decks come of
+// it.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+
+#include "InpFile.hpp"
+#include "atrapos/fem/ReferenceCell.hpp"
+#include "deck/Deck.hpp"
+
+namespace atrapos::import {
+namespace {
+
+using fem::Topology;
+
+// A cube of edge 2 as one element of any kind, nodes at the places that the manuals give: edges of the
+// bottom, of the top, then between them.
+std::vector<std::array<double, 3>> corners(Topology cell) {
+  switch (cell) {
+    case Topology::Hex8:
+    case Topology::Hex20:
+      return {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1},
+              {-1, -1, 1},  {1, -1, 1},  {1, 1, 1},  {-1, 1, 1}};
+    case Topology::Wedge6:
+    case Topology::Wedge15:
+      return {{0, 0, -1}, {1, 0, -1}, {0, 1, -1}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}};
+    case Topology::Tet4:
+    case Topology::Tet10:
+      return {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    case Topology::Tri3:
+    case Topology::Tri6:
+      return {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    default:
+      return {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
+  }
+}
+
+/// Corners, 1-based, of the middle nodes' edges and of the faces, from Abaqus' manual (Elements guide, node
+/// ordering and face numbering).
+struct Element {
+  const char* type;
+  Topology cell;
+  std::vector<std::pair<int, int>> edges;
+  std::vector<std::vector<int>> faces;
+};
+
+const std::vector<std::vector<int>> kHexFaces{{1, 2, 3, 4}, {5, 8, 7, 6}, {1, 5, 6, 2},
+                                              {2, 6, 7, 3}, {3, 7, 8, 4}, {4, 8, 5, 1}},
+    kTetFaces{{1, 2, 3}, {1, 4, 2}, {2, 4, 3}, {3, 4, 1}},
+    kWedgeFaces{{1, 2, 3}, {4, 6, 5}, {1, 4, 5, 2}, {2, 5, 6, 3}, {3, 6, 4, 1}},
+    kQuadFaces{{1, 2}, {2, 3}, {3, 4}, {4, 1}}, kTriFaces{{1, 2}, {2, 3}, {3, 1}};
+
+const std::vector<Element>& elements() {
+  static const std::vector<Element> all{
+      {"C3D8", Topology::Hex8, {}, kHexFaces},
+      {"C3D20R",
+       Topology::Hex20,
+       {{1, 2}, {2, 3}, {3, 4}, {4, 1}, {5, 6}, {6, 7}, {7, 8}, {8, 5}, {1, 5}, {2, 6}, {3, 7}, {4, 8}},
+       kHexFaces},
+      {"C3D4", Topology::Tet4, {}, kTetFaces},
+      {"C3D10", Topology::Tet10, {{1, 2}, {2, 3}, {3, 1}, {1, 4}, {2, 4}, {3, 4}}, kTetFaces},
+      {"C3D6", Topology::Wedge6, {}, kWedgeFaces},
+      {"C3D15",
+       Topology::Wedge15,
+       {{1, 2}, {2, 3}, {3, 1}, {4, 5}, {5, 6}, {6, 4}, {1, 4}, {2, 5}, {3, 6}},
+       kWedgeFaces},
+      {"CPS4", Topology::Quad4, {}, kQuadFaces},
+      {"CPE8R", Topology::Quad8, {{1, 2}, {2, 3}, {3, 4}, {4, 1}}, kQuadFaces},
+      {"CAX3", Topology::Tri3, {}, kTriFaces},
+      {"CPS6", Topology::Tri6, {{1, 2}, {2, 3}, {3, 1}}, kTriFaces},
+      {"S8R", Topology::Shell8, {{1, 2}, {2, 3}, {3, 4}, {4, 1}}, {}}};
+  return all;
+}
+
+class Cell : public ::testing::TestWithParam<Element> {};
+
+// Nodes stand where Exodus' reference cell has them, and faces have the corners that the manual says.
+TEST_P(Cell, NodesAndFaces) {
+  const Element& element = GetParam();
+  auto x = corners(element.cell);
+  const auto ends = x;
+  for (const auto& [a, b] : element.edges) {
+    std::array<double, 3> middle{};
+    for (std::size_t d = 0; d < 3; ++d)
+      middle[d] = (ends[static_cast<std::size_t>(a - 1)][d] + ends[static_cast<std::size_t>(b - 1)][d]) / 2;
+    x.push_back(middle);
+  }
+  std::string text = "*NODE\n";
+  for (std::size_t n = 0; n < x.size(); ++n)
+    text += std::to_string(10 + n) + ", " + std::to_string(x[n][0]) + ", " + std::to_string(x[n][1]) + ", " +
+            std::to_string(x[n][2]) + "\n";
+  text += std::string("*ELEMENT, TYPE=") + element.type + "\n7";
+  for (std::size_t n = 0; n < x.size(); ++n) text += (n == 8 ? ",\n" : ", ") + std::to_string(10 + n);
+  text += "\n";
+  for (std::size_t f = 0; f < element.faces.size(); ++f)
+    text += "*SURFACE, NAME=F" + std::to_string(f + 1) + "\n7, S" + std::to_string(f + 1) + "\n";
+  const fem::Mesh mesh = readText(text).mesh;
+  ASSERT_EQ(mesh.blocks.size(), 1u);
+  ASSERT_EQ(mesh.blocks[0].topology, element.cell);
+  EXPECT_EQ(mesh.elementIds, std::vector<long long>{7});
+  const auto& nodes = mesh.blocks[0].nodes;
+  // Shape functions are 1 at their node: where the cell's middle nodes would be, its nodes are.
+  const std::vector<double> places = fem::referenceNodes(element.cell);
+  const std::size_t dim = places.size() / nodes.size();
+  for (std::size_t n = 0; n < nodes.size(); ++n)
+    for (std::size_t d = 0; d < dim; ++d)
+      EXPECT_EQ(mesh.coordinates[3 * static_cast<std::size_t>(nodes[n]) + d], places[n * dim + d])
+          << "node " << n;
+  ASSERT_EQ(mesh.sideSets.size(), element.faces.size());
+  for (std::size_t f = 0; f < element.faces.size(); ++f) {
+    const fem::SideSet& set = mesh.sideSets[f];
+    EXPECT_EQ(set.name, "F" + std::to_string(f + 1));
+    ASSERT_EQ(set.sides.size(), 1u);
+    std::set<long long> found, expected;
+    for (const int local : fem::sideNodes(element.cell, set.sides[0].side))
+      if (const long long id = mesh.nodeIds[static_cast<std::size_t>(nodes[static_cast<std::size_t>(local)])];
+          id < 10 + static_cast<long long>(ends.size()))
+        found.insert(id);
+    for (const int corner : element.faces[f]) expected.insert(9 + corner);
+    EXPECT_EQ(found, expected) << "face " << f + 1;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Inp, Cell, ::testing::ValuesIn(elements()),
+                         [](const auto& info) { return std::string(info.param.type); });
+
+const std::string kNodes =
+    "*NODE, NSET=all\n1\n2, 1.\n3, 1.d0, 1.\n4, , +1.0E+0\n5, 0, 0, 1\n6, 1, 0, 1\n7, 1, 1, 1\n8, 0, 1, "
+    "1\n9, 5, 5, 5\n";
+const std::string kCube = kNodes + "*ELEMENT, TYPE=C3D8, ELSET=cube\n1, 1,2,3,4,5,6,7,8\n";
+const std::string kSteel =
+    "*MATERIAL, NAME=steel\n*ELASTIC\n210000., .3\n*DENSITY\n2.\n*SOLID SECTION, ELSET=cube, "
+    "MATERIAL=steel\n";
+
+TEST(Inp, WritingThatManualsAllow) {
+  const Model model = readText(
+      "** a comment\r\n*Heading\r\nA cube, of steel\r\n" + kCube +
+      "*N Set , nset = \"two words\" , \n  GENERATE\n1, 7, 2\n\n** between\n*NSET, NSET=TOP\n5, 6,\n7, 8\n" +
+      "*nset, nset=both\ntop, Two Words\n*SURFACE, NAME=free\nCUBE,\n*SURFACE,NAME=n,TYPE=NODE\ntop,1.\n");
+  EXPECT_EQ(model.mesh.title, "A cube, of steel");
+  EXPECT_EQ(model.mesh.numNodes(), 8);
+  EXPECT_EQ(model.mesh.coordinates[3 * 2], 1);
+  EXPECT_EQ(model.mesh.coordinates[3 * 3 + 1], 1);
+  EXPECT_EQ(namesOf(model.mesh.nodeSets), (std::vector<std::string>{"all", "two words", "TOP", "both", "n"}));
+  EXPECT_EQ(model.mesh.nodeSets[0].nodes.size(), 8u);
+  EXPECT_EQ(model.mesh.nodeSets[1].nodes, (std::vector<int>{0, 2, 4, 6}));
+  EXPECT_EQ(model.mesh.nodeSets[3].nodes, (std::vector<int>{0, 2, 4, 5, 6, 7}));
+  EXPECT_EQ(model.mesh.nodeSets[4].nodes, model.mesh.nodeSets[2].nodes);
+  ASSERT_EQ(model.mesh.sideSets.size(), 1u);
+  EXPECT_EQ(model.mesh.sideSets[0].sides.size(), 6u);
+  ASSERT_EQ(model.remarks.size(), 2u);  // C3D8 is not quite HEX8; node 9
+  EXPECT_NE(model.remarks[1].find("1 node left out"), std::string::npos) << model.remarks[1];
+}
+
+TEST(Inp, PartsOfOneInstanceAreFlat) {
+  const Model model = readText(
+      "*Part, name=P\n" + kCube +
+      "*Nset, nset=Set-1\n1, 2\n*End Part\n*Assembly, name=A\n"
+      "*Instance, name=P-1, part=P\n*End Instance\n*Nset, nset=Set-2, instance=P-1\n3\n*End Assembly\n" +
+      "*Material, name=steel\n*Elastic\n1, .3\n");
+  EXPECT_EQ(namesOf(model.mesh.nodeSets), (std::vector<std::string>{"all", "Set-1", "Set-2"}));
+}
+
+TEST(Inp, IncludedFiles) {
+  const InpFile file("*INCLUDE, INPUT=nodes.inc\n9, 5, 5, 5\n*ELEMENT, TYPE=C3D8, INPUT=elements.inc\n");
+  file.beside("nodes.inc", kNodes.substr(0, kNodes.rfind("9,")));
+  file.beside("elements.inc", "1, 1,2,3,4,5,6,7,8\n");
+  const Model model = readInp(file.path(), Deck::no);
+  EXPECT_EQ(model.mesh.numElements(), 1);
+  EXPECT_EQ(model.mesh.numNodes(), 8);
+  file.beside("elements.inc", "1, 1,2,3,4,5,6,7\n");
+  try {
+    readInp(file.path(), Deck::no);
+    FAIL();
+  } catch (const Error& e) {
+    EXPECT_NE(std::string(e.what()).find("elements.inc:1: element 1 has 7 nodes; C3D8 has 8"),
+              std::string::npos)
+        << e.what();
+  }
+}
+
+TEST(Inp, ErrorsHaveFileAndLine) {
+  const std::vector<std::pair<std::string, std::string>> cases{
+      {"", "has no keyword"},
+      {"1, 2\n", ":1: is before the first keyword"},
+      {"*NODE\n1, x\n", ":2: 'x' is no coordinate"},
+      {"*NODE\n1, 1e999\n", ":2: '1e999' is no coordinate"},
+      {"*NODE\n1, nan\n", ":2: 'nan' is no coordinate"},
+      {"*NODE\n0, 1\n", ":2: '0' is no number of a node"},
+      {"*NODE\n4294967296\n", ":2: '4294967296' is no number of a node"},
+      {"*NODE, SYSTEM=C\n1\n", ":1: *NODE, SYSTEM=C: expected Cartesian"},
+      {"*NODE\n1\n", "has no element that this program knows"},
+      {"*NODE\n1\n*ELEMENT, TYPE=B31\n1, 1, 1\n", "has no element that this program knows"},
+      {kNodes + "*ELEMENT, TYPE=C3D8\n1, 1,2,3,4,5,6,7,99\n",
+       ":12: element 1 has node 99, which is not there"},
+      {kCube + "*ELEMENT, TYPE=C3D8\n1, 1,2,3,4,5,6,7,8\n", ":14: element 1 is there already"},
+      {kCube + "*NSET, NSET=a\nnone\n", ":14: there is no node set 'none'"},
+      {kCube + "*NSET\n1\n", ":13: *NSET: has no name"},
+      {kCube + "*SURFACE, NAME=s\ncube, S7\n", ":14: element 1 has no face 'S7'"},
+      {kCube + "*NGEN\n1, 2\n", ":13: *NGEN: is not known"},
+      {kCube + "*INCLUDE, INPUT=none.inc\n", "none.inc' does not exist"},
+      {"*INCLUDE, INPUT=model.inp\n", "is included 17 deep"},
+      {kCube + "*PART, NAME=a\n*PART, NAME=b\n", ":14: *PART: is the second one"},
+      {kCube + "*INSTANCE, NAME=a\n1., 0., 0.\n", ":14: *INSTANCE: is moved or turned"},
+      {kCube + "*ELEMENT, TYPE=CPS4\n2, 1,2,3,4\n", "elements 1 and 2 are C3D8 and CPS4"},
+      {"*NODE\n1\n2,1\n3,1,1,1\n*ELEMENT, TYPE=CPS3\n1, 1, 2, 3\n", "node 3 of a plane element has z = 1"}};
+  for (const auto& [text, what] : cases) expectRefused(text, Deck::no, what);
+}
+
+TEST(Inp, DeckOfAStaticStep) {
+  const Model model = readText(kCube + kSteel +
+                                   "*NSET, NSET=foot\n1, 2, 3, 4\n*BOUNDARY\nfoot, 3\n1, 1, 2\n4, 1\n1, "
+                                   "6\n*STEP, NLGEOM\n*STATIC\n*CLOAD\n5, 1, 2.\n5, 1, 1.\n6, 1, 3."
+                                   "\n*DLOAD\ncube, P2, 4.\ncube, GRAV, 10., 0., 0., -2.\n*BOUNDARY\n7, 3, "
+                                   "3, .5\n*NODE PRINT, NSET=all\nU\n*END STEP\n",
+                               Deck::yes);
+  const deck::Deck deck = deck::readDeckText("mesh: {file: m.exo}\n" + model.deck, "m.yaml");
+  ASSERT_EQ(deck.materials.size(), 1u);
+  EXPECT_EQ(deck.materials[0].blocks, std::vector<std::string>{"cube"});
+  // Nodes by what holds them: 2 and 3 (z), 4 (x, z), 1 (x, y, z), 7 (driven along z).
+  ASSERT_EQ(deck.supports.size(), 4u) << model.deck;
+  ASSERT_EQ(deck.loads.size(), 3u) << model.deck;
+  const auto expectIn = [&](const std::string& part) {
+    EXPECT_NE(model.deck.find(part), std::string::npos) << part << "\n" << model.deck;
+  };
+  expectIn("per_node: [3, 0, 0]");  // the two on node 5 add up: one load with node 6
+  expectIn("pressure: 4, follower: true");
+  expectIn("force: [0, 0, -20]");  // density 2
+  expectIn("z: {per_load_factor: 0.5}");
+  expectIn("stop: {load_factor: 1}");
+  ASSERT_EQ(model.mesh.sideSets.size(), 1u);
+  EXPECT_EQ(model.mesh.sideSets[0].sides[0].side, 5);  // the top
+  EXPECT_TRUE(std::any_of(model.remarks.begin(), model.remarks.end(), [](const std::string& r) {
+    return r.find(": *NODEPRINT: left out") != std::string::npos;
+  }));
+}
+
+TEST(Inp, DeckOfShells) {
+  const std::string plate =
+      "*NODE\n1\n2,1\n3,1,1\n4,0,1\n5,.5\n6,1,.5\n7,.5,1\n8,0,.5\n*ELEMENT, TYPE=S8R, ELSET=plate\n1, "
+      "1,2,3,4,5,6,7,8\n"
+      "*MATERIAL, NAME=al-7\n*ELASTIC\n70000, .33\n*SHELL SECTION, ELSET=plate, MATERIAL=AL-7\n.1\n";
+  const Model model = readText(plate +
+                                   "*BOUNDARY\n1, ENCASTRE\n4, XSYMM\n8, 1, 3\n8, 4\n*STEP\n*STATIC, "
+                                   "RIKS\n.1, 1., , , 2.5, 3, 3, -7.\n"
+                                   "*DLOAD\nplate, P, 2.\n*END STEP\n",
+                               Deck::yes);
+  ASSERT_EQ(model.mesh.blocks[0].attributes, std::vector<double>{.1});
+  ASSERT_EQ(model.mesh.sideSets.size(), 1u);
+  EXPECT_EQ(model.mesh.sideSets[0].sides[0].side, 1);  // along the normal: on the bottom
+  const deck::Deck deck = deck::readDeckText("mesh: {file: m.exo}\n" + model.deck, "m.yaml");
+  EXPECT_EQ(deck.materials[0].name, "al-7");
+  const auto expectIn = [&](const std::string& part) {
+    EXPECT_NE(model.deck.find(part), std::string::npos) << part << "\n" << model.deck;
+  };
+  expectIn("x: 0, y: 0, z: 0, director_x: 0, director_y: 0, director_z: 0");
+  expectIn("x: 0, director_x: 0}");  // no turn about y and z: the director stays in the plane of symmetry
+  expectIn("x: 0, y: 0, z: 0, director_y: 0}");  // none about x
+  expectIn("load_factor: 2.5, displacement: {end: -7}");
+}
+
+TEST(Inp, Materials) {
+  const std::string begin = kCube + "*SOLID SECTION, ELSET=cube, MATERIAL=m\n*MATERIAL, NAME=m\n",
+                    end = "*BOUNDARY\n1, 1, 3\n*STEP\n*STATIC\n*CLOAD\n7, 1, 1.\n*END STEP\n";
+  const std::vector<std::pair<std::string, std::string>> laws{
+      {"*HYPERELASTIC, NEO HOOKE\n3., .04\n", "law: mooney_rivlin, c1: 3, c2: 0, bulk_modulus: 50"},
+      {"*HYPERELASTIC, MOONEY-RIVLIN\n3., 1., .04\n", "law: mooney_rivlin, c1: 3, c2: 1, bulk_modulus: 50"},
+      {"*HYPERELASTIC, POLYNOMIAL, N=1\n3., 1., .04\n", "law: mooney_rivlin, c1: 3, c2: 1, bulk_modulus: 50"},
+      {"*HYPERELASTIC, YEOH\n3., -.1, .2, .04\n", "law: yeoh, c1: 3, c2: -0.1, c3: 0.2, bulk_modulus: 50"}};
+  for (const auto& [card, law] : laws) {
+    const Model model = readText(begin + card + end, Deck::yes);
+    EXPECT_NE(model.deck.find(law), std::string::npos) << model.deck;
+    deck::readDeckText("mesh: {file: m.exo}\n" + model.deck, "m.yaml");
+  }
+  expectRefused(begin + "*HYPERELASTIC, NEO HOOKE\n3., 0.\n" + end, Deck::yes,
+                ":15: *HYPERELASTIC: D1 is not positive");
+  expectRefused(begin + "*HYPERELASTIC, OGDEN\n3., 0.\n" + end, Deck::yes,
+                ":15: *HYPERELASTIC: no law here is equal");
+  expectRefused(begin + "*ELASTIC, TYPE=ORTHO\n3., 0.\n" + end, Deck::yes, ":15: *ELASTIC, TYPE=ORTHO");
+  expectRefused(begin + end, Deck::yes, ":14: material 'm' has neither");
+}
+
+TEST(Inp, DecksThatWouldBeAnotherProblemAreRefused) {
+  const std::string step = "*STEP\n*STATIC\n*CLOAD\n7, 1, 1.\n*END STEP\n";
+  expectRefused(kCube + kSteel, Deck::yes, "has no step with *STATIC or *BUCKLE");
+  expectRefused(kCube + kSteel + step, Deck::yes, "has no *BOUNDARY");
+  expectRefused(kCube + kSteel + "*BOUNDARY\n1, 1, 3\n*STEP\n*STATIC\n*END STEP\n", Deck::yes, "has no load");
+  expectRefused(kCube + "*BOUNDARY\n1, 1, 3\n" + step, Deck::yes, "has no section with a material");
+  expectRefused(kCube + kSteel + "*BOUNDARY\n1, 1, 3\n*TRANSFORM, NSET=all\n1, 0, 0, 0, 1, 0\n" + step,
+                Deck::yes, ":21: *TRANSFORM");
+}
+
+}  // namespace
+}  // namespace atrapos::import
