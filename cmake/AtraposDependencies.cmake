@@ -114,6 +114,8 @@ macro(atrapos_find target)
     atrapos_find_library(Exodus::exodus HEADER exodusII.h LIBRARIES exoIIv2c)
   elseif("${target}" STREQUAL "NetCDF::netcdf")
     atrapos_find_library(NetCDF::netcdf HEADER netcdf.h LIBRARIES netcdf)
+  elseif("${target}" STREQUAL "Gmsh::gmsh")
+    atrapos_find_library(Gmsh::gmsh HEADER gmsh.h LIBRARIES gmsh)
   elseif("${target}" STREQUAL "OpenCASCADE::exchange")
     atrapos_find_library(OpenCASCADE::exchange HEADER STEPControl_Reader.hxx LIBRARIES TKSTEP TKIGES TKXSBase TKShHealing
       TKTopAlgo TKGeomAlgo TKBRep TKGeomBase TKG3d TKG2d TKMath TKernel)

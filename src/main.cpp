@@ -51,7 +51,7 @@ int reported(const std::string& named, const F& f) {
     return fail(e.what(), kBadInput);
   } catch (const atrapos::exodus::Error& e) {
     return fail(e.what(), kBadInput);
-  } catch (const atrapos::import::Error& e) {
+  } catch (const atrapos::importer::Error& e) {
     return fail(e.what(), kBadInput);
   } catch (const atrapos::FileError& e) {
     return fail(e.what(), kBadInput);
@@ -233,13 +233,16 @@ int main(int argc, char** argv) {
 
   atrapos::ImportWords importWords;
   auto* importCommand = app.add_subcommand(
-      "import", "make a mesh, and a deck, of a file of Abaqus or CalculiX (.inp); docs/import.md");
-  importCommand->add_option("FILE", importWords.file, "input file: .inp")->required();
+      "import",
+      "make a mesh, and a deck, of a file of Abaqus, CalculiX (.inp) or Gmsh (.msh); docs/import.md");
+  importCommand->add_option("FILE", importWords.file, ".inp of Abaqus or CalculiX, .msh of Gmsh")->required();
   importCommand->add_option("-o,--output", importWords.output,
                             "Exodus file (default: FILE's name with .exo, here)");
-  importCommand->add_flag(
-      "--deck", importWords.deck,
-      "write a deck of the same problem beside the mesh, with .yaml; says line by line what it leaves out");
+  importCommand->add_flag("--deck", importWords.deck,
+                          "of .inp: write a deck of the same problem beside the mesh, with .yaml; says line "
+                          "by line what it leaves out");
+  importCommand->add_flag("--shells", importWords.shells,
+                          "Gmsh: quadrilaterals in z = 0 are shells (default: a plane body)");
   importCommand->add_flag("-q,--quiet", importWords.quiet, "print nothing");
 
   std::string meshFile;

@@ -19,6 +19,8 @@ buildPackages=(
   libgtest-dev libbenchmark-dev libadolc-dev
   # STEP and IGES files of tools.
   libocct-data-exchange-dev
+  # Meshes of Gmsh.
+  libgmsh-dev
   # Models of others, for a test of `atrapos import`.
   calculix-ccx-test
   gnuplot-nox

@@ -11,6 +11,7 @@
 
 #include "atrapos/exodus/MeshFile.hpp"
 #include "atrapos/exodus/ResultReader.hpp"
+#include "commands/GmshProgram.hpp"
 #include "commands/MeshCommand.hpp"
 #include "deck/Characters.hpp"
 #include "deck/Deck.hpp"
@@ -21,13 +22,12 @@
 namespace atrapos {
 namespace {
 
-import::Model readModel(const std::string& file, import::Deck deck){
-    std::string ending = std::filesystem::path(file).extension().string();
-std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
-if (ending == ".inp") return import::readInp(file, deck);
-throw std::invalid_argument(
-    fmt::format("{}: its ending says no format; expected .inp (Abaqus, CalculiX)", file));
-}  // namespace
+std::string endingOf(const std::string& file) {
+  std::string ending = std::filesystem::path(file).extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return std::tolower(c); });
+  return ending;
+}
 
 void requirePlaceForMesh(const std::string& file, const std::string& input) {
   requireOwn(file, Made::mesh, {input});
@@ -40,17 +40,18 @@ std::string count(std::size_t n, const std::string& what) {
   return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
 }
 
-}  // namespace atrapos
+std::string summary(const std::string& file, const fem::Mesh& mesh) {
+  return fmt::format("{}: {}, {}, {}\n", file, describeMesh(mesh), count(mesh.nodeSets.size(), "node set"),
+                     count(mesh.sideSets.size(), "side set"));
+}
 
-void importFile(const ImportWords& words, std::ostream& out) {
-  const auto stem = std::filesystem::path(words.file).stem();
-  const std::string mesh = words.output.empty() ? stem.string() + ".exo" : words.output;
+void importInp(const ImportWords& words, const std::string& mesh, std::ostream& out) {
   const std::string deckFile = std::filesystem::path(mesh).replace_extension(".yaml").string();
-  requirePlaceForMesh(mesh, words.file);
   if (words.deck && std::filesystem::exists(deckFile))
     throw std::invalid_argument(
         fmt::format("{} is there already, and decks are not replaced; expected another --output", deckFile));
-  const import::Model model = readModel(words.file, words.deck ? import::Deck::yes : import::Deck::no);
+  const importer::Model model =
+      importer::readInp(words.file, words.deck ? importer::Deck::yes : importer::Deck::no);
   std::string text;
   if (words.deck) {
     text = fmt::format("# Made by atrapos import of {}\nmesh: {{file: {}}}\n{}", deck::plainLine(words.file),
@@ -60,11 +61,27 @@ void importFile(const ImportWords& words, std::ostream& out) {
   exodus::writeMesh(model.mesh, mesh);
   if (words.deck) replaceFile(deckFile, text);
   if (words.quiet) return;
-  out << fmt::format("{}: {}, {}, {}\n", mesh, describeMesh(model.mesh),
-                     count(model.mesh.nodeSets.size(), "node set"),
-                     count(model.mesh.sideSets.size(), "side set"));
+  out << summary(mesh, model.mesh);
   if (words.deck) out << fmt::format("{}: a deck, for atrapos run\n", deckFile);
   for (const std::string& remark : model.remarks) out << deck::plainLine(remark) << '\n';
+}
+
+}  // namespace
+
+void importFile(const ImportWords& words, std::ostream& out) {
+  const std::string mesh =
+      words.output.empty() ? std::filesystem::path(words.file).stem().string() + ".exo" : words.output;
+  const std::string ending = endingOf(words.file);
+  const auto refuse = [&](const std::string& what) { throw std::invalid_argument(words.file + ": " + what); };
+  if (ending != ".inp" && ending != ".msh")
+    refuse("its ending says no format; expected .inp (Abaqus, CalculiX) or .msh (Gmsh)");
+  if (ending == ".msh" && words.deck)
+    refuse("--deck: a mesh has no materials and no loads; expected a file .inp");
+  if (ending == ".inp" && words.shells) refuse("--shells: elements say what they are; expected a file .msh");
+  requirePlaceForMesh(mesh, words.file);
+  if (ending == ".inp") return importInp(words, mesh, out);
+  runGmshProgram(words.file, mesh, words.shells, words.quiet);
+  if (!words.quiet) out << summary(mesh, exodus::readMesh(mesh));
 }
 
 }  // namespace atrapos

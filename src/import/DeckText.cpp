@@ -4,7 +4,7 @@
 
 #include "deck/Fields.hpp"
 
-namespace atrapos::import {
+namespace atrapos::importer {
 
 std::string DeckEntries::add(const std::string& wanted, const std::string& keys) {
   std::string letters;
@@ -31,4 +31,4 @@ std::string listOf(const std::vector<std::string>& names) {
   return "[" + list + "]";
 }
 
-}  // namespace atrapos::import
+}  // namespace atrapos::importer

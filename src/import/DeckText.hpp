@@ -5,7 +5,7 @@
 
 #include "import/Names.hpp"
 
-namespace atrapos::import {
+namespace atrapos::importer {
 
 /// Named entries of a deck's block, one a line.
 class DeckEntries {
@@ -23,4 +23,4 @@ class DeckEntries {
 /// [a, 'b c']
 std::string listOf(const std::vector<std::string>& names);
 
-}  // namespace atrapos::import
+}  // namespace atrapos::importer

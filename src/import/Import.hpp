@@ -6,7 +6,7 @@
 
 #include "atrapos/fem/Mesh.hpp"
 
-namespace atrapos::import {
+namespace atrapos::importer {
 
 /// A file cannot be imported: one line, "file:line: what, what would be accepted".
 class Error : public std::runtime_error {
@@ -28,4 +28,4 @@ enum class Deck { no, yes };
 /// Throws Error where the file cannot be read, is damaged, or has nothing that this program knows.
 Model readInp(const std::string& file, Deck deck);
 
-}  // namespace atrapos::import
+}  // namespace atrapos::importer

@@ -15,7 +15,7 @@
 #include "import/InpMaterials.hpp"
 #include "import/ShellSupports.hpp"
 
-namespace atrapos::import {
+namespace atrapos::importer {
 namespace {
 
 constexpr std::size_t mostMonitors = 12;
@@ -292,4 +292,4 @@ std::string inpDeck(InpModel& model, const InpStep& step, InpMesh& mesh) {
   return DeckMaker(model, step, mesh)();
 }
 
-}  // namespace atrapos::import
+}  // namespace atrapos::importer

@@ -6,7 +6,7 @@
 #include "import/InpMesh.hpp"
 #include "import/InpStep.hpp"
 
-namespace atrapos::import {
+namespace atrapos::importer {
 
 /// Element sets, as lists of positions, whose elements need blocks of their own: those with loads by volume.
 std::vector<std::vector<int>> inpCuts(const InpStep& step);
@@ -15,4 +15,4 @@ std::vector<std::vector<int>> inpCuts(const InpStep& step);
 /// leaves out. Throws Error where materials, supports or loads have no equal at all.
 std::string inpDeck(InpModel& model, const InpStep& step, InpMesh& mesh);
 
-}  // namespace atrapos::import
+}  // namespace atrapos::importer

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <numeric>
 
-namespace atrapos::import {
+namespace atrapos::importer {
 namespace {
 
 using fem::Topology;
@@ -132,4 +132,4 @@ int inpSide(fem::Topology topology, int face) {
   return face >= 0 && face < static_cast<int>(sides.size()) ? sides[static_cast<std::size_t>(face)] : -1;
 }
 
-}  // namespace atrapos::import
+}  // namespace atrapos::importer

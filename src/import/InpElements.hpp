@@ -5,7 +5,7 @@
 
 #include "atrapos/fem/Mesh.hpp"
 
-namespace atrapos::import {
+namespace atrapos::importer {
 
 /// What bodies elements stand for.
 enum class Family { solid, shell, planeStress, planeStrain, axisymmetric };
@@ -32,4 +32,4 @@ const std::vector<int>& inpNodeOrder(fem::Topology topology);
 /// Of shells S1 is the bottom, S2 the top, S3 to S6 the edges, as CalculiX counts.
 int inpSide(fem::Topology topology, int face);
 
-}  // namespace atrapos::import
+}  // namespace atrapos::importer

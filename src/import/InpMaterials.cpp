@@ -7,7 +7,7 @@
 #include "deck/Characters.hpp"
 #include "import/Import.hpp"
 
-namespace atrapos::import {
+namespace atrapos::importer {
 namespace {
 
 /// Numbers of the card's first line of data; more of them, for other temperatures, are remarked. They may go
@@ -100,4 +100,4 @@ double inpDensity(const InpModel& model, const std::string& name, const InpPlace
   place.fail(fmt::format("gravity acts on material '{}', which has no *DENSITY", deck::shortened(name)));
 }
 
-}  // namespace atrapos::import
+}  // namespace atrapos::importer

@@ -4,7 +4,7 @@
 
 #include "import/InpModel.hpp"
 
-namespace atrapos::import {
+namespace atrapos::importer {
 
 /// Law and constants of a material as keys of a deck, "law: saint_venant_kirchhoff, youngs_modulus: ...".
 /// Remarks what it leaves out; throws Error where no law is equal.
@@ -13,4 +13,4 @@ std::string inpLaw(InpModel& model, const std::string& name);
 /// Throws Error, for `place`, where the material has none.
 double inpDensity(const InpModel& model, const std::string& material, const InpPlace& place);
 
-}  // namespace atrapos::import
+}  // namespace atrapos::importer

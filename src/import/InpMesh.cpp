@@ -11,7 +11,7 @@
 #include "deck/Characters.hpp"
 #include "import/Import.hpp"
 
-namespace atrapos::import {
+namespace atrapos::importer {
 namespace {
 
 /// What elements of a block have in common.
@@ -190,4 +190,4 @@ std::vector<std::string> InpMesh::blocks(const std::vector<int>& elements) const
   return names;
 }
 
-}  // namespace atrapos::import
+}  // namespace atrapos::importer

@@ -7,7 +7,7 @@
 #include "import/InpModel.hpp"
 #include "import/Names.hpp"
 
-namespace atrapos::import {
+namespace atrapos::importer {
 
 /// The mesh of an input file, and which of its nodes, elements and sets are which of the file's.
 class InpMesh {
@@ -40,4 +40,4 @@ class InpMesh {
   std::map<std::vector<std::pair<int, int>>, std::string> sideSets_;
 };
 
-}  // namespace atrapos::import
+}  // namespace atrapos::importer

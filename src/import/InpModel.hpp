@@ -9,7 +9,7 @@
 #include "import/InpElements.hpp"
 #include "import/InpSource.hpp"
 
-namespace atrapos::import {
+namespace atrapos::importer {
 
 /// Named lists in the order of the file; names compare without regard to case.
 template <class Item>
@@ -106,4 +106,4 @@ std::optional<int> inpFace(fem::Topology topology, std::string_view label);
 /// The name without quotes.
 std::string inpName(std::string_view field);
 
-}  // namespace atrapos::import
+}  // namespace atrapos::importer

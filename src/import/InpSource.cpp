@@ -13,7 +13,7 @@
 #include "deck/Characters.hpp"
 #include "import/Import.hpp"
 
-namespace atrapos::import {
+namespace atrapos::importer {
 namespace {
 
 constexpr int mostIncludes = 16;         // within each other
@@ -236,4 +236,4 @@ double inpNumber(std::string_view field, const InpPlace& place, const char* what
   return value;
 }
 
-}  // namespace atrapos::import
+}  // namespace atrapos::importer

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-namespace atrapos::import {
+namespace atrapos::importer {
 
 /// Most bytes of an input file and of all that it includes.
 constexpr std::size_t mostInpBytes = std::size_t{1} << 30;
@@ -98,4 +98,4 @@ bool isInteger(std::string_view field);
 /// Number of a field, as Fortran writes them too (1.5D3); 0 where it is empty.
 double inpNumber(std::string_view field, const InpPlace& place, const char* what);
 
-}  // namespace atrapos::import
+}  // namespace atrapos::importer

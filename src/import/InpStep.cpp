@@ -10,7 +10,7 @@
 #include "deck/Characters.hpp"
 #include "import/Import.hpp"
 
-namespace atrapos::import {
+namespace atrapos::importer {
 namespace {
 
 constexpr std::size_t mostLoadEntries = 50'000'000;
@@ -242,4 +242,4 @@ class StepReader {
 
 InpStep readInpStep(InpModel& model) { return StepReader(model)(); }
 
-}  // namespace atrapos::import
+}  // namespace atrapos::importer

@@ -8,7 +8,7 @@
 
 #include "import/InpModel.hpp"
 
-namespace atrapos::import {
+namespace atrapos::importer {
 
 /// What a file says of one node's displacement (0 to 2) and rotation (3 to 5) components.
 struct InpSupport {
@@ -46,4 +46,4 @@ struct InpStep {
 /// where there is none.
 InpStep readInpStep(InpModel& model);
 
-}  // namespace atrapos::import
+}  // namespace atrapos::importer

@@ -2,7 +2,7 @@
 
 #include "deck/Characters.hpp"
 
-namespace atrapos::import {
+namespace atrapos::importer {
 
 std::string plainName(const std::string& name) {
   std::string plain = deck::plainLine(deck::beginOf(name, 200));
@@ -17,4 +17,4 @@ std::string Names::take(const std::string& wanted) {
   return name;
 }
 
-}  // namespace atrapos::import
+}  // namespace atrapos::importer

@@ -3,7 +3,7 @@
 #include <string>
 #include <unordered_map>
 
-namespace atrapos::import {
+namespace atrapos::importer {
 
 /// A name as messages, decks and Exodus hold it: UTF-8 on one line, at most 200 bytes, not empty.
 std::string plainName(const std::string& name);
@@ -19,4 +19,4 @@ class Names {
   std::unordered_map<std::string, int> given_;  ///< and the last number behind it
 };
 
-}  // namespace atrapos::import
+}  // namespace atrapos::importer

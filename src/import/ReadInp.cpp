@@ -4,7 +4,7 @@
 #include "import/InpModel.hpp"
 #include "import/InpStep.hpp"
 
-namespace atrapos::import {
+namespace atrapos::importer {
 
 Model readInp(const std::string& file, Deck deck) {
   const InpSource source(file);
@@ -22,4 +22,4 @@ Model readInp(const std::string& file, Deck deck) {
   return result;
 }
 
-}  // namespace atrapos::import
+}  // namespace atrapos::importer

@@ -14,7 +14,7 @@
 #include "import/Import.hpp"
 #include "import/InpModel.hpp"
 
-namespace atrapos::import {
+namespace atrapos::importer {
 namespace {
 
 constexpr long long mostId = std::numeric_limits<int>::max();
@@ -440,4 +440,4 @@ std::string inpName(std::string_view field) {
   return std::string(field);
 }
 
-}  // namespace atrapos::import
+}  // namespace atrapos::importer

@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-namespace atrapos::import {
+namespace atrapos::importer {
 namespace {
 
 /// The axis that the element's normal is along, -1 where there is none.
@@ -60,4 +60,4 @@ std::optional<std::set<int>> ShellSupports::heldDirectors(int node, const InpSup
   return components;
 }
 
-}  // namespace atrapos::import
+}  // namespace atrapos::importer

@@ -7,7 +7,7 @@
 #include "import/InpModel.hpp"
 #include "import/InpStep.hpp"
 
-namespace atrapos::import {
+namespace atrapos::importer {
 
 /// Rotations that are held at nodes of shells, as components of the directors' displacement w = theta x d
 /// that are 0.
@@ -27,4 +27,4 @@ class ShellSupports {
       normalAxis_;  ///< by node of a shell: 0 to 2, -1 where the normal is along no axis
 };
 
-}  // namespace atrapos::import
+}  // namespace atrapos::importer

@@ -10,7 +10,7 @@
 
 #include "import/Import.hpp"
 
-namespace atrapos::import {
+namespace atrapos::importer {
 
 /// model.inp in a folder of its own, which goes with it.
 class InpFile {
@@ -60,4 +60,4 @@ std::vector<std::string> namesOf(const Items& items) {
   return names;
 }
 
-}  // namespace atrapos::import
+}  // namespace atrapos::importer

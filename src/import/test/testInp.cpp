@@ -11,7 +11,7 @@
 #include "atrapos/fem/ReferenceCell.hpp"
 #include "deck/Deck.hpp"
 
-namespace atrapos::import {
+namespace atrapos::importer {
 namespace {
 
 using fem::Topology;
@@ -294,4 +294,4 @@ TEST(Inp, DecksThatWouldBeAnotherProblemAreRefused) {
 }
 
 }  // namespace
-}  // namespace atrapos::import
+}  // namespace atrapos::importer

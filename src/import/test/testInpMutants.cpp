@@ -11,7 +11,7 @@
 #include "InpFile.hpp"
 #include "deck/Deck.hpp"
 
-namespace atrapos::import {
+namespace atrapos::importer {
 namespace {
 
 /// Something of all that is read.
@@ -179,4 +179,4 @@ TEST(InpMutants, AreReadOrRefusedWithOneLine) {
 }
 
 }  // namespace
-}  // namespace atrapos::import
+}  // namespace atrapos::importer

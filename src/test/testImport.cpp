@@ -1,0 +1,124 @@
+// `atrapos import`: its manners, and the way from the files of others to a path.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <sstream>
+
+#include "atrapos/exodus/MeshFile.hpp"
+#include "support/Command.hpp"
+#include "support/Folder.hpp"
+
+namespace atrapos::test {
+namespace {
+
+/// A bar of one cell that is pulled along x.
+const std::string kBar =
+    "*NODE, NSET=all\n1\n2, 10.\n3, 10., 1.\n4, 0., 1.\n5, 0, 0, 1\n6, 10, 0, 1\n7, 10, 1, 1\n8, 0, 1, 1\n"
+    "*ELEMENT, TYPE=C3D8, ELSET=bar\n1, 1, 2, 3, 4, 5, 6, 7, 8\n*NSET, NSET=tip\n2, 3, 6, 7\n*MATERIAL, "
+    "NAME=steel\n*ELASTIC\n210000., 0.\n"
+    "*SOLID SECTION, ELSET=bar, MATERIAL=steel\n*BOUNDARY\n1, 1, 3\n4, 1\n4, 3\n5, 1, 2\n8, 1\n*STEP, "
+    "NLGEOM\n*STATIC\n*CLOAD\ntip, 1, 25.\n"
+    "*EL PRINT, ELSET=bar\nS\n*END STEP\n";
+
+/// A cell of Gmsh, 2.2, with a side.
+const std::string kCell =
+    "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n2 1 \"foot\"\n3 2 \"the "
+    "body\"\n$EndPhysicalNames\n$Nodes\n8\n1 0 0 0\n2 1 0 0\n"
+    "3 1 1 0\n4 0 1 0\n5 0 0 1\n6 1 0 1\n7 1 1 1\n8 0 1 1\n$EndNodes\n$Elements\n2\n1 3 2 1 1 1 2 3 4\n2 5 2 "
+    "2 1 1 2 3 4 5 6 7 8\n$EndElements\n";
+
+class Import : public ::testing::Test {
+ protected:
+  CommandResult import(const std::vector<std::string>& words) {
+    std::vector<std::string> all{"import"};
+    all.insert(all.end(), words.begin(), words.end());
+    return runAtrapos(all, folder_.path());
+  }
+  void expectRefused(const std::vector<std::string>& words, const std::string& line) {
+    const auto before = snapshot(folder_.path());
+    const CommandResult r = import(words);
+    EXPECT_EQ(r.exitCode, 2) << r.err;
+    EXPECT_EQ(r.out, "");
+    ASSERT_EQ(r.errorLines().size(), 1u) << r.err;
+    EXPECT_NE(r.err.find(line), std::string::npos) << r.err;
+    EXPECT_TRUE(snapshot(folder_.path()) == before);
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(Import, FromAnInputFileToAPath) {
+  writeFile(folder_ / "bar.inp", kBar);
+  const CommandResult r = import({"bar.inp", "--deck"});
+  ASSERT_EQ(r.exitCode, 0) << r.err;
+  EXPECT_EQ(r.err, "");
+  EXPECT_EQ(
+      r.out,
+      "bar.exo: 8 nodes, 1 HEX8 in block 'bar', 6 node sets, 0 side sets\nbar.yaml: a deck, for atrapos run\n"
+      "bar.inp:10: *ELEMENT, TYPE=C3D8: HEX8 has 2 x 2 x 2 points for all strains; Abaqus' C3D8 treats that "
+      "of the "
+      "volume apart\nbar.inp:28: *ELPRINT: left out\n");
+  const CommandResult run = runAtrapos({"run", "-q", "bar.yaml"}, folder_.path());
+  ASSERT_EQ(run.exitCode, 0) << run.err;
+  // S = E e with the Green strain e = (g^2 - 1)/2, and the force per undeformed area is g S = 100.
+  std::istringstream rows(readFile(folder_ / "bar_results" / "path.csv"));
+  std::string line, last, head;
+  std::getline(rows, head);
+  while (std::getline(rows, line)) last = line;
+  EXPECT_EQ(head.rfind("step,path_length,load_factor,tip_ux", 0), 0u) << head;
+  std::istringstream cells(last);
+  for (int i = 0; i < 4; ++i) std::getline(cells, line, ',');
+  const double stretch = 1 + std::stod(line) / 10;
+  // path.csv is exact to the residual bound of the path, 1e-6.
+  EXPECT_NEAR(210000 * stretch * (stretch * stretch - 1) / 2, 100, 1e-4);
+}
+
+TEST_F(Import, WhatIsThereIsNotReplaced) {
+  writeFile(folder_ / "bar.inp", kBar);
+  ASSERT_EQ(import({"bar.inp", "--deck", "-q"}).exitCode, 0);
+  EXPECT_EQ(import({"bar.inp", "-q"}).out, "");  // a mesh of our own is
+  expectRefused({"bar.inp", "--deck"}, "bar.yaml is there already");
+  writeFile(folder_ / "notes.exo", "notes");
+  expectRefused({"bar.inp", "-o", "notes.exo"}, "was not made by atrapos");
+  expectRefused({"bar.inp", "-o", "bar.inp"}, "is read too");
+  EXPECT_EQ(import({"bar.inp", "--deck", "-o", "other.exo"}).exitCode, 0);
+  EXPECT_NE(readFile(folder_ / "other.yaml").find("mesh: {file: 'other.exo'}"), std::string::npos);
+}
+
+TEST_F(Import, WordsThatDoNotFit) {
+  writeFile(folder_ / "bar.inp", edited(kBar, "210000., 0.", "210000., 0.7"));
+  writeFile(folder_ / "cell.msh", kCell);
+  writeFile(folder_ / "mesh.stl", "solid");
+  expectRefused({"mesh.stl"}, "expected .inp (Abaqus, CalculiX) or .msh (Gmsh)");
+  expectRefused({"none.inp"}, "none.inp: does not exist");
+  expectRefused({"bar.inp", "--deck"}, "poissons_ratio");
+  expectRefused({"bar.inp", "--shells"}, "--shells");
+  expectRefused({"cell.msh", "--deck"}, "--deck: a mesh has no materials");
+}
+
+#ifdef ATRAPOS_GMSH
+TEST_F(Import, FromGmsh) {
+  writeFile(folder_ / "cell.msh", kCell);
+  const CommandResult r = import({"cell.msh", "-o", "mesh.exo"});
+  ASSERT_EQ(r.exitCode, 0) << r.err;
+  EXPECT_EQ(r.out, "mesh.exo: 8 nodes, 1 HEX8 in block 'the body', 1 node set, 1 side set\n");
+  EXPECT_EQ(exodus::readMesh((folder_ / "mesh.exo").string()).sideSets.at(0).name, "foot");
+}
+
+TEST_F(Import, DamagedMeshesOfGmsh) {
+  const std::vector<std::pair<std::string, std::string>> changes{
+      {"$Nodes\n8", "$Nodes\n99999999999"}, {"1 2 3 4 5 6 7 8\n", "1 2 3 4 5 6 7 9\n"},
+      {"2 5 2 2 1", "2 999 2 2 1"},         {"8 0 1 1", "8 0 x 1"},
+      {"$Elements\n2", "$Elements\n-1"},    {"2.2 0 8", "2.2 1 8"}};
+  for (const auto& [from, to] : changes) {
+    SCOPED_TRACE(to);
+    writeFile(folder_ / "cell.msh", edited(kCell, from, to));
+    expectRefused({"cell.msh"}, "cell.msh: ");
+  }
+  writeFile(folder_ / "cell.msh", "SystemCall \"touch ran\";\n");
+  expectRefused({"cell.msh"}, "is no mesh of Gmsh");
+}
+#endif
+
+}  // namespace
+}  // namespace atrapos::test
