@@ -232,10 +232,14 @@ int main(int argc, char** argv) {
   meshCommand->add_flag("-q,--quiet", quiet, "print nothing");
 
   atrapos::ImportWords importWords;
-  auto* importCommand = app.add_subcommand(
-      "import",
-      "make a mesh, and a deck, of a file of Abaqus, CalculiX (.inp) or Gmsh (.msh); docs/import.md");
-  importCommand->add_option("FILE", importWords.file, ".inp of Abaqus or CalculiX, .msh of Gmsh")->required();
+  auto* importCommand =
+      app.add_subcommand("import",
+                         "make a mesh, and a deck, of a file of Abaqus, CalculiX (.inp), Gmsh (.msh) or "
+                         "another program that writes Exodus; docs/import.md");
+  importCommand
+      ->add_option("FILE", importWords.file,
+                   ".inp of Abaqus or CalculiX, .msh of Gmsh, .exo, .e, .ex2, .g, .gen of Exodus")
+      ->required();
   importCommand->add_option("-o,--output", importWords.output,
                             "Exodus file (default: FILE's name with .exo, here)");
   importCommand->add_flag("--deck", importWords.deck,

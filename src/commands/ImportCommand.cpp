@@ -17,6 +17,7 @@
 #include "deck/Deck.hpp"
 #include "deck/Fields.hpp"
 #include "import/Import.hpp"
+#include "import/UsedNodes.hpp"
 #include "output/Files.hpp"
 
 namespace atrapos {
@@ -66,6 +67,18 @@ void importInp(const ImportWords& words, const std::string& mesh, std::ostream& 
   for (const std::string& remark : model.remarks) out << deck::plainLine(remark) << '\n';
 }
 
+void importExodus(const ImportWords& words, const std::string& mesh, std::ostream& out) {
+  exodus::ForeignMesh read = exodus::readForeignMesh(words.file);
+  const int dropped = importer::dropUnusedNodes(read.mesh);
+  exodus::writeMesh(read.mesh, mesh);
+  if (words.quiet) return;
+  out << summary(mesh, read.mesh);
+  for (const std::string& remark : read.remarks) out << deck::plainLine(remark) << '\n';
+  if (dropped > 0)
+    out << fmt::format("{}: {} left out that no element has\n", words.file,
+                       count(static_cast<std::size_t>(dropped), "node"));
+}
+
 }  // namespace
 
 void importFile(const ImportWords& words, std::ostream& out) {
@@ -73,13 +86,18 @@ void importFile(const ImportWords& words, std::ostream& out) {
       words.output.empty() ? std::filesystem::path(words.file).stem().string() + ".exo" : words.output;
   const std::string ending = endingOf(words.file);
   const auto refuse = [&](const std::string& what) { throw std::invalid_argument(words.file + ": " + what); };
-  if (ending != ".inp" && ending != ".msh")
-    refuse("its ending says no format; expected .inp (Abaqus, CalculiX) or .msh (Gmsh)");
+  const bool isExodus =
+      ending == ".exo" || ending == ".e" || ending == ".ex2" || ending == ".g" || ending == ".gen";
+  if (ending != ".inp" && ending != ".msh" && !isExodus)
+    refuse(
+        "its ending says no format; expected .inp (Abaqus, CalculiX), .msh (Gmsh), or .exo, .e, .ex2, .g, "
+        ".gen (Exodus)");
   if (ending == ".msh" && words.deck)
     refuse("--deck: a mesh has no materials and no loads; expected a file .inp");
-  if (ending == ".inp" && words.shells) refuse("--shells: elements say what they are; expected a file .msh");
+  if (ending != ".msh" && words.shells) refuse("--shells: elements say what they are; expected a file .msh");
   requirePlaceForMesh(mesh, words.file);
   if (ending == ".inp") return importInp(words, mesh, out);
+  if (isExodus) return importExodus(words, mesh, out);
   runGmshProgram(words.file, mesh, words.shells, words.quiet);
   if (!words.quiet) out << summary(mesh, exodus::readMesh(mesh));
 }

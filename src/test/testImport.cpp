@@ -89,11 +89,32 @@ TEST_F(Import, WordsThatDoNotFit) {
   writeFile(folder_ / "bar.inp", edited(kBar, "210000., 0.", "210000., 0.7"));
   writeFile(folder_ / "cell.msh", kCell);
   writeFile(folder_ / "mesh.stl", "solid");
-  expectRefused({"mesh.stl"}, "expected .inp (Abaqus, CalculiX) or .msh (Gmsh)");
+  expectRefused({"mesh.stl"}, "expected .inp (Abaqus, CalculiX), .msh (Gmsh), or .exo");
   expectRefused({"none.inp"}, "none.inp: does not exist");
   expectRefused({"bar.inp", "--deck"}, "poissons_ratio");
   expectRefused({"bar.inp", "--shells"}, "--shells");
   expectRefused({"cell.msh", "--deck"}, "--deck: a mesh has no materials");
+}
+
+// Nodes that no element has, and ids from 0.
+TEST_F(Import, FromExodus) {
+  fem::Mesh mesh;
+  mesh.coordinates = {5, 5, 5, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
+  mesh.blocks.push_back({"", 0, fem::Topology::Tet4, {1, 2, 3, 4}, {}, {}});
+  mesh.nodeSets.push_back({"far", 0, {0}});
+  mesh.nodeSets.push_back({"some", 1, {0, 2}, {.25, .75}});
+  exodus::writeMesh(mesh, (folder_ / "other.e").string());
+  const CommandResult r = import({"other.e", "-o", "mesh.exo"});
+  ASSERT_EQ(r.exitCode, 0) << r.err;
+  EXPECT_EQ(r.out,
+            "mesh.exo: 4 nodes, 1 TET4 in block '', 1 node set, 0 side sets\nother.e: 1 node left out that "
+            "no element has\n");
+  const fem::Mesh back = exodus::readMesh((folder_ / "mesh.exo").string());
+  EXPECT_EQ(back.nodeIds, (std::vector<long long>{2, 3, 4, 5}));
+  ASSERT_EQ(back.nodeSets.size(), 1u);
+  EXPECT_EQ(back.nodeSets[0].nodes, std::vector<int>{1});
+  EXPECT_EQ(back.nodeSets[0].factors, std::vector<double>{.75});
+  expectRefused({"other.e", "-o", "other.e"}, "is read too");
 }
 
 #ifdef ATRAPOS_GMSH

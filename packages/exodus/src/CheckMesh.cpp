@@ -152,8 +152,8 @@ class Checker {
     for (const auto& item : items) {
       require(item.name.size() <= maxName,
               kind + " " + std::to_string(item.id) + " has a name of more than 255 characters");
-      require(item.id > 0 && item.id <= maxId,
-              describe(kind, item) + " has an id that is not within 1 and 2147483647");
+      require(item.id >= 0 && item.id <= maxId,  // meshio counts from 0
+              describe(kind, item) + " has an id that is not within 0 and 2147483647");
       require(ids.insert(item.id).second, describe(kind, item) + " has the id of another " + kind);
     }
   }

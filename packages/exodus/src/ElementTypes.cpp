@@ -44,6 +44,14 @@ std::optional<fem::Topology> topologyOf(const std::string& elementType, int node
   return std::nullopt;
 }
 
+bool isLower(const std::string& elementType) {
+  const std::string type = upperCase(elementType);
+  for (const char* prefix :
+       {"BAR", "BEAM", "TRUSS", "EDGE", "LINE", "SPHERE", "CIRCLE", "POINT", "NODE", "VERTEX"})
+    if (type.rfind(prefix, 0) == 0) return true;
+  return false;
+}
+
 int firstSide(const std::string& elementType, int dimensions) {
   return dimensions == 3 && upperCase(elementType).rfind("QUAD", 0) == 0 ? 2 : 0;
 }

@@ -11,6 +11,9 @@ namespace atrapos::exodus {
 /// nothing where it is not supported. In three dimensions QUAD is a shell.
 std::optional<fem::Topology> topologyOf(const std::string& elementType, int nodesPerElement, int dimensions);
 
+/// Whether an element type is one of lines or points: BAR, BEAM, TRUSS, EDGE, LINE, SPHERE, POINT, ...
+bool isLower(const std::string& elementType);
+
 /// Position of an element type's first side among those of its topology: 2 for QUAD in three dimensions,
 /// whose sides are the four edges, where those of SHELL are two faces and four edges; 0 for all others.
 int firstSide(const std::string& elementType, int dimensions);

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <limits>
+#include <set>
 #include <utility>
 
 #include "CheckMesh.hpp"
@@ -22,9 +23,17 @@ class MeshReader {
   fem::Mesh whole() {
     read();
     mesh_.nodeIds = trivialDropped(idMap(EX_NODE_MAP, init_.num_nodes));
-    mesh_.elementIds = trivialDropped(idMap(EX_ELEM_MAP, init_.num_elem));
+    mesh_.elementIds = trivialDropped(ofCells(idMap(EX_ELEM_MAP, init_.num_elem)));
     checkMesh(mesh_, file_.name());
     return std::move(mesh_);
+  }
+
+  ForeignMesh foreign() {
+    lowerCells_ = true;
+    ForeignMesh result;
+    result.mesh = whole();
+    result.remarks = std::move(remarks_);
+    return result;
   }
 
   MeshPart part(const PartName& name) {
@@ -61,6 +70,7 @@ class MeshReader {
             "the blocks have " + std::to_string(firstSide_.size()) + " elements, the file announces " +
                 std::to_string(init_.num_elem));
     readSideSets();
+    addLowerSets();
   }
 
   void require(bool condition, const std::string& message) const {
@@ -109,6 +119,10 @@ class MeshReader {
         empty.id = id;
         continue;
       }
+      if (lowerCells_ && isLower(param.topology)) {
+        keepAsSet(param, name, owner);
+        continue;
+      }
       const auto topology =
           topologyOf(param.topology, static_cast<int>(param.num_nodes_per_entry), mesh_.dimension);
       require(topology.has_value(), owner + ": element type '" + param.topology + "' with " +
@@ -131,6 +145,40 @@ class MeshReader {
                         firstSide(param.topology, mesh_.dimension));
       mesh_.blocks.push_back(std::move(block));
     }
+  }
+
+  /// The nodes of a block of lines or points; its elements count where the file numbers elements.
+  void keepAsSet(const ex_block& param, const std::string& name, const std::string& owner) {
+    require(param.num_entry > 0 && param.num_entry <= init_.num_elem,
+            owner + " has more elements than the mesh");
+    std::vector<int> nodes = readConnectivity(param, owner);
+    std::sort(nodes.begin(), nodes.end());
+    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+    const std::string set = name.empty() ? "block_" + std::to_string(param.id) : name;
+    remarks_.push_back(file_.name() + ": " + owner + " has " + std::to_string(param.num_entry) +
+                       " elements '" + param.topology + "', whose nodes are the node set '" + set + "'");
+    lowerSets_.push_back({set, 0, std::move(nodes)});
+    firstSide_.insert(firstSide_.end(), static_cast<std::size_t>(param.num_entry), noCell);
+  }
+
+  /// With the first ids that are free.
+  void addLowerSets() {
+    std::set<long long> ids;
+    for (const fem::NodeSet& set : mesh_.nodeSets) ids.insert(set.id);
+    long long id = 1;
+    for (fem::NodeSet& set : lowerSets_) {
+      while (!ids.insert(id).second) ++id;
+      set.id = id;
+      mesh_.nodeSets.push_back(std::move(set));
+    }
+  }
+
+  /// Values by the file's elements without those that are no cells.
+  std::vector<long long> ofCells(const std::vector<long long>& values) const {
+    std::vector<long long> kept;
+    for (std::size_t i = 0; i < values.size(); ++i)
+      if (firstSide_[i] != noCell) kept.push_back(values[i]);
+    return kept;
   }
 
   std::vector<int> readConnectivity(const ex_block& param, const std::string& owner) const {
@@ -202,15 +250,32 @@ class MeshReader {
       const auto element = zeroBased(elements, init_.num_elem, owner, "element");
       const auto side = zeroBased(ordinals, 6, owner, "side");
       fem::SideSet set{name, id, {}};
+      std::size_t lost = 0;
       for (std::size_t i = 0; i < element.size(); ++i) {
         const int first = firstSide_[static_cast<std::size_t>(element[i])];
+        if (first == noCell) {
+          ++lost;
+          continue;
+        }
         require(side[i] + first < 6, owner + " has side " + std::to_string(side[i] + 1) + " of element " +
                                          std::to_string(element[i] + 1LL) + ", which has " +
                                          std::to_string(6 - first) + " sides");
-        set.sides.push_back({element[i], side[i] + first});
+        set.sides.push_back({cellOf(element[i]), side[i] + first});
       }
+      if (lost > 0)
+        remarks_.push_back(file_.name() + ": " + owner + ": " + std::to_string(lost) +
+                           " sides of lines are left out");
       mesh_.sideSets.push_back(std::move(set));
     }
+  }
+
+  /// Position among the mesh's elements of one of the file's.
+  int cellOf(int element) {
+    if (lowerSets_.empty()) return element;
+    if (cells_.empty())
+      for (std::size_t i = 0, n = 0; i < firstSide_.size(); ++i)
+        cells_.push_back(static_cast<int>(firstSide_[i] == noCell ? n : n++));
+    return cells_[static_cast<std::size_t>(element)];
   }
 
   /// 1, 2, ... where the file has no map.
@@ -231,13 +296,20 @@ class MeshReader {
   std::size_t nameLength_;
   Extent extent_ = Extent::whole;
   ex_init_params init_{};
-  std::vector<int> firstSide_;  // [element] of the sides in the file
+  static constexpr int noCell = -1;
+  std::vector<int> firstSide_;  // [element] of the sides in the file; noCell: a line or a point
+  bool lowerCells_ = false;     // blocks of lines and points become node sets
+  std::vector<int> cells_;
+  std::vector<fem::NodeSet> lowerSets_;
+  std::vector<std::string> remarks_;
   fem::Mesh mesh_;
 };
 
 }  // namespace
 
 fem::Mesh readMesh(const std::string& file) { return MeshReader(file).whole(); }
+
+ForeignMesh readForeignMesh(const std::string& file) { return MeshReader(file).foreign(); }
 
 MeshPart readPart(const std::string& name) {
   const PartName parsed = parsePartName(name);

@@ -195,6 +195,62 @@ TEST(ExodusMesh, otherFileFormatsAreRead) {
   }
 }
 
+// As meshio writes them.
+TEST(ExodusMesh, idsFromZero) {
+  const TempFile file;
+  Mesh mesh = sampleMesh(Topology::Hex8);
+  for (std::size_t i = 0; i < mesh.blocks.size(); ++i) mesh.blocks[i].id = static_cast<long long>(i);
+  for (std::size_t i = 0; i < mesh.nodeSets.size(); ++i) mesh.nodeSets[i].id = static_cast<long long>(i);
+  for (std::size_t i = 0; i < mesh.sideSets.size(); ++i) mesh.sideSets[i].id = static_cast<long long>(i);
+  exodus::writeMesh(mesh, file());
+  expectEqual(exodus::readMesh(file()), mesh);
+  EXPECT_EQ(fem::findBlock(mesh, "0"), 0);
+}
+
+// Lines before the cells and points behind them, as meshio writes what Gmsh had.
+TEST(ExodusMesh, linesAndPointsBecomeNodeSets) {
+  const TempFile file;
+  ex_opts(0);
+  int words = 8, fileWords = 8;
+  const int id = ex_create(file().c_str(), EX_CLOBBER | EX_LARGE_MODEL, &words, &fileWords);
+  ASSERT_GE(id, 0);
+  ASSERT_EQ(ex_put_init(id, "lines", 3, 8, 4, 3, 1, 1), 0);
+  const double x[8] = {0, 1, 1, 0, 0, 1, 1, 0}, y[8] = {0, 0, 1, 1, 0, 0, 1, 1},
+               z[8] = {0, 0, 0, 0, 1, 1, 1, 1};
+  ASSERT_EQ(ex_put_coord(id, x, y, z), 0);
+  const int lines[4] = {1, 2, 2, 3}, cell[8] = {1, 2, 3, 4, 5, 6, 7, 8}, point = 5, elements[3] = {1, 3, 3},
+            sides[3] = {1, 6, 2};
+  ASSERT_EQ(ex_put_block(id, EX_ELEM_BLOCK, 3, "BAR2", 2, 2, 0, 0, 0), 0);
+  ASSERT_EQ(ex_put_block(id, EX_ELEM_BLOCK, 5, "HEX8", 1, 8, 0, 0, 0), 0);
+  ASSERT_EQ(ex_put_block(id, EX_ELEM_BLOCK, 7, "SPHERE", 1, 1, 0, 0, 0), 0);
+  ASSERT_EQ(ex_put_conn(id, EX_ELEM_BLOCK, 3, lines, nullptr, nullptr), 0);
+  ASSERT_EQ(ex_put_conn(id, EX_ELEM_BLOCK, 5, cell, nullptr, nullptr), 0);
+  ASSERT_EQ(ex_put_conn(id, EX_ELEM_BLOCK, 7, &point, nullptr, nullptr), 0);
+  ASSERT_EQ(ex_put_name(id, EX_ELEM_BLOCK, 3, "edge"), 0);
+  ASSERT_EQ(ex_put_set_param(id, EX_NODE_SET, 1, 1, 0), 0);
+  ASSERT_EQ(ex_put_set(id, EX_NODE_SET, 1, &point, nullptr), 0);
+  ASSERT_EQ(ex_put_set_param(id, EX_SIDE_SET, 30, 3, 0), 0);
+  ASSERT_EQ(ex_put_set(id, EX_SIDE_SET, 30, elements, sides), 0);
+  ASSERT_EQ(ex_close(id), 0);
+
+  expectMessage(messageOf([&] { exodus::readMesh(file()); }),
+                "block 'edge' (id 3): element type 'BAR2' with 2 nodes");
+  const exodus::ForeignMesh read = exodus::readForeignMesh(file());
+  ASSERT_EQ(read.mesh.blocks.size(), 1u);
+  EXPECT_EQ(read.mesh.blocks[0].id, 5);
+  EXPECT_EQ(read.mesh.elementIds, std::vector<long long>{3});
+  ASSERT_EQ(read.mesh.nodeSets.size(), 3u);
+  EXPECT_EQ(read.mesh.nodeSets[1].name, "edge");
+  EXPECT_EQ(read.mesh.nodeSets[1].id, 2);
+  EXPECT_EQ(read.mesh.nodeSets[1].nodes, (std::vector<int>{0, 1, 2}));
+  EXPECT_EQ(read.mesh.nodeSets[2].name, "block_7");
+  EXPECT_EQ(read.mesh.nodeSets[2].nodes, std::vector<int>{4});
+  ASSERT_EQ(read.mesh.sideSets.at(0).sides.size(), 2u);  // of three one is a line's
+  EXPECT_EQ(read.mesh.sideSets[0].sides[0].element, 0);
+  EXPECT_EQ(read.mesh.sideSets[0].sides[0].side, 5);
+  EXPECT_EQ(read.remarks.size(), 3u);
+}
+
 TEST(ExodusMesh, whatIsNotSupportedIsNamed) {
   const TempFile file;
   const auto read = [&] { return messageOf([&] { exodus::readMesh(file()); }); };
@@ -265,8 +321,8 @@ TEST(ExodusMesh, writesWholeOrNotAtAll) {
   bad.sideSets[1].id = bad.sideSets[0].id;
   expectMessage(write(bad), "side set 'x_max' (id 1) has the id of another side set");
   bad = good;
-  bad.blocks[0].id = 0;
-  expectMessage(write(bad), "block 'body' (id 0) has an id that is not within 1 and 2147483647");
+  bad.blocks[0].id = -1;
+  expectMessage(write(bad), "block 'body' (id -1) has an id that is not within 0 and 2147483647");
   bad = good;
   bad.nodeIds.assign(8, 5000000000LL);
   expectMessage(write(bad), "node id 5000000000");
@@ -286,9 +342,9 @@ TEST(ExodusMesh, writesWholeOrNotAtAll) {
 
   expectMessage(messageOf([&] { exodus::writeMesh(good, file("no/such/directory.exo")); }),
                 "cannot be created");
-  // Onto a directory: found before anything is written.
   std::filesystem::create_directories(file("directory/inside"));
-  expectMessage(messageOf([&] { exodus::writeMesh(good, file("directory")); }), "is no regular file, and is not replaced");
+  expectMessage(messageOf([&] { exodus::writeMesh(good, file("directory")); }),
+                "is no regular file, and is not replaced");
 
   std::size_t entries = 0;
   for (const auto& entry : std::filesystem::directory_iterator(file.directory())) {

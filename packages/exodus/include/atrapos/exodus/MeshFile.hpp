@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "atrapos/exodus/Error.hpp"
 #include "atrapos/fem/Mesh.hpp"
@@ -20,11 +21,22 @@ namespace atrapos::exodus {
 /// have. Nothing is printed.
 fem::Mesh readMesh(const std::string& file);
 
+/// A mesh with blocks that this program does not compute with.
+struct ForeignMesh {
+  fem::Mesh mesh;
+  std::vector<std::string> remarks;  ///< one line each: what has become of them
+};
+
+/// readMesh, where blocks of lines and points (BAR, BEAM, TRUSS, SPHERE, ...) become node sets of their
+/// names.
+ForeignMesh readForeignMesh(const std::string& file);
+
 /// Writes a mesh as an Exodus II file (NetCDF 64-bit offset; shells as SHELL4, SHELL8, SHELL9), whole or not
 /// at all: a file with that name is replaced only once the new one is complete.
 ///
-/// Throws Error where the file cannot be written or the mesh not be held by it: ids that are not
-/// positive, not unique or over 2^31 - 1; a title over 80 characters; a name over 255; lists that do not fit.
+/// Throws Error where the file cannot be written or the mesh not be held by it: ids that are negative, of
+/// nodes and elements 0 too, not unique or over 2^31 - 1; a title over 80 characters; a name over 255; lists
+/// that do not fit.
 void writeMesh(const fem::Mesh& mesh, const std::string& file);
 
 }  // namespace atrapos::exodus
