@@ -142,10 +142,14 @@ class DeckMaker {
   void addForces() {
     std::map<std::array<double, 3>, std::vector<int>> groups;
     std::size_t lost = 0;
-    for (const auto& [node, force] : step_.forces) {
+    for (auto [node, force] : step_.forces) {
       if (mesh_.nodeAt[static_cast<std::size_t>(node)] < 0) {
         ++lost;
         continue;
+      }
+      if (dimension() == 2 && force[2] != 0) {
+        tellOnce(step_.place, "*CLOAD: forces along z on a plane body are left out");
+        force[2] = 0;
       }
       if (force != std::array<double, 3>{}) groups[force].push_back(node);
     }
@@ -154,10 +158,7 @@ class DeckMaker {
                                              lost, lost > 1 ? "s" : ""));
     for (const auto& [force, nodes] : groups) {
       const std::string set = mesh_.nodeSet(nodes, fmt::format("force_{}", loads_.size() + 1));
-      if (dimension() == 2 && force[2] != 0)
-        model_.remark(step_.place, "*CLOAD: forces along z on a plane body are left out");
-      const std::string vector =
-          fmt::format("[{}, {}, {}]", force[0], force[1], dimension() == 2 ? 0 : force[2]);
+      const std::string vector = fmt::format("[{}, {}, {}]", force[0], force[1], force[2]);
       const std::string name =
           loads_.add(set, fmt::format("type: nodal, set: {}, per_node: {}", deck::yaml(set), vector));
       const auto largest = std::max_element(force.begin(), force.begin() + dimension(),
@@ -196,6 +197,10 @@ class DeckMaker {
         if (load.byMass)
           for (double& f : force)
             f *= inpDensity(model_, model_.sections[static_cast<std::size_t>(section)].material, load.place);
+        if (dimension() == 2 && force[2] != 0) {
+          tellOnce(load.place, "*DLOAD: what acts along z on a plane body is left out");
+          force[2] = 0;
+        }
         if (force == std::array<double, 3>{}) continue;
         loads_.add("volume", fmt::format("type: volume, blocks: {}, force: [{}, {}, {}]",
                                          listOf(mesh_.blocks(members)), force[0], force[1], force[2]));

@@ -68,8 +68,8 @@ void InpMesh::takeNodes(InpModel& model) {
     mesh.nodeIds.push_back(model.nodeIds[n]);
   }
   if (dropped > 0)
-    model.remarks.push_back(fmt::format("{}: {} node{} left out that no element of the mesh has", *model.file,
-                                        dropped, dropped > 1 ? "s" : ""));
+    model.remark(fmt::format("{}: {} node{} left out that no element of the mesh has", *model.file, dropped,
+                             dropped > 1 ? "s" : ""));
 }
 
 void InpMesh::takeElements(InpModel& model, const std::vector<std::vector<int>>& cuts) {
@@ -123,14 +123,24 @@ void InpMesh::takeElements(InpModel& model, const std::vector<std::vector<int>>&
 }
 
 void InpMesh::takeSets(InpModel& model) {
-  for (const auto& [name, nodes] : model.nodeSets.all())
-    if (const auto kept = nodesOf(nodes); !kept.empty()) {
-      fem::NodeSet set{nodeSetNames_.take(name), static_cast<long long>(mesh.nodeSets.size()) + 1, kept};
-      nodeSets_.emplace(kept, set.name);
-      mesh.nodeSets.push_back(std::move(set));
-    }
-  for (const auto& [name, faces] : model.surfaces.all())
-    if (!faces.empty()) sideSet(faces, name);
+  const auto tellEmpty = [&](const char* kind, const std::string& name) {
+    model.remark(
+        fmt::format("{}: {} '{}': left out, the mesh has nothing of it", *model.file, kind, plainName(name)));
+  };
+  for (const auto& [name, nodes] : model.nodeSets.all()) {
+    const auto kept = nodesOf(nodes);
+    if (kept.empty())
+      tellEmpty("node set", name);
+    else
+      nodeSets_.emplace(kept, addNodeSet(kept, name));
+  }
+  for (const auto& [name, faces] : model.surfaces.all()) {
+    const auto sides = sidesOf(faces);
+    if (sides.empty())
+      tellEmpty("surface", name);
+    else
+      sideSets_.emplace(sides, addSideSet(sides, name));
+  }
   const auto& all = model.elementSets.all();
   for (std::size_t s = 0; s < all.size(); ++s) {
     const auto& elements = all[s].second;
@@ -155,31 +165,38 @@ std::vector<int> InpMesh::nodesOf(const std::vector<int>& nodes) const {
   return kept;
 }
 
-std::string InpMesh::nodeSet(const std::vector<int>& nodes, const std::string& wanted) {
-  const auto kept = nodesOf(nodes);
-  if (kept.empty()) return {};
-  const auto [at, isNew] = nodeSets_.emplace(kept, std::string());
-  if (isNew) {
-    at->second = nodeSetNames_.take(wanted);
-    mesh.nodeSets.push_back({at->second, static_cast<long long>(mesh.nodeSets.size()) + 1, kept});
-  }
-  return at->second;
-}
-
-std::string InpMesh::sideSet(const std::vector<InpFace>& faces, const std::string& wanted) {
+std::vector<std::pair<int, int>> InpMesh::sidesOf(const std::vector<InpFace>& faces) const {
   std::vector<std::pair<int, int>> sides;
   for (const InpFace& face : faces)
     sides.emplace_back(elementAt[static_cast<std::size_t>(face.element)], face.side);
   std::sort(sides.begin(), sides.end());
-  const auto [at, isNew] = sideSets_.emplace(sides, std::string());
-  if (isNew) {
-    at->second = sideSetNames_.take(wanted);
-    fem::SideSet& set = mesh.sideSets.emplace_back();
-    set.name = at->second;
-    set.id = static_cast<long long>(mesh.sideSets.size());
-    for (const auto& [element, side] : sides) set.sides.push_back({element, side});
-  }
-  return at->second;
+  return sides;
+}
+
+std::string InpMesh::addNodeSet(const std::vector<int>& nodes, const std::string& wanted) {
+  const auto id = static_cast<long long>(mesh.nodeSets.size()) + 1;
+  mesh.nodeSets.push_back({nodeSetNames_.take(wanted), id, nodes});
+  return mesh.nodeSets.back().name;
+}
+
+std::string InpMesh::addSideSet(const std::vector<std::pair<int, int>>& sides, const std::string& wanted) {
+  fem::SideSet set{sideSetNames_.take(wanted), static_cast<long long>(mesh.sideSets.size()) + 1, {}};
+  for (const auto& [element, side] : sides) set.sides.push_back({element, side});
+  mesh.sideSets.push_back(std::move(set));
+  return mesh.sideSets.back().name;
+}
+
+std::string InpMesh::nodeSet(const std::vector<int>& nodes, const std::string& wanted) {
+  const auto kept = nodesOf(nodes);
+  if (kept.empty()) return {};
+  if (const auto at = nodeSets_.find(kept); at != nodeSets_.end()) return at->second;
+  return nodeSets_[kept] = addNodeSet(kept, wanted);
+}
+
+std::string InpMesh::sideSet(const std::vector<InpFace>& faces, const std::string& wanted) {
+  const auto sides = sidesOf(faces);
+  if (const auto at = sideSets_.find(sides); at != sideSets_.end()) return at->second;
+  return sideSets_[sides] = addSideSet(sides, wanted);
 }
 
 std::vector<std::string> InpMesh::blocks(const std::vector<int>& elements) const {

@@ -2,6 +2,7 @@
 
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "import/InpModel.hpp"
@@ -34,6 +35,9 @@ class InpMesh {
   void takeNodes(InpModel& model);
   void takeSets(InpModel& model);
   std::vector<int> nodesOf(const std::vector<int>& nodes) const;
+  std::vector<std::pair<int, int>> sidesOf(const std::vector<InpFace>& faces) const;
+  std::string addNodeSet(const std::vector<int>& nodes, const std::string& wanted);
+  std::string addSideSet(const std::vector<std::pair<int, int>>& sides, const std::string& wanted);
 
   Names blockNames_, nodeSetNames_, sideSetNames_;
   std::map<std::vector<int>, std::string> nodeSets_;

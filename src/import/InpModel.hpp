@@ -85,9 +85,16 @@ struct InpModel {
   std::vector<const InpCard*> transforms;  ///< *TRANSFORM
   std::vector<const InpCard*> steps;       ///< from the first *STEP on
   std::vector<std::string> remarks;
+  std::size_t moreRemarks = 0;
 
-  void remark(const InpPlace& place, const std::string& what) {
-    remarks.push_back(place.text() + ": " + what);
+  /// The first 10 000 are kept, of the others their number.
+  void remark(const InpPlace& place, const std::string& what) { remark(place.text() + ": " + what); }
+  void remark(const std::string& line) {
+    constexpr std::size_t most = 10000;
+    if (remarks.size() < most)
+      remarks.push_back(line);
+    else
+      ++moreRemarks;
   }
 };
 

@@ -19,6 +19,7 @@ namespace {
 constexpr int mostIncludes = 16;         // within each other
 constexpr std::size_t mostFiles = 1000;  // in all
 constexpr std::size_t mostFields = 100000;
+constexpr std::size_t mostCards = 2'000'000;
 
 bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\f' || c == '\v'; }
 
@@ -74,7 +75,7 @@ bool takesFile(const std::string& keyword) {
 
 }  // namespace
 
-std::string InpPlace::text() const { return fmt::format("{}:{}", *file, line); }
+std::string InpPlace::text() const { return fmt::format("{}:{}", deck::plainLine(*file), line); }
 
 void InpPlace::fail(const std::string& what) const { throw Error(text() + ": " + what); }
 
@@ -174,6 +175,8 @@ void InpSource::read(const std::string& file, const InpPlace& from, int depth) {
 }
 
 void InpSource::begin(std::string_view line, const InpPlace& place) {
+  if (cards_.size() == mostCards)
+    place.fail(fmt::format("is one keyword too many; expected at most {}", mostCards));
   const auto fields = split(line.substr(1), place);
   InpCard card;
   card.keyword = compact(fields.front());

@@ -222,6 +222,14 @@ class StepReader {
       }
       const double value = inpNumber(line.at(2), line.place, "pressure");
       count(faces->size(), line.place);
+      const bool onEdges = std::any_of(faces->begin(), faces->end(), [&](const InpFace& face) {
+        return face.side > 1 &&
+               fem::isShell(model_.elements[static_cast<std::size_t>(face.element)].type->topology);
+      });
+      if (onEdges) {
+        model_.remark(line.place, "*DSLOAD, P: left out on edges of shells; decks have loads of type edge");
+        continue;
+      }
       for (const InpFace& face : *faces) step_.pressures[{face.element, face.side}] += value;
     }
   }

@@ -19,6 +19,8 @@ Model readInp(const std::string& file, Deck deck) {
     result.mesh = InpMesh(model, {}).mesh;
   }
   result.remarks = std::move(model.remarks);
+  if (model.moreRemarks > 0)
+    result.remarks.push_back(file + ": and " + std::to_string(model.moreRemarks) + " lines more like these");
   return result;
 }
 

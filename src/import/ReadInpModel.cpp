@@ -30,9 +30,9 @@ class ModelReader {
     cutSteps();
     refuseAssemblies();
     for (const InpCard* card : cards_)
-      if (card->keyword == "NODE" && !isOutput(*card)) readNodes(*card);
+      if (card->keyword == "NODE") readNodes(*card);
     for (const InpCard* card : cards_)
-      if (card->keyword == "ELEMENT" && !isOutput(*card)) readElements(*card);
+      if (card->keyword == "ELEMENT") readElements(*card);
     for (auto* sets : {&model_.nodeSets, &model_.elementSets})
       for (auto& named : sets->all()) makeSet(named.second);
     for (const InpCard* card : cards_) readSet(*card);
@@ -42,9 +42,6 @@ class ModelReader {
   }
 
  private:
-  /// *NODE OUTPUT and *ELEMENT OUTPUT are keywords of their own; *NODE with no data is none of ours.
-  static bool isOutput(const InpCard& card) { return card.has("OUTPUT"); }
-
   /// Sets and surfaces are the model's wherever they stand.
   void cutSteps() {
     bool inStep = false, inPart = false;
