@@ -20,7 +20,7 @@ constexpr const char* kShell8 = "SHELL8 has 2 x 2 points of integration, as S8R"
 const std::vector<InpElementType>& types() {
   static const std::vector<InpElementType> all{
       {"C3D4", 4, Family::solid, Topology::Tet4, ""},
-      {"C3D6", 6, Family::solid, Topology::Wedge6, ""},
+      {"C3D6", 6, Family::solid, Topology::Wedge6, "WEDGE6 has 3 x 2 points of integration, not two"},
       {"C3D8", 8, Family::solid, Topology::Hex8,
        "HEX8 has 2 x 2 x 2 points for all strains; Abaqus' C3D8 treats that of the volume apart"},
       {"C3D8R", 8, Family::solid, Topology::Hex8, kHourglass},

@@ -151,7 +151,7 @@ void InpMesh::takeSets(InpModel& model) {
       const fem::Block& block = mesh.blocks[static_cast<std::size_t>(b)];
       size += block.nodes.size() / static_cast<std::size_t>(fem::nodesPerElement(block.topology));
     }
-    if (size != elements.size())
+    if (size != elements.size() || !blockNames_.isTaken(plainName(all[s].first)))
       model.remark(
           model.elementSetPlaces[s],
           fmt::format("element set '{}': left out, blocks are those of sections", plainName(all[s].first)));

@@ -163,9 +163,10 @@ TEST(Inp, WhatIsLeftOutIsTold) {
                "2, 1, 2\n*ELSET, ELSET=half\nbars\n*PLASTIC\n1.\n*EQUATION\n2\n1, 1, 1., 2, 1, -1.\n");
   EXPECT_EQ(namesOf(model.mesh.sideSets),
             (std::vector<std::string>{"a", "b"}));  // names stay, though they are the same
-  for (const char* line : {":17: *NSET: 1 node left out that the mesh does not have, first 77",
-                           ":19: *ELEMENT, TYPE=B31: left out", ":23: *PLASTIC: left out",
-                           ":25: *EQUATION: left out", "1 node left out", "node set 'far': left out"})
+  for (const char* line :
+       {":17: *NSET: 1 node left out that the mesh does not have, first 77",
+        ":19: *ELEMENT, TYPE=B31: left out", ":21: element set 'half': left out", ":23: *PLASTIC: left out",
+        ":25: *EQUATION: left out", "1 node left out", "node set 'far': left out"})
     EXPECT_TRUE(std::any_of(model.remarks.begin(), model.remarks.end(), [&](const std::string& remark) {
       return remark.find(line) != std::string::npos;
     })) << line;
