@@ -48,6 +48,9 @@ std::string summary(const std::string& file, const fem::Mesh& mesh) {
 
 void importInp(const ImportWords& words, const std::string& mesh, std::ostream& out) {
   const std::string deckFile = std::filesystem::path(mesh).replace_extension(".yaml").string();
+  if (words.deck && deckFile == mesh)
+    throw std::invalid_argument(
+        fmt::format("{}: is the deck's name, not the mesh's; expected --output as mesh.exo", mesh));
   if (words.deck && std::filesystem::exists(deckFile))
     throw std::invalid_argument(
         fmt::format("{} is there already, and decks are not replaced; expected another --output", deckFile));

@@ -85,6 +85,7 @@ TEST_F(Import, WhatIsThereIsNotReplaced) {
   writeFile(folder_ / "notes.exo", "notes");
   expectRefused({"bar.inp", "-o", "notes.exo"}, "was not made by atrapos");
   expectRefused({"bar.inp", "-o", "bar.inp"}, "is read too");
+  expectRefused({"bar.inp", "--deck", "-o", "new.yaml"}, "is the deck's name");
   EXPECT_EQ(import({"bar.inp", "--deck", "-o", "other.exo"}).exitCode, 0);
   EXPECT_NE(readFile(folder_ / "other.yaml").find("mesh: {file: 'other.exo'}"), std::string::npos);
 }
