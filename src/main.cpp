@@ -33,6 +33,7 @@
 #include "machine/Runtime.hpp"
 #include "machine/Threads.hpp"
 #include "output/Files.hpp"
+#include "output/RunLog.hpp"
 
 namespace {
 
@@ -113,9 +114,12 @@ int run(const RunWords& words) {
       atrapos::threads::describe(MPI_COMM_WORLD) +
       (deck.problem && atrapos::ranks::count() > 1 ? "; the model problem runs on the first rank" : "");
   const bool alone = atrapos::ranks::count() == 1 && Kokkos::DefaultExecutionSpace::concurrency() == 1;
+  const auto tell = [&](const std::string& line) {
+    if (!quiet) std::cout << line << std::endl;
+  };
   const auto follow = [&](atrapos::PathCase& pathCase, const std::string& about) {
-    if (!quiet) std::cout << fmt::format("{}\n{}\n", deck.title, about);
-    if (!quiet && !alone) std::cout << sharing << '\n';
+    tell(about);
+    if (!alone) tell(sharing);
     const auto result = atrapos::runPath(pathCase, options);
     if (!quiet || (!result.reachedStop && atrapos::ranks::isFirst()))
       (result.reachedStop ? std::cout : std::cerr)
@@ -126,10 +130,12 @@ int run(const RunWords& words) {
     return atrapos::ranks::onFirst([&] {
       return reported(words.deck + ": ", [&] {
         atrapos::ModelCase model(deck);
+        tell(deck.title);
         return follow(model, model.about());
       });
     });
   atrapos::DeckMesh mesh = atrapos::readDeckMesh(deck);
+  tell(deck.title);  // the scene may take a while
   const char* const came = mesh.ranks.empty() ? "" : ", a part file for each rank";
   atrapos::Scene scene(deck, std::move(mesh));
   atrapos::SceneCase pathCase(scene);
@@ -225,6 +231,8 @@ int main(int argc, char** argv) {
       ->add_option("--from", words.from,
                    "with --restart: behind this STEP, or BRANCH:STEP (default: its last)")
       ->needs(restartOption);
+
+  runCommand->footer("\n" + atrapos::RunLog::columns());
 
   auto* meshCommand = app.add_subcommand("mesh", "make the mesh file that a deck describes");
   meshCommand->add_option("DECK", deck, "YAML deck with mesh/generate")->required();

@@ -43,10 +43,14 @@ ModelCase::ModelCase(const deck::Deck& deck) : deck_(deck) {
 
 void ModelCase::takeStops() {
   const deck::Stop& stop = deck_.path.stop;
-  if (stop.loadFactors.empty() && stop.monitors.empty() && !stop.pathLength) return;
+  if (stop.loadFactors.empty() && stop.monitors.empty() && !stop.pathLength && !stop.limitPoint &&
+      !stop.bifurcation)
+    return;
   path::Stops stops;
   stops.loadFactors = stop.loadFactors;
   stops.pathLength = stop.pathLength.value_or(std::numeric_limits<double>::infinity());
+  stops.limitPoints = stop.limitPoint.value_or(0);
+  stops.bifurcations = stop.bifurcation.value_or(0);
   for (const auto& [name, values] : stop.monitors) {
     const auto monitor = std::find_if(setup_.monitors.begin(), setup_.monitors.end(),
                                       [&n = name](const models::Monitor& m) { return m.name == n; });

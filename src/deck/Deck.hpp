@@ -361,6 +361,7 @@ struct Stop {
   std::vector<double> loadFactors;
   int steps = 1000;
   std::optional<double> pathLength;
+  std::optional<int> limitPoint, bifurcation;           ///< number of the one that ends the path, from 1
   std::map<std::string, std::vector<double>> monitors;  ///< name -> values
 };
 

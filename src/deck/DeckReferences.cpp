@@ -135,6 +135,21 @@ void checkSomethingIsDriven(const Value& root, const Deck& deck) {
       "per_load_factor, or a contact with a tool that moves");
 }
 
+/// A stop at points that nothing looks for would never come.
+void checkBifurcationStop(const Value& v, const Deck& deck) {
+  if (!deck.path.series()) {
+    v.fail(fmt::format("needs path/method: series, the deck has path/method: {}",
+                       wordOf(deck.path.method, methods())));
+  }
+  if (deck.path.criticalPoints == Path::Critical::Off) {
+    v.fail("needs path/critical_points: automatic or every_step");
+  }
+  if (deck.solver.type != Solver::Type::Mumps) {
+    v.fail(
+        "bifurcation points are found by the number of negative eigenvalues, that needs solver/type: mumps");
+  }
+}
+
 }  // namespace
 
 void checkBranches(const Value& root, const Deck& deck) {
@@ -145,6 +160,9 @@ void checkBranches(const Value& root, const Deck& deck) {
   }
   if (deck.path.branches != path::Follow::none && deck.path.criticalPoints == Path::Critical::Off) {
     root.at("path").at("branches").fail("needs critical_points: automatic or every_step");
+  }
+  if (deck.path.stop.bifurcation) {
+    checkBifurcationStop(root.at("path").at("stop").at("bifurcation"), deck);
   }
 }
 

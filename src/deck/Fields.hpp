@@ -147,6 +147,18 @@ Field<S> integer(std::string key, Need need, int S::*member, const Check& check,
 }
 
 template <class S>
+Field<S> integer(std::string key, std::optional<int> S::*member, const Check& check, std::string meaning) {
+  return {std::move(key),
+          false,
+          fmt::format("a whole number, {}", check.words),
+          std::move(meaning),
+          [=](const Value& v, S& s) { s.*member = v.integer(check); },
+          [=](const S& s) {
+            return s.*member ? Node{yaml(*(s.*member)), {}} : Node{};
+          }};
+}
+
+template <class S>
 Field<S> flag(std::string key, bool S::*member, std::string meaning) {
   return {std::move(key),
           false,

@@ -200,6 +200,10 @@ Table<Stop> stopKeys(Field<Stop> monitors) {
   return {stopLoadFactor(),
           integer("steps", optional, &Stop::steps, check::count, "largest number of steps of a branch"),
           real("path_length", &Stop::pathLength, check::positive, "ends at this length of the path"),
+          integer("limit_point", &Stop::limitPoint, check::count,
+                  "ends with the step on which the load factor turns for this many-th time"),
+          integer("bifurcation", &Stop::bifurcation, check::count,
+                  "ends with the step that passes this many-th bifurcation point"),
           std::move(monitors)};
 }
 

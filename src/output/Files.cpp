@@ -24,15 +24,18 @@ namespace {
 struct KnownFile {
   const char *name, *begin;
 };
-constexpr std::array<KnownFile, 9> knownFiles{{{"path.csv", "step,path_length,load_factor"},
-                                               {"points.csv", "step,branch,path_length,load_factor,kind"},
-                                               {"events.csv", "step,branch,path_length,load_factor,contact"},
-                                               {"branches.csv", "branch,parent,depth,point"},
-                                               {"sharpen.csv", "factor,"},
-                                               {"restart.bin", "atrapos restart"},
-                                               {"summary.json", "{\n  \"program\": \"atrapos "},
-                                               {"path.png", "\x89PNG"},
-                                               {"path.gp", "set terminal pngcairo"}}};
+constexpr std::array<KnownFile, 12> knownFiles{{{"path.csv", "step,path_length,load_factor"},
+                                                {"points.csv", "step,branch,path_length,load_factor,kind"},
+                                                {"steps.csv", "step,branch,order,radius"},
+                                                {"events.csv", "step,branch,path_length,load_factor,contact"},
+                                                {"branches.csv", "branch,parent,depth,point"},
+                                                {"sharpen.csv", "factor,"},
+                                                {"restart.bin", "atrapos restart"},
+                                                {"summary.json", "{\n  \"program\": \"atrapos "},
+                                                {"path.png", "\x89PNG"},
+                                                {"path.svg", "<?xml version"},
+                                                {"report.html", "<!doctype html>\n<!-- atrapos report"},
+                                                {"path.gp", "set terminal pngcairo"}}};
 constexpr const char* kMapBegins = "problem,order,delta,pade,";
 
 bool begins(const std::string& file, const std::string& text) {

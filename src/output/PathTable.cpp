@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "machine/Ranks.hpp"
+#include "output/TableFile.hpp"
 
 namespace atrapos {
 
@@ -110,6 +111,22 @@ std::string text(const PathRow& r) {
   return row + fmt::format(",{},{},{:.3e}", r.negative, r.branch, r.residual);
 }
 
+std::string stepHeader() {
+  return "step,branch,order,radius,length,path_length,load_factor,residual,cut_backs,corrections,closed_"
+         "contacts,"
+         "contact_changes,rational,negative_eigenvalues,terms";
+}
+
+std::string text(const StepRow& r) {
+  std::string row = fmt::format("{},{},{},{:.6e},{:.6e}", r.step, r.branch, r.order, r.radius, r.length) +
+                    exact(r.pathLength) + exact(r.loadFactor) +
+                    fmt::format(",{:.3e},{},{},{},{},{},{},", r.residual, r.cutBacks, r.corrections,
+                                r.contacts, r.changes, r.rational ? 1 : 0, r.negative);
+  for (std::size_t k = 0; k < r.terms.size(); ++k)
+    row += fmt::format("{}{:.3e}", k == 0 ? "" : " ", r.terms[k]);
+  return row;
+}
+
 std::string pointHeader(const std::vector<std::string>& monitors) {
   return "step,branch,path_length,load_factor,kind,negative_change,nullity,uncertainty" + joined(monitors);
 }
@@ -119,6 +136,22 @@ std::string text(const PointRow& r) {
                     fmt::format(",{},{},{},{:.3e}", r.kind, r.negativeChange, r.nullity, r.uncertainty);
   for (double m : r.monitors) row += exact(m);
   return row;
+}
+
+std::vector<PointRow> limitPointsOf(const std::string& file) {
+  const TableFile table(file);
+  const auto step = table.numbers("step"), branch = table.numbers("branch"),
+             length = table.numbers("path_length"), load = table.numbers("load_factor");
+  const auto kind = table.texts("kind");
+  const std::size_t monitors = table.place("uncertainty") + 1;
+  std::vector<PointRow> rows;
+  for (std::size_t i = 0; i < table.numRows(); ++i) {
+    if (kind[i] != "maximum" && kind[i] != "minimum") continue;
+    PointRow row{static_cast<int>(step[i]), static_cast<int>(branch[i]), length[i], load[i], kind[i]};
+    for (std::size_t m = monitors; m < table.names().size(); ++m) row.monitors.push_back(table.number(i, m));
+    rows.push_back(std::move(row));
+  }
+  return rows;
 }
 
 }  // namespace atrapos

@@ -58,7 +58,21 @@ struct PointRow {
   double uncertainty = 0;
   std::vector<double> monitors{};
 };
+/// steps.csv: one row per step.
+struct StepRow {
+  int step = 0, branch = 0, order = 0;
+  double radius = 0, length = 0, pathLength = 0, loadFactor = 0, residual = 0;
+  int cutBacks = 0, corrections = 0, contacts = 0, changes = 0;
+  bool rational = false;
+  long long negative = -1;
+  std::vector<double> terms;  ///< |U_k| length^k, k = 1, 2, ...
+};
+std::string stepHeader();
+std::string text(const StepRow& row);
+
 std::string pointHeader(const std::vector<std::string>& monitors);
 std::string text(const PointRow& row);
+/// The limit points of the load factor in a points.csv. Throws as TableFile.
+std::vector<PointRow> limitPointsOf(const std::string& file);
 
 }  // namespace atrapos

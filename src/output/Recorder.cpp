@@ -30,10 +30,11 @@ Recorder::Recorder(PathCase& pathCase, path::Problem& problem, const RunProblem&
       problem_(&problem),
       functionals_(pathCase.functionals()),
       directory_(std::move(directory)),
-      progress_(progress),
+      log_(progress, pathCase.deck().path, pathCase.monitorNames()),
       beside_(directory_),
       path_(beside_.name("path.csv"), pathHeader(case_->monitorNames())),
       points_(beside_.name("points.csv"), pointHeader(case_->monitorNames())),
+      steps_(beside_.name("steps.csv"), stepHeader()),
       residual_(Teuchos::rcp(new path::Vector(case_->problem().map()))),
       start_(std::chrono::steady_clock::now()) {
   const deck::Path& settings = case_->deck().path;
@@ -45,9 +46,9 @@ Recorder::Recorder(PathCase& pathCase, path::Problem& problem, const RunProblem&
   // Between the ends of Newton steps nothing is known for sure.
   if (settings.series()) watch_ = case_->makeWatch(beside_.name("events.csv"), false);
   if (continued) goOn(*continued);
-  if (progress_)
-    for (const std::string& line : case_->remarks()) *progress_ << line << '\n';
-  printHead();
+  if (log_.tells())
+    for (const std::string& line : case_->remarks()) log_.line(line);
+  log_.head();
 }
 
 Recorder::~Recorder() = default;
@@ -73,6 +74,8 @@ void Recorder::goOn(const Continued& continued) {
   const auto old = [&](const std::string& name) { return continued.directory + "/" + name; };
   path_.copyFrom(old("path.csv"), last, continued.marks.path);
   points_.copyFrom(old("points.csv"), last, continued.marks.points);
+  steps_.copyFrom(old("steps.csv"), last, continued.marks.steps);
+  if (ranks::isFirst()) limitPoints_ = limitPointsOf(beside_.name("points.csv"));
   if (fields_)
     fields_->copyFrom(old(fieldsName(branch_)), 1 + numFieldStates(path->steps, !path->stop.empty()),
                       path->pathLength, continued.marks.fields);
@@ -92,7 +95,8 @@ void Recorder::settle(int kept) {
   ranks::wait();
   if (ranks::isFirst()) {
     // A run that is killed must not leave an earlier run's files beside its own.
-    for (const char* const old : {"summary.json", "branches.csv", "path.png", "sharpen.csv"})
+    for (const char* const old :
+         {"summary.json", "branches.csv", "path.png", "path.svg", "report.html", "sharpen.csv"})
       std::filesystem::remove(file(old));
     removeOtherFields(directory_, kept, case_->deck());
   }
@@ -112,6 +116,7 @@ void Recorder::settle(int kept) {
     std::filesystem::remove(file("events.csv"));
   replace("path.csv");
   replace("points.csv");
+  replace("steps.csv");
   beside_.keep();
   ranks::wait();
   if (!ranks::isFirst()) return;
@@ -120,12 +125,14 @@ void Recorder::settle(int kept) {
 }
 
 RunMarks Recorder::marks() const {
-  return {path_.mark(), points_.mark(), watch_ ? watch_->mark() : Mark{}, fields_ ? fields_->mark() : Mark{}};
+  return {path_.mark(), points_.mark(), steps_.mark(), watch_ ? watch_->mark() : Mark{},
+          fields_ ? fields_->mark() : Mark{}};
 }
 
 void Recorder::sync() {
   path_.sync();
   points_.sync();
+  steps_.sync();
   if (watch_) watch_->sync();
   if (fields_) fields_->sync();
   if (restart_) restart_->sync();
@@ -149,10 +156,9 @@ void Recorder::onBranch(const path::BranchDiagram& diagram, int branch) {
   if (branch == 0) return;
   const path::Branch& b = diagram.branches[branch];
   const path::CriticalPoint& point = diagram.points[b.point].point;
-  if (progress_)
-    *progress_ << fmt::format("branch {}: from the {} on branch {} at load factor {:.10g}{}\n", branch,
-                              path::toString(point.kind), b.parent, point.state.lambda,
-                              b.end == path::BranchEnd::path ? "" : ": " + b.outcome.text);
+  log_.line(fmt::format("branch {}: from the {} on branch {} at load factor {:.10g}{}", branch,
+                        path::toString(point.kind), b.parent, point.state.lambda,
+                        b.end == path::BranchEnd::path ? "" : ": " + b.outcome.text));
   if (b.end == path::BranchEnd::path) begin(branch);
 }
 
@@ -167,7 +173,7 @@ void Recorder::beginImperfect(PathCase& pathCase, path::Problem& problem, int br
     }
   }
   problem_ = &problem;
-  if (progress_) *progress_ << fmt::format("branch {}: the path with imperfection {:g}\n", branch, size);
+  log_.line(fmt::format("branch {}: the path with imperfection {:g}", branch, size));
   begin(branch);
 }
 
@@ -177,7 +183,7 @@ void Recorder::begin(int branch) {
   started_ = false;
   fields_.reset();  // the file of the branch before is complete
   fields_ = case_->makeFieldFile(file(fieldsName(branch)));
-  printHead();
+  log_.head();
 }
 
 bool Recorder::onStep(int branch, const path::StepReport& report, const path::Series& series) {
@@ -196,25 +202,22 @@ bool Recorder::onStep(int branch, const path::StepReport& report, const path::Se
   const long long negative = negativeAt(report.length);
   const auto end = case_->at(report.end);
   writeRow(report.step, report.pathLengthEnd, report.end.lambda, *end, negative, report.residual);
-  writePoints(report, series);
+  const std::vector<PointRow> found = writePoints(report, series);
+  const int changesBefore = watch_ ? watch_->count() : 0;
   if (watch_)
     watch_->onStep(branch, report.step, report.pathLengthStart, report.length, series, *end, report.events);
   if (fields_ && hasFields(report.step, !report.next.stop.empty()))
     fields_->write(*end, {report.end.lambda, report.pathLengthEnd, report.radius, report.residual,
                           report.order, negative, branch_});
-  printStep(report, *end);
+  RunLog::Step step{end->activeContacts(), (watch_ ? watch_->count() : 0) - changesBefore, seconds(),
+                    end->monitors()};
+  writeStep(report, series, step, negative);
+  log_.step(report, step, found);
   outputSeconds_ += seconds() - before;
   return !Interrupt::agree();
 }
 
-void Recorder::onSearch(int /*branch*/, int found, int wanted) {
-  constexpr double patience = 5;  // s
-  if (!progress_ || seconds() - printed_ < patience) return;
-  printed_ = seconds();
-  *progress_ << fmt::format("      {} eigenvalue(s) changed sign, the places of {} are found, {:.2f} s",
-                            wanted, found, printed_)
-             << std::endl;
-}
+void Recorder::onSearch(int /*branch*/, int found, int wanted) { log_.search(found, wanted, seconds()); }
 
 void Recorder::onProgress(const path::BranchProgress& progress) {
   constexpr double often = 1;  // s; the disk takes some hundredths of it
@@ -247,12 +250,13 @@ void Recorder::writeRow(int step, double pathLength, double lambda, const CaseSt
   path_.append(text(PathRow{step, pathLength, lambda, state.monitors(), negative, branch_, residual}));
 }
 
-void Recorder::writePoints(const path::StepReport& report, const path::Series& series) {
+std::vector<PointRow> Recorder::writePoints(const path::StepReport& report, const path::Series& series) {
   std::vector<PointRow> rows;
   for (const path::LimitPoint& p : report.limitPoints) {
     PointRow row{report.step, branch_, report.pathLengthStart + p.a, p.lambda,
                  p.maximum ? "maximum" : "minimum"};
     row.monitors = case_->at(series.state(p.a))->monitors();
+    limitPoints_.push_back(row);
     rows.push_back(row);
   }
   for (const path::Extremum& e : report.extrema) {
@@ -268,7 +272,6 @@ void Recorder::writePoints(const path::StepReport& report, const path::Series& s
     row.monitors = case_->at(state)->monitors();
     rows.push_back(row);
   }
-  limitPoints_ += static_cast<int>(report.limitPoints.size());
   for (const path::CriticalPoint& p : report.criticalPoints) {
     PointRow row{report.step, branch_, report.pathLengthStart + p.a, p.state.lambda, path::toString(p.kind)};
     row.negativeChange = p.negativeChange;
@@ -281,42 +284,24 @@ void Recorder::writePoints(const path::StepReport& report, const path::Series& s
   std::sort(rows.begin(), rows.end(),
             [](const PointRow& a, const PointRow& b) { return a.pathLength < b.pathLength; });
   for (const PointRow& row : rows) points_.append(text(row));
+  return rows;
 }
 
-void Recorder::printHead() const {
-  if (progress_)
-    *progress_ << fmt::format("{:>5} {:>5} {:>10} {:>13} {:>10} {:>10} {:>4} {:>4} {:>8} {:>8}  {}\n", "step",
-                              case_->deck().path.series() ? "order" : "",
-                              case_->deck().path.series() ? "radius" : "tried", "load factor", "length",
-                              "residual", "cut", "corr", "contacts", "time s", "events");
-}
-
-void Recorder::printStep(const path::StepReport& r, const CaseState& end) {
-  const int active = progress_ || ranks::count() > 1 ? end.activeContacts() : 0;  // collective
-  if (!progress_) return;
-  std::string events;
-  for (const path::LimitPoint& p : r.limitPoints)
-    events +=
-        fmt::format("limit point ({}) at load factor {:.8g}; ", p.maximum ? "maximum" : "minimum", p.lambda);
-  const bool follows = case_->deck().path.branches != path::Follow::none;
-  for (const path::CriticalPoint& p : r.criticalPoints) {
-    events +=
-        fmt::format("bifurcation point ({}) at load factor {:.10g}", path::toString(p.kind), p.state.lambda);
-    if (p.nullity > 1) events += fmt::format(", {} null vectors", p.nullity);
-    if (follows && p.tangents.empty())
-      events += ": the directions of its branches are not known, none is followed";
-    events += "; ";
-  }
-  if (r.jump > 0) events += fmt::format("forces jump by {:.2g} at a border of patches; ", r.jump);
-  if (r.unexplained > 0)
-    events += fmt::format("{} eigenvalue(s) changed sign at a place not found; ", r.unexplained);
-  if (!events.empty()) events.resize(events.size() - 2);
-  *progress_ << fmt::format(
-                    "{:>5} {:>5} {:>10.3e} {:>13.6g} {:>10.3e} {:>10.2e} {:>4} {:>4} {:>8} {:>8.2f}  {}",
-                    r.step, case_->deck().path.series() ? fmt::format("{}", r.order) : "", r.radius,
-                    r.lambdaEnd, r.length, r.residual, r.cutBacks, r.corrections, active, seconds(), events)
-             << std::endl;
-  printed_ = seconds();
+void Recorder::writeStep(const path::StepReport& report, const path::Series& series, const RunLog::Step& step,
+                         long long negative) {
+  StepRow row{report.step, branch_, report.order, report.radius, report.length};
+  row.pathLength = report.pathLengthEnd;
+  row.loadFactor = report.lambdaEnd;
+  row.residual = report.residual;
+  row.cutBacks = report.cutBacks;
+  row.corrections = report.corrections;
+  row.contacts = step.contacts;
+  row.changes = step.changes;
+  row.rational = report.pade;
+  row.negative = negative;
+  double power = 1;
+  for (int k = 1; k <= series.order(); ++k) row.terms.push_back(series.norm(k) * (power *= report.length));
+  steps_.append(text(row));
 }
 
 }  // namespace atrapos

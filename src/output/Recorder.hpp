@@ -9,15 +9,16 @@
 #include "atrapos/path/Branches.hpp"
 #include "commands/PathCase.hpp"
 #include "output/PathTable.hpp"
+#include "output/RunLog.hpp"
 #include "restart/RestartFile.hpp"
 
 namespace atrapos {
 
-/// Writes what a run finds, step by step: path.csv, points.csv, events.csv, restart.bin, results.exo and
-/// results_branch<n>.exo; one line a step for the user. Every finished step is with the system before the
-/// next one begins, its restart record last; about every second all files are made to outlast a loss of
-/// power. On several ranks all call it and the first one writes, but for result files in parts
-/// (output/parts).
+/// Writes what a run finds, step by step: path.csv, points.csv, steps.csv, events.csv, restart.bin,
+/// results.exo and results_branch<n>.exo; one line a step for the user. Every finished step is with the
+/// system before the next one begins, its restart record last; about every second all files are made to
+/// outlast a loss of power. On several ranks all call it and the first one writes, but for result files in
+/// parts (output/parts).
 ///
 /// Files are written beside those of an earlier run, and take their places with the first step, or when what
 /// the run goes on with is taken over whole: what ends a run before leaves the earlier results as they were.
@@ -43,7 +44,8 @@ class Recorder final : public path::BranchObserver {
   /// Writes the start of the path under way where no step was made.
   void finish(const path::State& start);
 
-  int limitPoints() const { return limitPoints_; }
+  /// Of the load factor, on all branches, those of the run that this one goes on with included.
+  const std::vector<PointRow>& limitPoints() const { return limitPoints_; }
   int unexplained() const { return unexplained_; }
   int contactEvents() const { return watched_ + (watch_ ? watch_->count() : 0); }
   double worstResidual() const { return worstResidual_; }  ///< over all output points
@@ -85,17 +87,17 @@ class Recorder final : public path::BranchObserver {
   /// How many of them do, up to this step.
   int numFieldStates(int steps, bool atStop) const;
   double residualAt(const path::State& state);
-  void writePoints(const path::StepReport& report, const path::Series& series);
-  void printHead() const;
-  void printStep(const path::StepReport& report, const CaseState& end);
+  std::vector<PointRow> writePoints(const path::StepReport& report, const path::Series& series);
+  void writeStep(const path::StepReport& report, const path::Series& series, const RunLog::Step& step,
+                 long long negative);
 
   PathCase* case_;          ///< under way
   path::Problem* problem_;  ///< its own, or an imperfect one
   std::vector<path::Monitor> functionals_;
   std::string directory_;
-  std::ostream* progress_;
+  RunLog log_;
   Beside beside_;
-  Table path_, points_;
+  Table path_, points_, steps_;
   std::optional<RestartFile> restart_;
   std::unique_ptr<FieldFile> fields_;  ///< of the branch under way
   std::unique_ptr<StepWatch> watch_;
@@ -104,11 +106,11 @@ class Recorder final : public path::BranchObserver {
   int branch_ = 0;
   bool started_ = false;  ///< the start of the branch under way is written
   bool settled_ = false;
-  int limitPoints_ = 0, unexplained_ = 0;
+  std::vector<PointRow> limitPoints_;
+  int unexplained_ = 0;
   int watched_ = 0;  ///< by watches of other cases
   double worstResidual_ = 0, outputSeconds_ = 0;
-  double printed_ = 0;  ///< seconds() at the last line for the user
-  double synced_ = 0;   ///< the same where files were made to last
+  double synced_ = 0;  ///< seconds() where files were made to last
 };
 
 }  // namespace atrapos

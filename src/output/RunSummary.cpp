@@ -52,6 +52,31 @@ nlohmann::ordered_json pointsOf(const PathCase& pathCase, const path::BranchDiag
   return list;
 }
 
+nlohmann::ordered_json limitPointsOf(const PathCase& pathCase, const Recorder& recorder) {
+  auto list = nlohmann::ordered_json::array();
+  const auto names = pathCase.monitorNames();
+  for (const PointRow& p : recorder.limitPoints()) {
+    nlohmann::ordered_json json{{"branch", p.branch},
+                                {"step", p.step},
+                                {"kind", p.kind},
+                                {"load_factor", p.loadFactor},
+                                {"path_length", p.pathLength}};
+    for (std::size_t m = 0; m < names.size(); ++m) json["monitors"][names[m]] = p.monitors[m];
+    list.push_back(json);
+  }
+  return list;
+}
+
+/// How a branch ended, as files and tables name it.
+std::string endedOf(const path::Branch& b) {
+  if (b.outcome.reason != path::EndReason::observerStopped) return path::toString(b.outcome.reason);
+  return b.end == path::BranchEnd::path ? "interrupted" : path::toString(b.end);
+}
+
+std::string whyOf(const path::Branch& b) {
+  return endedOf(b) == "interrupted" ? "interrupted by a signal" : b.outcome.text;
+}
+
 nlohmann::ordered_json branchesOf(const path::BranchDiagram& diagram) {
   auto list = nlohmann::ordered_json::array();
   for (std::size_t i = 0; i < diagram.branches.size(); ++i) {
@@ -65,8 +90,8 @@ nlohmann::ordered_json branchesOf(const path::BranchDiagram& diagram) {
     json["depth"] = b.depth;
     if (b.imperfection != 0) json["imperfection"] = b.imperfection;
     json["end"] = path::toString(b.end);
-    json["ended"] = path::toString(b.outcome.reason);
-    json["why"] = b.outcome.text;
+    json["ended"] = endedOf(b);
+    json["why"] = whyOf(b);
     json["steps"] = b.outcome.steps;
     json["factorizations"] = b.outcome.factorizations;
     if (b.outcome.final.u) json["load_factor"] = b.outcome.final.lambda;
@@ -87,8 +112,8 @@ nlohmann::ordered_json runSummary(const PathCase& pathCase, const path::BranchDi
   json["program"] = "atrapos " + std::string(kVersion);
   json["deck"] = deck.file;
   json["title"] = deck.title;
-  json["ended"] = path::toString(first.reason);
-  json["why"] = first.text;
+  json["ended"] = endedOf(diagram.branches[0]);
+  json["why"] = whyOf(diagram.branches[0]);
   json["reached_stop"] = first.reason == path::EndReason::stopReached;
   json["load_factor"] = first.final.lambda;
   json["path_length"] = first.pathLength;
@@ -120,9 +145,10 @@ nlohmann::ordered_json runSummary(const PathCase& pathCase, const path::BranchDi
   json["worst_residual_at_step_ends"] = worst;
   json["jumps"] = sum(diagram, &Outcome::jumps);
   json["worst_jump"] = worstJump;
-  json["limit_points"] = recorder.limitPoints();
+  json["limit_points"] = recorder.limitPoints().size();
   json["bifurcation_points"] = diagram.points.size();
   json["unexplained_sign_changes"] = recorder.unexplained();
+  json["load_limits"] = limitPointsOf(pathCase, recorder);
   json["points"] = pointsOf(pathCase, diagram);
   json["branches"] = branchesOf(diagram);
   json["branches_complete"] = diagram.complete;
@@ -165,8 +191,8 @@ std::string branchTable(const path::BranchDiagram& diagram) {
                          : first             ? "start"
                                              : path::toString(p->kind),
                          first ? b.start.lambda : p->state.lambda, first ? 0.0 : b.direction.lambda,
-                         b.outcome.steps, b.outcome.factorizations, path::toString(b.end),
-                         path::toString(b.outcome.reason), b.imperfection);
+                         b.outcome.steps, b.outcome.factorizations, path::toString(b.end), endedOf(b),
+                         b.imperfection);
   }
   return table;
 }

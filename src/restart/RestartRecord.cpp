@@ -192,7 +192,7 @@ class Unpacker {
 /// ways.
 template <class Start, class F>
 void plainMembers(Start& s, path::Start*, const F& f) {
-  f(s.steps), f(s.pathLength), f(s.length), f(s.events), f(s.due);
+  f(s.steps), f(s.pathLength), f(s.limitPoints), f(s.bifurcations), f(s.length), f(s.events), f(s.due);
   f(s.order), f(s.padeFailures), f(s.padeWait), f(s.expectedNegative), f(s.stop);
 }
 template <class Point, class F>
@@ -241,6 +241,7 @@ path::Start startOf(Unpacker& u) {
   if (u.yes()) u.get(s.weight.emplace());
   if (u.yes()) u.get(s.tangent.emplace());
   u.require(s.state.u != Teuchos::null && std::isfinite(s.state.lambda) && std::isfinite(s.pathLength));
+  u.require(s.limitPoints >= 0 && s.bifurcations >= 0);
   u.require(s.steps >= 0 && s.order >= 0 && s.order <= mostOrder);
   s.eigenvalues.resize(u.count());
   for (auto& e : s.eigenvalues) {
@@ -290,7 +291,7 @@ path::BranchPoint pointOf(Unpacker& u) {
 
 template <class F>
 void eachMark(RunMarks& marks, const F& f) {
-  for (Mark* const mark : {&marks.path, &marks.points, &marks.events, &marks.fields}) {
+  for (Mark* const mark : {&marks.path, &marks.points, &marks.steps, &marks.events, &marks.fields}) {
     f(mark->count);
     f(mark->digest);
   }

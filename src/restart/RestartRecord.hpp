@@ -29,7 +29,7 @@ struct RunProblem {
 /// How far the run's other files had come when a record was written. Those of the fields count from the
 /// branch's start.
 struct RunMarks {
-  Mark path, points, events, fields;
+  Mark path, points, steps, events, fields;
 };
 
 /// What a record of restart.bin says before all else.

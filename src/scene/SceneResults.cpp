@@ -93,6 +93,8 @@ path::Stops Scene::stops() const {
   const deck::Stop& stop = deck_.path.stop;
   stops.loadFactors = stop.loadFactors;
   if (stop.pathLength) stops.pathLength = *stop.pathLength;
+  stops.limitPoints = stop.limitPoint.value_or(0);
+  stops.bifurcations = stop.bifurcation.value_or(0);
   for (const auto& [name, values] : stop.monitors)
     for (std::size_t i = 0; i < displacementWeights_.size(); ++i)
       if (deck_.output.monitors[i].name == name)

@@ -303,9 +303,9 @@ TEST_F(BranchDeck, ThreeModesAtOnce) {
   EXPECT_EQ(summary.at("points")[0].at("nullity"), 3);
   EXPECT_EQ(summary.at("points")[0].at("negative_change"), 3);
   EXPECT_EQ(summary.at("branches").size(), 1u);
-  EXPECT_NE(out_.find("3 null vectors: the directions of its branches are not known, none is followed"),
-            std::string::npos)
-      << out_;
+  for (const char* word :
+       {"3 null vectors", "the directions of the branches at load factor", "none is followed"})
+    EXPECT_NE(out_.find(word), std::string::npos) << word << " is not in:\n" << out_;
   int multiple = 0;
   for (const auto& row : table("points.csv"))
     multiple += row.at("kind") == "multiple" && row.at("nullity") == "3";

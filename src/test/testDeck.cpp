@@ -201,7 +201,7 @@ tools:
 contact:
   foot: {tool: table, set: n, points: nodes, stiffness: rigid, regularisation: 1, reference_gap: 4}
 path: {direction: -1, accuracy: 1e-8, residual: 1.0e-7, order: 60,
-       stop: {steps: 7, path_length: 100, displacement: {u: -50, v: 1.5}}}
+       stop: {steps: 7, path_length: 100, limit_point: 2, displacement: {u: -50, v: 1.5}}}
 solver: {type: amesos2, name: klu2}
 output:
   points_per_step: 1
@@ -861,6 +861,9 @@ TEST(BadDeck, valuesOutOfRange) {
               {});
   expectError("load_factor: 0.25", "steps: 0", "path/stop/steps: must be at least 1, got 0", {});
   expectError("load_factor: 0.25", "path_length: -1", "path/stop/path_length: must be positive, got -1", {});
+  expectError("load_factor: 0.25", "limit_point: 0", "path/stop/limit_point: must be at least 1, got 0", {});
+  expectError("load_factor: 0.25", "bifurcation: 1.5", "path/stop/bifurcation: expected a whole number",
+              {"1.5"});
   expectError("poissons_ratio: 0,", "poissons_ratio: 0.5,",
               "materials/steel/poissons_ratio: must be above -1 and", {});
   expectError("youngs_modulus: 220000", "youngs_modulus: 0",
@@ -880,8 +883,8 @@ TEST(BadDeck, valuesOutOfRange) {
   expectError("output:", "output:\n  fields_every: 0", "output/fields_every: must be at least 1, got 0", {});
   expectError("output:", "output:\n  residuals: all", "output/residuals: 'all' is not a choice here",
               {"steps", "points"});
-  expectError("output:", "output:\n  points_per_step: 0", "output/points_per_step: must be from 1 to 10000, got 0",
-              {});
+  expectError("output:", "output:\n  points_per_step: 0",
+              "output/points_per_step: must be from 1 to 10000, got 0", {});
   const std::string box = "shape: box, lengths: [10, 2.0, 1]";
   expectError(box, "shape: strip, length: 1, width: 1, thickness: -0.8",
               "mesh/generate/thickness: must be positive, got -0.8", {});
@@ -1155,6 +1158,12 @@ TEST(BadDeck, pathKeys) {
   expectError("order: 15", "restart: 3", "path/restart:", {"true or false"});
   expectError("load_factor: 0.25", "load_factor: [1, 0]", "path/stop/load_factor:", {"different from zero"});
   expectError("load_factor: 0.25", "monitor: {tip_uz: 1}", "path/stop/monitor:", {"is not a key here"});
+  expectError("{load_factor: 0.25}", "{bifurcation: 1}\n  critical_points: off",
+              "path/stop/bifurcation: ", {"needs path/critical_points: automatic or every_step"});
+  expectError("order: 15\n  stop: {load_factor: 0.25}", "method: newton\n  stop: {bifurcation: 1}",
+              "path/stop/bifurcation: ", {"needs path/method: series", "newton"});
+  expectError("{load_factor: 0.25}", "{bifurcation: 1}\nsolver: auto",
+              "path/stop/bifurcation: ", {"that needs solver/type: mumps"});
   expectError("order: 15", "branches: all\n  critical_points: off", "path/branches:", {"critical_points"});
 }
 

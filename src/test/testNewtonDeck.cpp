@@ -49,7 +49,7 @@ TEST_P(NewtonDeck, GoesOn) {
   const CommandResult r =
       runAtrapos({"run", "-q", "deck.yaml", "--restart", "whole", "--from", "3", "-o", "on"}, folder_.path());
   ASSERT_EQ(r.exitCode, 0) << r.err;
-  for (const char* file : {"path.csv", "points.csv", "restart.bin"})
+  for (const char* file : {"path.csv", "points.csv", "steps.csv", "restart.bin"})
     EXPECT_TRUE(readFile(folder_ / "whole" / file) == readFile(folder_ / "on" / file)) << file;
 }
 

@@ -31,7 +31,7 @@ std::string rowsUpTo(const std::string& table, int step) {
 }
 
 void expectSameResults(const std::filesystem::path& a, const std::filesystem::path& b) {
-  for (const char* name : {"path.csv", "points.csv", "restart.bin"})
+  for (const char* name : {"path.csv", "points.csv", "steps.csv", "restart.bin"})
     EXPECT_TRUE(readFile(a / name) == readFile(b / name)) << name << " differs";
   const exodus::ResultReader x((a / "results.exo").string()), y((b / "results.exo").string());
   ASSERT_EQ(x.numSteps(), y.numSteps());

@@ -89,7 +89,7 @@ TEST_P(Signal, EndsTheRunInGoodOrder) {
   const auto summary = nlohmann::json::parse(readFile(folder.results("summary.json")));
   EXPECT_EQ(summary.at("steps"), steps);
   EXPECT_EQ(summary.at("reached_stop"), false);
-  EXPECT_EQ(summary.at("ended"), "observerStopped");
+  EXPECT_EQ(summary.at("ended"), "interrupted");
   EXPECT_EQ(Table(folder.results("path.csv")).numRows(), 1 + kPoints * steps);
   // The step under way and, the signal coming between two looks at it, one more.
   EXPECT_LT(steps, 150) << "the run was not ended in the middle";

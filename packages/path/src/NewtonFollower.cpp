@@ -43,6 +43,9 @@ NewtonFollower::NewtonFollower(Problem& problem, linear::TangentSolver& solver, 
     : problem_(problem), solver_(solver), options_(std::move(options)), stops_(std::move(stops)) {
   options_.validate();
   stops_.validate();
+  if (stops_.bifurcations > 0)
+    throw std::invalid_argument(
+        "path stops: Newton steps do not look for bifurcation points: use PathFollower");
   if (problem_.eventCount() > 0)
     throw std::invalid_argument(
         "Newton steps do not follow a Problem that changes by events: use PathFollower, or a regularised "

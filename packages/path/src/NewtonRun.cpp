@@ -42,8 +42,12 @@ void NewtonRun::follow(const Start& start) {
     outcome_.final = calls_.settled(outcome_.final);
     equilibrate();
     startTangent(start);
-    while (step()) {
-    }
+    limitPoints_ = start.limitPoints;
+    if (const std::string passed = stops_.passed(limitPoints_, 0); !passed.empty())
+      end(EndReason::stopReached, passed);
+    else
+      while (step()) {
+      }
   } catch (const PathError& error) {
     end(error.reason(), error.what());
   }
@@ -219,7 +223,7 @@ bool NewtonRun::step() {
         report.length = stop ? stop->a : s;
         if (stop) report.next.stop = stop->text;
         const bool goOn = accept(trial, series, report);
-        if (stop) return end(EndReason::stopReached, stop->text);
+        if (!report.next.stop.empty()) return end(EndReason::stopReached, report.next.stop);
         if (!goOn) return end(EndReason::observerStopped, "ended by the observer");
         return true;
       }
@@ -273,6 +277,8 @@ bool NewtonRun::accept(Trial& trial, Series& series, StepReport& report) {
   report.next.pathLength = outcome_.pathLength;
   report.next.weight = weight_;
   report.next.length = length_;
+  report.next.limitPoints = limitPoints_ += static_cast<int>(report.limitPoints.size());
+  if (report.next.stop.empty()) report.next.stop = stops_.passed(limitPoints_, 0);
   return observer_.onStep(report, series);
 }
 

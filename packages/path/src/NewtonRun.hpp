@@ -54,9 +54,10 @@ class NewtonRun {
   Corrector corrector_;
 
   double weight_ = 0;
-  Augmented tangent_;  ///< unit, at the current state
-  double length_ = 0;  ///< to try next
-  bool first_ = true;  ///< no step has left the start yet
+  Augmented tangent_;    ///< unit, at the current state
+  double length_ = 0;    ///< to try next
+  bool first_ = true;    ///< no step has left the start yet
+  int limitPoints_ = 0;  ///< passed
   std::optional<linear::Inertia> inertia_;
 };
 

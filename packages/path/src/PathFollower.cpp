@@ -1,5 +1,7 @@
 #include "atrapos/path/PathFollower.hpp"
 
+#include <stdexcept>
+
 #include "Run.hpp"
 #include "Stopwatch.hpp"
 
@@ -9,6 +11,8 @@ PathFollower::PathFollower(Problem& problem, linear::TangentSolver& solver, Opti
     : problem_(problem), solver_(solver), options_(std::move(options)), stops_(std::move(stops)) {
   options_.validate();
   stops_.validate();
+  if (stops_.bifurcations > 0 && !options_.criticalPoints)
+    throw std::invalid_argument("path stops: a bifurcation point is none where they are not looked for");
 }
 
 void PathFollower::watch(std::vector<Monitor> monitors) {

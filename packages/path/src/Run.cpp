@@ -63,6 +63,8 @@ void Run::follow(const Start& start) {
   applied_ = start.events;
   due_ = start.due;
   lastLength_ = start.length;
+  limitPoints_ = start.limitPoints;
+  bifurcations_ = start.bifurcations;
   order_ = start.order > 0 ? start.order : options_.order;
   padeFailures_ = start.padeFailures;
   padeWait_ = start.padeWait;
@@ -74,6 +76,8 @@ void Run::follow(const Start& start) {
     if (!tangent_ && applied_.empty()) due_ = calls_.eventsAt(outcome_.final);
     if (!start.stop.empty() && stops_.have(start.stop))
       end(EndReason::stopReached, start.stop);
+    else if (const std::string passed = stops_.passed(limitPoints_, bifurcations_); !passed.empty())
+      end(EndReason::stopReached, passed);
     else
       while (step()) {
       }
@@ -96,6 +100,8 @@ bool Run::step() {
   // After an event the tangent is that of the changed problem and says nothing about the step before.
   if (pending_ && !settle(pending_->events.empty() ? &tangent : nullptr))
     return end(EndReason::observerStopped, "ended by the observer");
+  if (const std::string passed = stops_.passed(limitPoints_, bifurcations_); !passed.empty())
+    return end(EndReason::stopReached, passed);
   modes_ = std::move(tangent.modes);
   real_ = tangent.real;
   clean(series);
@@ -183,6 +189,8 @@ bool Run::settle(const EndTangent* end) {
     explainStability(report, *end);
   }
   outcome_.worstResidual = std::max(outcome_.worstResidual, report.residual);
+  limitPoints_ += static_cast<int>(report.limitPoints.size());
+  bifurcations_ += static_cast<int>(report.criticalPoints.size());
   report.next = here();
   return observer_.onStep(report, *last_);
 }
@@ -203,7 +211,10 @@ Start Run::here() const {
   next.padeWait = padeWait_;
   next.expectedNegative = expected_;
   for (const Mode& m : modes_) next.eigenvalues.push_back({m.x, m.mu, m.rate});
-  if (outcome_.reason == EndReason::stopReached) next.stop = outcome_.text;
+  next.limitPoints = limitPoints_;
+  next.bifurcations = bifurcations_;
+  next.stop =
+      outcome_.reason == EndReason::stopReached ? outcome_.text : stops_.passed(limitPoints_, bifurcations_);
   return next;
 }
 
@@ -228,10 +239,12 @@ void Run::finish() {
   const bool close = ended && options_.closeEnd && (calls_.solver().inertia() || pending_->inertia);
   if (!close) {
     settle(nullptr);
-    return;
+  } else {
+    const EndTangent tangent = closeEnd();
+    settle(&tangent);
   }
-  const EndTangent tangent = closeEnd();
-  settle(&tangent);
+  const std::string passed = stops_.passed(limitPoints_, bifurcations_);
+  if (outcome_.reason == EndReason::stepLimit && !passed.empty()) end(EndReason::stopReached, passed);
 }
 
 }  // namespace atrapos::path

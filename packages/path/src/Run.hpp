@@ -183,6 +183,8 @@ class Run {
   std::string mechanism_;     ///< the null vector of a singular start that was left aside
   double jump_ = 0;           ///< the residual that passJump has corrected at this state
   int standing_ = 0;          ///< events in a row without a step of sensible length
+  int limitPoints_ = 0;       ///< passed, up to the last step that the observer has seen
+  int bifurcations_ = 0;      ///< the same
   int padeFailures_ = 0;      ///< steps in a row that the rational form did not lengthen
   int padeWait_ = 0;          ///< steps until it is tried again
   int counted_ = 0;           ///< eigenvalues with negative real part when they were counted last

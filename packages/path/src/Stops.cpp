@@ -17,6 +17,8 @@ void Stops::validate() const {
       throw std::invalid_argument("path stops: functional '" + f.name + "' has no finite value");
   }
   if (!(pathLength > 0)) throw std::invalid_argument("path stops: the path length must be positive");
+  if (limitPoints < 0 || bifurcations < 0)
+    throw std::invalid_argument("path stops: numbers of limit and bifurcation points must not be negative");
 }
 
 namespace {
@@ -51,6 +53,13 @@ bool Stops::have(const std::string& text) const {
   for (const auto& f : functionals)
     if (text == reached(f.name, f.value)) return true;
   return text == reached(kPathLength, pathLength);
+}
+
+std::string Stops::passed(int limits, int bifurcationPoints) const {
+  const auto text = [](const char* what, int n) { return what + std::to_string(n) + " passed"; };
+  if (limitPoints > 0 && limits >= limitPoints) return text("limit point ", limitPoints);
+  if (bifurcations > 0 && bifurcationPoints >= bifurcations) return text("bifurcation point ", bifurcations);
+  return {};
 }
 
 std::optional<StopHit> firstStop(const Stops& stops, const Series& series, double pathLengthSoFar, double end,

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "atrapos/path/NewtonFollower.hpp"
+#include "problems/Bifurcations.hpp"
 #include "problems/Record.hpp"
 
 using namespace atrapos::path;
@@ -99,6 +101,97 @@ TEST(Stops, TinyValuesAreNoStartOnTheStop) {
   }
 }
 
+Stops limitPoint(int n) {
+  Stops stops;
+  stops.limitPoints = n;
+  return stops;
+}
+
+Stops bifurcation(int n) {
+  Stops stops;
+  stops.bifurcations = n;
+  return stops;
+}
+
+/// lambda = x (1 - x) (2 - x) turns at x = 1 -+ 1/sqrt(3).
+TEST(Stops, TheStepThatPassesALimitPointIsTheLast) {
+  for (const int n : {1, 2}) {
+    SCOPED_TRACE(n);
+    Followed<Truss, SymmetricDenseSolver> f(Truss{}, {0}, 0, Options{}, limitPoint(n));
+    EXPECT_EQ(f.outcome.reason, EndReason::stopReached);
+    EXPECT_EQ(f.outcome.text, "limit point " + std::to_string(n) + " passed");
+    ASSERT_EQ(f.record.limitPoints().size(), static_cast<std::size_t>(n));
+    ASSERT_EQ(f.record.steps.back().limitPoints.size(), 1u);  // not a step more
+    const double x = 1 + (n == 1 ? -1 : 1) / std::sqrt(3.0);
+    EXPECT_NEAR(f.record.limitPoints().back().lambda, x * (1 - x) * (2 - x), 1e-6);  // residual bound
+    EXPECT_GT(f.final(0), x);
+    EXPECT_EQ(f.record.steps.back().next.stop, f.outcome.text);
+    // One series more than steps, the one that told the inertia at the end.
+    EXPECT_EQ(f.outcome.factorizations, f.outcome.steps + 1 + f.outcome.corrections + f.outcome.retreats +
+                                            f.outcome.criticalFactorizations);
+  }
+}
+
+TEST(Stops, ABifurcationPointIsOneWhateverTurnsBeside) {
+  // Bifurcation points at 1 -+ sqrt(1/2), each beside a limit point at 1 -+ sqrt(1/3).
+  SwayTruss law;
+  law.b = 0.5;
+  for (const int n : {1, 2}) {
+    SCOPED_TRACE(n);
+    Followed<SwayTruss, SymmetricDenseSolver> f(law, {0, 0}, 0, Options{}, bifurcation(n));
+    EXPECT_EQ(f.outcome.text, "bifurcation point " + std::to_string(n) + " passed");
+    const auto points = criticalPoints(f.record);
+    ASSERT_EQ(points.size(), static_cast<std::size_t>(n));
+    const double x = 1 + (n == 1 ? -1 : 1) * std::sqrt(0.5);
+    EXPECT_NEAR(points.back().state.u->getData()[0], x, 1e-12);  // Newton on the extended system
+    EXPECT_GT(f.final(0), x);
+  }
+}
+
+TEST(Stops, CountsOfPointsGoOnWithAPath) {
+  Followed<Truss, SymmetricDenseSolver> whole(Truss{}, {0}, 0, Options{}, limitPoint(2));
+  for (const StepReport& step : whole.record.steps) {
+    SCOPED_TRACE(step.step);
+    JetProblem<Truss> problem(Truss{});
+    SymmetricDenseSolver solver;
+    Record rest;
+    const auto outcome = PathFollower(problem, solver, Options{}, limitPoint(2)).runFrom(step.next, rest);
+    EXPECT_EQ(outcome.text, whole.outcome.text);
+    EXPECT_EQ(outcome.steps, whole.outcome.steps);
+    EXPECT_EQ(outcome.final.lambda, whole.outcome.final.lambda);
+    // Fewer than it has passed: it is over.
+    Record none;
+    const auto over = PathFollower(problem, solver, Options{}, limitPoint(1)).runFrom(step.next, none);
+    if (step.next.limitPoints > 0) {
+      EXPECT_EQ(over.text, "limit point 1 passed");
+      EXPECT_TRUE(none.steps.empty());
+    }
+  }
+}
+
+/// The limit of steps and the point on the same step: the point is what was asked for.
+TEST(Stops, APointOnTheLastStepCounts) {
+  Followed<Truss, SymmetricDenseSolver> whole(Truss{}, {0}, 0, Options{}, limitPoint(1));
+  Options options;
+  options.maxSteps = whole.outcome.steps;
+  Followed<Truss, SymmetricDenseSolver> f(Truss{}, {0}, 0, options, limitPoint(1));
+  EXPECT_EQ(f.outcome.reason, EndReason::stopReached);
+  EXPECT_EQ(f.outcome.text, "limit point 1 passed");
+}
+
+TEST(Stops, NewtonStepsCountLimitPoints) {
+  JetProblem<Truss> problem(Truss{});
+  SymmetricDenseSolver solver;
+  Record record;
+  const auto outcome =
+      NewtonFollower(problem, solver, {}, limitPoint(2)).run({problem.vector({0}), 0}, record);
+  EXPECT_EQ(outcome.reason, EndReason::stopReached);
+  EXPECT_EQ(outcome.text, "limit point 2 passed");
+  EXPECT_EQ(record.limitPoints().size(), 2u);
+  EXPECT_GT(outcome.final.u->getData()[0], 1 + 1 / std::sqrt(3.0));
+  EXPECT_EQ(record.steps.back().next.stop, outcome.text);
+}
+
 TEST(Stops, StepLimitAndObserver) {
   Options options;
   options.maxSteps = 3;
@@ -141,6 +234,11 @@ TEST(Stops, BadInputIsRefused) {
   Stops stops;
   stops.functionals.push_back({"nothing", Teuchos::null, 1});
   EXPECT_THROW(PathFollower(problem, solver, Options{}, stops), std::invalid_argument);
+  EXPECT_THROW(PathFollower(problem, solver, Options{}, limitPoint(-1)), std::invalid_argument);
+  EXPECT_THROW(NewtonFollower(problem, solver, {}, bifurcation(1)), std::invalid_argument);
+  options = {};
+  options.criticalPoints = false;
+  EXPECT_THROW(PathFollower(problem, solver, options, bifurcation(1)), std::invalid_argument);
   try {
     options = {};
     options.correctAbove = -1;

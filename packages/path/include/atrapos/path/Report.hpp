@@ -70,6 +70,8 @@ struct Start {
   std::optional<PathTangent> tangent;  ///< of the path that led here: the sense is kept
   int steps = 0;                       ///< taken before, counted against Options::maxSteps
   double pathLength = 0;               ///< gone before
+  int limitPoints = 0;                 ///< passed before, counted against Stops::limitPoints
+  int bifurcations = 0;                ///< the same against Stops::bifurcations
   std::optional<double> weight;        ///< w of the path; empty: by Options::weight
   double length = 0;                   ///< of the step that led here; 0: none
   std::vector<int> events;             ///< applied at this state: their functions are zero here

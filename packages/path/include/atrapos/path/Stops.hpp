@@ -22,12 +22,18 @@ struct Stops {
   std::vector<StopFunctional> functionals;
   /// Length of the path from its start: the sum of the steps' lengths in a.
   double pathLength = std::numeric_limits<double>::infinity();
+  /// The path ends with the step on which it passes its n-th limit point of the load, or its n-th bifurcation
+  /// point (a multiple one counts once); 0: it goes on.
+  int limitPoints = 0, bifurcations = 0;
 
   /// Throws std::invalid_argument, one line, on a value that is not a number or missing weights.
   void validate() const;
 
   /// Whether one of these is the stop that StopHit::text names.
   bool have(const std::string& text) const;
+
+  /// Why a path ends that has passed so many of these points, e.g. "limit point 2 passed"; empty: it goes on.
+  std::string passed(int limits, int bifurcationPoints) const;
 };
 
 /// A stop inside a step.
