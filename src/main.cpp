@@ -24,6 +24,8 @@
 #include "commands/MapCommand.hpp"
 #include "commands/MeshCommand.hpp"
 #include "commands/ModelCase.hpp"
+#include "commands/PlotCommand.hpp"
+#include "commands/ReportCommand.hpp"
 #include "commands/Run.hpp"
 #include "commands/SceneCase.hpp"
 #include "commands/SplitCommand.hpp"
@@ -121,9 +123,12 @@ int run(const RunWords& words) {
     tell(about);
     if (!alone) tell(sharing);
     const auto result = atrapos::runPath(pathCase, options);
+    const std::string page = options.directory + "/report.html";
+    const bool toOpen = !quiet && std::filesystem::exists(page);
     if (!quiet || (!result.reachedStop && atrapos::ranks::isFirst()))
       (result.reachedStop ? std::cout : std::cerr)
-          << fmt::format("{}\nresults in {}\n", result.text, options.directory);
+          << fmt::format("{}\nresults in {}\n", result.text, options.directory)
+          << (toOpen ? fmt::format("open {} in a browser\n", page) : "");
     return result.reachedStop ? 0 : kCannotContinue;
   };
   if (deck.problem)  // small: one rank follows it
@@ -277,6 +282,24 @@ int main(int argc, char** argv) {
       app.add_subcommand("check", "validate a deck and its mesh, print what would be solved");
   checkCommand->add_option("DECK", deck, "YAML deck")->required();
 
+  atrapos::PlotWords plotWords;
+  auto* plotCommand = app.add_subcommand("plot", "draw the paths in a folder of results as PNG and SVG");
+  plotCommand->add_option("RESULTS", plotWords.folder, "folder that `atrapos run` wrote")->required();
+  plotCommand->add_option("-o,--output", plotWords.output,
+                          "name of the pictures without .png and .svg (default: path in RESULTS)");
+  plotCommand->add_option("-x", plotWords.x, "what to draw over: a monitor, 'load factor' or 'path length'");
+  plotCommand->add_option("-y", plotWords.y, "what to draw, in one panel: the same, several with commas")
+      ->delimiter(',')
+      ->expected(1)
+      ->take_all();
+  plotCommand->add_flag("-q,--quiet", quiet, "print nothing");
+
+  std::string results;
+  auto* reportCommand = app.add_subcommand("report", "make one HTML page of a folder of results");
+  reportCommand->add_option("RESULTS", results, "folder that `atrapos run` wrote")->required();
+  reportCommand->add_option("-o,--output", output, "the page (default: report.html in RESULTS)");
+  reportCommand->add_flag("-q,--quiet", quiet, "print nothing");
+
   atrapos::MapWords mapWords;
   auto* mapCommand =
       app.add_subcommand("map", "follow decks' paths under many settings: where do runs fail?");
@@ -318,14 +341,15 @@ int main(int argc, char** argv) {
   const bool hasCommand = !app.get_subcommands().empty();
   const auto extras = app.remaining(true);
   if (!hasCommand || !extras.empty()) {
-    std::cerr << (extras.empty()
-                      ? "atrapos: a command is needed: run, mesh, import, split, join, check or map"
-                  : hasCommand
-                      ? fmt::format("atrapos: '{}' is not expected", extras.front())
-                      : fmt::format(
-                            "atrapos: '{}' is not a command: run, mesh, import, split, join, check or map",
-                            extras.front()))
-              << " (see atrapos --help)\n";
+    std::cerr
+        << (extras.empty()
+                ? "atrapos: a command is needed: run, plot, report, mesh, import, split, join, check or map"
+            : hasCommand
+                ? fmt::format("atrapos: '{}' is not expected", extras.front())
+                : fmt::format(
+                      "atrapos: '{}' is not a command: run, plot, report, mesh, import, split, join, check or map",
+                      extras.front()))
+        << " (see atrapos --help)\n";
     return kBadInput;
   }
   // Before anything is read: a level that is not there is no deck's fault.
@@ -353,6 +377,14 @@ int main(int argc, char** argv) {
     }
     if (*joinCommand) {
       atrapos::joinParts(partFiles, output, progress);
+      return 0;
+    }
+    if (*reportCommand) {
+      atrapos::reportResults(results, output, progress);
+      return 0;
+    }
+    if (*plotCommand) {
+      atrapos::plotResults(plotWords, progress);
       return 0;
     }
     if (*checkCommand) return withRuntime(0, named, [&] { return check(deck); });

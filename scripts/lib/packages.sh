@@ -25,6 +25,8 @@ buildPackages=(
   calculix-ccx-test
   gnuplot-nox
 )
+# What tests use besides: pages of `atrapos report` are looked at in a browser.
+testPackages=(chromium chromium-driver python3-selenium)
 # What a Trilinos of our own links besides.
 openmpPackages=(libsuitesparse-dev xz-utils)
 # What fetching and building its source takes.

@@ -8,6 +8,7 @@
 #include <optional>
 #include <ostream>
 
+#include "atrapos/exodus/Error.hpp"
 #include "atrapos/exodus/MeshPart.hpp"
 #include "atrapos/path/PathFollower.hpp"
 #include "commands/RunSettings.hpp"
@@ -20,6 +21,7 @@
 #include "output/PathPlot.hpp"
 #include "output/Recorder.hpp"
 #include "output/RunSummary.hpp"
+#include "report/Report.hpp"
 #include "restart/RestartFile.hpp"
 #include "scene/Imperfections.hpp"
 
@@ -158,6 +160,19 @@ bool atStop(const path::Branch& branch) {
          branch.outcome.reason == path::EndReason::stepLimit;
 }
 
+/// The page of what has been found; a line where there is none. What stands in the tables counts, not the
+/// page.
+std::string report(const std::string& folder) {
+  try {
+    writeReport(folder, folder + "/report.html");
+    return {};
+  } catch (const std::invalid_argument& e) {
+    return fmt::format("report.html not written: {}", e.what());
+  } catch (const exodus::Error& e) {
+    return fmt::format("report.html not written: {}", e.what());
+  }
+}
+
 RunResult resultOf(const path::BranchDiagram& diagram) {
   RunResult result;
   result.reachedStop = true;
@@ -248,8 +263,8 @@ RunResult runPath(PathCase& pathCase, const RunOptions& options) {
     finished = pathCase.finish(first.final, settings, *solver, options.directory, summary);
   replaceFile(options.directory + "/summary.json", summary.dump(2) + "\n");
   replaceFile(options.directory + "/branches.csv", branchTable(diagram));
-  const std::string plot = plotPath(options.directory, deck.title, pathCase.monitorNames(),
-                                    static_cast<int>(diagram.branches.size()));
+  const std::string plot = plotPath({options.directory});
+  const std::string unreported = report(options.directory);
   if (options.progress) {
     *options.progress << fmt::format(
         "{} steps, {} factorizations, {} solves, {:.2f} s; worst residual {:.2e}\n",
@@ -257,6 +272,7 @@ RunResult runPath(PathCase& pathCase, const RunOptions& options) {
         recorder.seconds(), recorder.worstResidual());
     if (!finished.empty()) *options.progress << finished << '\n';
     if (!plot.empty()) *options.progress << plot << '\n';
+    if (!unreported.empty()) *options.progress << unreported << '\n';
   }
   RunResult result = resultOf(diagram);
   if (result.reachedStop && !trouble.empty()) result = {false, trouble};

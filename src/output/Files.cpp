@@ -20,6 +20,9 @@
 namespace atrapos {
 namespace {
 
+constexpr const char* kReportBegins = "<!doctype html>\n<!-- atrapos report";
+constexpr const char* kScriptBegins = "set terminal pngcairo";
+
 /// Results beside fields, and how they begin.
 struct KnownFile {
   const char *name, *begin;
@@ -34,8 +37,8 @@ constexpr std::array<KnownFile, 12> knownFiles{{{"path.csv", "step,path_length,l
                                                 {"summary.json", "{\n  \"program\": \"atrapos "},
                                                 {"path.png", "\x89PNG"},
                                                 {"path.svg", "<?xml version"},
-                                                {"report.html", "<!doctype html>\n<!-- atrapos report"},
-                                                {"path.gp", "set terminal pngcairo"}}};
+                                                {"report.html", kReportBegins},
+                                                {"path.gp", kScriptBegins}}};
 constexpr const char* kMapBegins = "problem,order,delta,pade,";
 
 bool begins(const std::string& file, const std::string& text) {
@@ -57,6 +60,7 @@ bool isOwnExodus(const std::string& file) {
 
 bool looksOwn(const std::string& file, Made as) {
   if (as == Made::map) return begins(file, kMapBegins);
+  if (as == Made::report) return begins(file, kReportBegins);
   if (as == Made::mesh) return isOwnExodus(file);
   const std::string name = std::filesystem::path(file).filename().string();
   for (const KnownFile& known : knownFiles)
@@ -119,6 +123,21 @@ void requireOwn(const std::string& file, Made as, const std::vector<std::string>
     throw std::invalid_argument(fmt::format(
         "{} is there and was not made by atrapos; expected another file or folder, or that it is removed",
         file));
+}
+
+void requireOwnPicture(const std::string& name) {
+  std::error_code error;
+  const auto size = [&](const std::string& file) { return std::filesystem::file_size(file, error); };
+  bool made = false;
+  for (const char* const suffix : {".gp", ".png", ".svg"}) {
+    const std::string file = name + suffix;
+    const auto status = std::filesystem::status(file, error);
+    if (!std::filesystem::exists(status)) continue;
+    made = made || begins(name + ".gp", kScriptBegins);
+    if (!std::filesystem::is_regular_file(status) || (size(file) > 0 && !made))
+      throw std::invalid_argument(fmt::format(
+          "{} is there and was not made by atrapos; expected another name, or that it is removed", file));
+  }
 }
 
 void prepareFolder(const std::string& folder, const std::vector<std::string>& inputs) {

@@ -16,11 +16,14 @@ std::optional<int> branchOfFields(const std::string& name);
 bool isResultName(const std::string& name);
 
 /// What a file was made as.
-enum class Made { mesh, map, result };
+enum class Made { mesh, map, result, report };
 
 /// Throws std::invalid_argument, one line, where the file is there and may not be replaced: it is not a
 /// regular one, it is one of `inputs`, or it does not look as if this program had made it as the same.
 void requireOwn(const std::string& file, Made as, const std::vector<std::string>& inputs);
+
+/// The same of NAME.gp, NAME.png and NAME.svg: the script tells who made them.
+void requireOwnPicture(const std::string& name);
 
 /// Makes the folder where it is missing. Throws std::invalid_argument, one line, where no file can be made in
 /// it, or a run may not replace what has the name of a result there (requireOwn); changes nothing that is in

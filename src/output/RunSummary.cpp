@@ -101,6 +101,23 @@ nlohmann::ordered_json branchesOf(const path::BranchDiagram& diagram) {
   return list;
 }
 
+/// What the load factor changes: loads, or else the places of supports and tools, whose forces are answers.
+const char* drivenBy(const deck::Deck& deck) {
+  const bool loads = deck.problem || std::any_of(deck.loads.begin(), deck.loads.end(),
+                                                 [](const deck::Load& load) { return !load.constant; });
+  return loads ? "load" : "displacement";
+}
+
+/// Name -> type, of those that the deck defines.
+nlohmann::ordered_json monitorTypes(const deck::Deck& deck) {
+  auto types = nlohmann::ordered_json::object();
+  for (const deck::Monitor& m : deck.output.monitors)
+    types[m.name] = std::holds_alternative<deck::DisplacementMonitor>(m.quantity) ? "displacement"
+                    : std::holds_alternative<deck::ReactionMonitor>(m.quantity)   ? "reaction"
+                                                                                  : "contact_force";
+  return types;
+}
+
 }  // namespace
 
 nlohmann::ordered_json runSummary(const PathCase& pathCase, const path::BranchDiagram& diagram,
@@ -112,6 +129,8 @@ nlohmann::ordered_json runSummary(const PathCase& pathCase, const path::BranchDi
   json["program"] = "atrapos " + std::string(kVersion);
   json["deck"] = deck.file;
   json["title"] = deck.title;
+  json["driven_by"] = drivenBy(deck);
+  json["monitors"] = monitorTypes(deck);
   json["ended"] = endedOf(diagram.branches[0]);
   json["why"] = whyOf(diagram.branches[0]);
   json["reached_stop"] = first.reason == path::EndReason::stopReached;
@@ -175,6 +194,7 @@ nlohmann::ordered_json runSummary(const PathCase& pathCase, const path::BranchDi
                      {"residual", seconds(diagram, &path::Timings::residual)},
                      {"output", recorder.outputSeconds()},
                      {"total", recorder.seconds()}};
+  json["deck_text"] = deck.text;
   return json;
 }
 

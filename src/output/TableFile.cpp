@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <filesystem>
 #include <fstream>
 #include <limits>
 #include <stdexcept>
@@ -24,9 +25,11 @@ std::vector<std::string> cellsOf(const std::string& line) {
 }  // namespace
 
 TableFile::TableFile(const std::string& file) : file_(file) {
-  std::ifstream in(file);
+  std::ifstream in;
+  if (std::filesystem::is_regular_file(file)) in.open(file);  // a pipe may never say anything
   std::string line;
-  if (!std::getline(in, line)) throw std::invalid_argument(fmt::format("{}: cannot be read", file));
+  if (!in.is_open() || !std::getline(in, line))
+    throw std::invalid_argument(fmt::format("{}: cannot be read", file));
   names_ = cellsOf(line);
   while (std::getline(in, line)) {
     if (in.eof()) break;  // without its end: cut short
@@ -59,6 +62,20 @@ std::vector<std::string> TableFile::texts(const std::string& column) const {
   std::vector<std::string> all;
   const std::size_t at = place(column);
   for (const auto& row : rows_) all.push_back(row[at]);
+  return all;
+}
+
+std::vector<int> TableFile::integers(const std::string& column) const {
+  std::vector<int> all;
+  const std::size_t at = place(column);
+  for (std::size_t row = 0; row < rows_.size(); ++row) {
+    const std::string& cell = rows_[row][at];
+    const char* const end = cell.data() + cell.size();
+    const auto read = std::from_chars(cell.data(), end, all.emplace_back());
+    if (read.ec != std::errc() || read.ptr != end)
+      throw std::invalid_argument(
+          fmt::format("{}: row {} has no whole number in its column {}", file_, row + 1, column));
+  }
   return all;
 }
 

@@ -24,6 +24,8 @@ class TableFile {
   std::vector<std::string> texts(const std::string& column) const;
   std::vector<double> numbers(const std::string& column) const;
   std::vector<double> numbers(std::size_t place) const;
+  /// Throws std::invalid_argument, one line, too where a cell holds no whole number.
+  std::vector<int> integers(const std::string& column) const;
 
  private:
   std::string file_;

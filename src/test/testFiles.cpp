@@ -144,8 +144,8 @@ TEST_F(OwnFiles, WhatOthersMadeStays) {
   writeFile(folder_ / "box.exo.2.1", "precious");
   refuses({"split", "box.exo", "2"}, "box.exo.2.1 is there and was not made by atrapos");
   std::filesystem::create_directory(folder_ / "mine");
-  for (const char* name :
-       {"path.csv", "results.exo", "summary.json", "restart.bin", "path.png", "results.exo.2.0"}) {
+  for (const char* name : {"path.csv", "steps.csv", "results.exo", "summary.json", "restart.bin", "path.png",
+                           "path.svg", "report.html", "results.exo.2.0"}) {
     writeFile(folder_ / "mine" / name, "precious");
     refuses({"run", "deck.yaml", "-o", "mine"},
             std::string("mine/") + name + " is there and was not made by atrapos");
@@ -155,6 +155,33 @@ TEST_F(OwnFiles, WhatOthersMadeStays) {
   writeFile(folder_ / "mine" / "path.csv", "");
   EXPECT_EQ(runAtrapos({"run", "-q", "deck.yaml", "-o", "mine"}, folder_.path()).exitCode, 0);
   refuses({"mesh", "deck.yaml", "-o", "mine/results.exo"}, "mine/results.exo holds results");
+}
+
+TEST_F(OwnFiles, PicturesAndPagesOfOthersStay) {
+  ASSERT_EQ(runAtrapos({"run", "-q", "deck.yaml"}, folder_.path()).exitCode, 0);
+  for (const char* name : {"photo.png", "photo.svg", "photo.gp", "notes.html"})
+    writeFile(folder_ / name, "precious");
+  refuses({"report", "deck_results", "-o", "notes.html"}, "notes.html is there and was not made by atrapos");
+  for (const char* name : {"photo.gp", "photo.png", "photo.svg"}) {
+    refuses({"plot", "deck_results", "-o", "photo"},
+            std::string(name) + " is there and was not made by atrapos");
+    std::filesystem::remove(folder_ / name);
+  }
+  for (int times = 0; times < 2; ++times) {
+    EXPECT_EQ(runAtrapos({"plot", "deck_results", "-o", "photo", "-x", "tip_uz", "-y", "force,load factor"},
+                         folder_.path())
+                  .exitCode,
+              0);
+    EXPECT_EQ(runAtrapos({"report", "-q", "deck_results", "-o", "page.html"}, folder_.path()).exitCode, 0);
+  }
+  EXPECT_EQ(readFile(folder_ / "page.html"), readFile(folder_ / "deck_results" / "report.html"));
+  refuses({"plot", "nowhere"}, "nowhere: holds no path.csv");
+  refuses({"report", "."}, "holds no path.csv");
+  refuses({"plot", "deck_results", "-y", "tip"},
+          "there is no 'tip' in path.csv; there are load factor, path length, tip_uz, force");
+  ASSERT_EQ(mkfifo((folder_ / "pipe").c_str(), 0600), 0);
+  std::filesystem::rename(folder_ / "pipe", folder_ / "deck_results" / "path.csv");
+  refuses({"report", "deck_results"}, "path.csv: cannot be read");
 }
 
 TEST_F(OwnFiles, DevicesAndPipesAreNotReplaced) {

@@ -33,6 +33,9 @@ TEST(TableFile, RowsComeBack) {
 TEST(TableFile, DamageIsNamed) {
   const TemporaryFolder folder;
   EXPECT_THROW(TableFile((folder / "none.csv").string()), std::invalid_argument);
+  writeFile(folder / "t.csv", "a,b\n1,2\n3,4.5\n");
+  EXPECT_EQ(TableFile((folder / "t.csv").string()).integers("a"), (std::vector<int>{1, 3}));
+  EXPECT_THROW(TableFile((folder / "t.csv").string()).integers("b"), std::invalid_argument);
   writeFile(folder / "t.csv", "a,b\n1,2\n3\n");
   try {
     TableFile table((folder / "t.csv").string());
