@@ -4,37 +4,39 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <ostream>
 
 namespace atrapos {
-
 namespace {
 
 constexpr const char* kIndent = "      ";
 
-/// Width, and what it means.
+/// Of the table of steps.
 struct Column {
-  const char* name;
-  const char* meaning;
+  const char *name, *meaning;
 };
 
 constexpr Column kColumns[] = {
     {"step", "number of the step on its path or branch"},
     {"order", "terms of its Taylor series (none with Newton steps)"},
-    {"radius",
-     "how far the series is good to the accuracy asked for, in the path parameter; with Newton "
-     "steps `tried`, the first length tried"},
+    {"radius", "how far the series is good to the accuracy asked for, in the path parameter"},
+    {"", "(with Newton steps `tried`, the first length tried)"},
     {"load factor", "at the end of the step"},
-    {"length",
-     "of the step, in the path parameter: shorter than the radius at stops, events and where the "
-     "residual asks for it"},
+    {"length", "of the step: shorter than the radius at stops, events and where the residual asks for it"},
     {"residual",
-     "forces out of balance at its end, relative to the forces of the elements (bound: path/residual)"},
+     "forces out of balance at its end, relative to those of the elements (bound: path/residual)"},
     {"cut", "lengths rejected because the residual was over its bound"},
     {"corr", "Newton iterations at its end"},
     {"closed", "contact points that are closed at its end"},
     {"changes", "contact points that closed, opened or went over to another surface in it (events.csv)"},
     {"time s", "seconds since the run began"}};
+
+constexpr const char* kBelow =
+    R"(Below a step: its limit points (the load factor turns) and bifurcation points with the
+load factor and the first monitors there, eigenvalues whose change of sign was not located,
+jumps of contact forces. Where a run takes long: the time left at the rate of the last steps.
+)";
 
 }  // namespace
 
@@ -44,12 +46,7 @@ RunLog::RunLog(std::ostream* out, const deck::Path& settings, std::vector<std::s
 std::string RunLog::columns() {
   std::string text = "Columns of the table of steps:\n";
   for (const Column& c : kColumns) text += fmt::format("  {:<12} {}\n", c.name, c.meaning);
-  return text +
-         "Below a step: its limit points (the load factor turns) and bifurcation points with the load factor "
-         "and\n"
-         "the first monitors there, eigenvalues whose change of sign was not located, jumps of contact "
-         "forces.\n"
-         "Where a run takes long: the time left at the rate of the last steps.\n";
+  return text + kBelow;
 }
 
 void RunLog::line(const std::string& text) {

@@ -34,7 +34,7 @@ class Body {
     const colours = this.surface.attributes.color, colour = new Color();
     for (let i = 0; i < this.triangles.length; ++i) {
       const value = valueAt(this.triangles[i], this.ofElement[Math.floor(i / 3)]);
-      if (value === null) colour.set("#9fb4c7");
+      if (value === null || !Number.isFinite(value)) colour.set("#9fb4c7");
       else colour.set(interpolateViridis(high > low ? (value - low) / (high - low) : 0.5));
       colours.setXYZ(i, colour.r, colour.g, colour.b);
     }
@@ -137,7 +137,7 @@ export function showShape(parent) {
     const state = read(b, s), values = valuesOf(state);
     body.deform(state.u, Number(scale.value) || 0);
     let low = Infinity, high = -Infinity;
-    if (values) for (const v of values.values) { low = Math.min(low, v); high = Math.max(high, v); }
+    if (values) for (const v of values.values) if (Number.isFinite(v)) { low = Math.min(low, v); high = Math.max(high, v); }
     body.colour((node, of) => (values ? values.values[values.ofNodes ? node : of] : null), low, high);
     legend.replaceChildren();
     if (values) {
