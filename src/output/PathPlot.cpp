@@ -128,7 +128,7 @@ class Labels {
 
   /// Beside a point, above or below it; left out where both are taken.
   void add(double x, double y, double load, bool below) {
-    const double right = (x - frame_.x0) / (frame_.x1 - frame_.x0);
+    const double right = frame_.x1 > frame_.x0 ? (x - frame_.x0) / (frame_.x1 - frame_.x0) : 0.5;
     const double height = frame_.y1 > frame_.y0 ? (y - frame_.y0) / (frame_.y1 - frame_.y0) : 0.5;
     const bool onLeft = right > 0.8;
     for (const bool down : {below, !below}) {

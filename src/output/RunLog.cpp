@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <ostream>
+#include <utility>
 
 namespace atrapos {
 namespace {
@@ -40,8 +41,8 @@ jumps of contact forces. Where a run takes long: the time left at the rate of th
 
 }  // namespace
 
-RunLog::RunLog(std::ostream* out, const deck::Path& settings, std::vector<std::string> monitors)
-    : out_(out), settings_(settings), monitors_(std::move(monitors)) {}
+RunLog::RunLog(std::ostream* out, deck::Path settings, std::vector<std::string> monitors)
+    : out_(out), settings_(std::move(settings)), monitors_(std::move(monitors)) {}
 
 std::string RunLog::columns() {
   std::string text = "Columns of the table of steps:\n";

@@ -17,7 +17,7 @@ namespace atrapos {
 class RunLog {
  public:
   /// `out` may be null: nothing is told. It must outlive the log.
-  RunLog(std::ostream* out, const deck::Path& settings, std::vector<std::string> monitors);
+  RunLog(std::ostream* out, deck::Path settings, std::vector<std::string> monitors);
 
   /// What the columns of the table mean, as help and documentation have it.
   static std::string columns();
@@ -50,7 +50,7 @@ class RunLog {
   void tellTimeLeft(const path::StepReport& report, const Step& step);
 
   std::ostream* out_;
-  const deck::Path& settings_;
+  deck::Path settings_;
   std::vector<std::string> monitors_;
   std::deque<Place> last_;  ///< of the path under way
   double printed_ = 0;      ///< seconds of the last line

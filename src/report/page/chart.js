@@ -94,30 +94,67 @@ export class Chart {
     this.y = y;
     const bottom = this.height - margin.bottom;
     this.svg.attr("width", width).attr("height", this.height);
-    this.svg.select(`#${this.clip} rect`).attr("x", margin.left).attr("y", margin.top)
-      .attr("width", width - margin.left - margin.right).attr("height", bottom - margin.top);
-    this.xAxis.attr("transform", `translate(0,${bottom})`).call(axisBottom(x).ticks(Math.max(3, width / 110), logX ? "~e" : undefined).tickSize(margin.top - bottom));
-    this.yAxis.attr("transform", `translate(${margin.left},0)`).call(axisLeft(y).ticks(6, logY ? "~e" : undefined).tickSize(margin.left + margin.right - width));
-    this.xName.attr("x", (margin.left + width) / 2).attr("y", this.height - 8).text(this.xLabel);
+    this.svg
+      .select(`#${this.clip} rect`)
+      .attr("x", margin.left)
+      .attr("y", margin.top)
+      .attr("width", width - margin.left - margin.right)
+      .attr("height", bottom - margin.top);
+    this.xAxis.attr("transform", `translate(0,${bottom})`).call(
+      axisBottom(x)
+        .ticks(Math.max(3, width / 110), logX ? "~e" : undefined)
+        .tickSize(margin.top - bottom),
+    );
+    this.yAxis.attr("transform", `translate(${margin.left},0)`).call(
+      axisLeft(y)
+        .ticks(6, logY ? "~e" : undefined)
+        .tickSize(margin.left + margin.right - width),
+    );
+    this.xName
+      .attr("x", (margin.left + width) / 2)
+      .attr("y", this.height - 8)
+      .text(this.xLabel);
     this.yName.attr("transform", `translate(14,${(margin.top + bottom) / 2}) rotate(-90)`).text(this.yLabel);
     const pieces = this.curves.flatMap((curve, c) => stretches(curve).map((piece) => ({ ...piece, curve, c })));
-    const path = line((p) => x(p[0]), (p) => y(p[1]));
-    this.curveLayer.selectAll("path").data(pieces).join("path")
-      .attr("fill", "none").attr("stroke", (p) => p.curve.colour)
-      .attr("stroke-width", (p) => widths[p.stability]).attr("stroke-dasharray", (p) => dashes[p.stability])
-      .attr("data-stability", (p) => p.stability).attr("d", (p) => path(p.points));
+    const path = line(
+      (p) => x(p[0]),
+      (p) => y(p[1]),
+    );
+    this.curveLayer
+      .selectAll("path")
+      .data(pieces)
+      .join("path")
+      .attr("fill", "none")
+      .attr("stroke", (p) => p.curve.colour)
+      .attr("stroke-width", (p) => widths[p.stability])
+      .attr("stroke-dasharray", (p) => dashes[p.stability])
+      .attr("data-stability", (p) => p.stability)
+      .attr("d", (p) => path(p.points));
     const dots = this.options.dots ? this.curves.flatMap((c) => Array.from(c.x, (v, i) => [v, c.y[i], c.colour])) : [];
-    this.curveLayer.selectAll("circle").data(dots.filter((d) => Number.isFinite(x(d[0])) && Number.isFinite(y(d[1])))).join("circle")
-      .attr("cx", (d) => x(d[0])).attr("cy", (d) => y(d[1])).attr("r", 2.5).attr("fill", (d) => d[2]);
-    const marks = this.markLayer.selectAll("g").data(this.marks).join((enter) => {
-      const g = enter.append("g").attr("class", "mark");
-      g.append("path");
-      g.append("text").attr("dx", 9).attr("dy", -7);
-      return g;
-    });
+    this.curveLayer
+      .selectAll("circle")
+      .data(dots.filter((d) => Number.isFinite(x(d[0])) && Number.isFinite(y(d[1]))))
+      .join("circle")
+      .attr("cx", (d) => x(d[0]))
+      .attr("cy", (d) => y(d[1]))
+      .attr("r", 2.5)
+      .attr("fill", (d) => d[2]);
+    const marks = this.markLayer
+      .selectAll("g")
+      .data(this.marks)
+      .join((enter) => {
+        const g = enter.append("g").attr("class", "mark");
+        g.append("path");
+        g.append("text").attr("dx", 9).attr("dy", -7);
+        return g;
+      });
     marks.attr("transform", (m) => `translate(${x(m.x)},${y(m.y)})`);
-    marks.select("path").attr("d", (m) => (m.square ? "M-5,-5h10v10h-10z" : "M-5,0a5,5 0 1,0 10,0a5,5 0 1,0 -10,0z"))
-      .attr("fill", (m) => (m.square ? "#111" : "#fff")).attr("stroke", "#111").attr("stroke-width", 1.6);
+    marks
+      .select("path")
+      .attr("d", (m) => (m.square ? "M-5,-5h10v10h-10z" : "M-5,0a5,5 0 1,0 10,0a5,5 0 1,0 -10,0z"))
+      .attr("fill", (m) => (m.square ? "#111" : "#fff"))
+      .attr("stroke", "#111")
+      .attr("stroke-width", 1.6);
     marks.select("text").text((m) => m.text);
     this.show(this.chosen, this.choice);
   }
@@ -154,7 +191,9 @@ export class Chart {
     if (!text) return;
     const [px, py] = pointer(event, this.parent);
     const left = px > this.parent.clientWidth / 2;
-    this.tip.style("left", left ? null : `${px + 14}px`).style("right", left ? `${this.parent.clientWidth - px + 14}px` : null)
+    this.tip
+      .style("left", left ? null : `${px + 14}px`)
+      .style("right", left ? `${this.parent.clientWidth - px + 14}px` : null)
       .style("top", `${py + 8}px`);
   }
 
@@ -177,13 +216,16 @@ Chart.count = 0;
 function between(curve, i) {
   const { length, steps, x, y } = curve;
   if (!length || !(length[i + 1] > length[i])) return [];
-  const together = 1e-6 * (length[i + 1] - length[i]), nodes = [i, i + 1];
+  const together = 1e-6 * (length[i + 1] - length[i]),
+    nodes = [i, i + 1];
   if (i > 0 && steps[i] === steps[i + 1] && length[i] - length[i - 1] > together) nodes.unshift(i - 1);
   if (i + 2 < x.length && steps[i + 2] === steps[i + 1] && length[i + 2] - length[i + 1] > together) nodes.push(i + 2);
   if (nodes.length < 3 || nodes.some((n) => x[n] === null || y[n] === null)) return [];
-  const parts = 8, points = [];
+  const parts = 8,
+    points = [];
   for (let part = 1; part < parts; ++part) {
-    const s = length[i] + ((length[i + 1] - length[i]) * part) / parts, point = [0, 0];
+    const s = length[i] + ((length[i + 1] - length[i]) * part) / parts,
+      point = [0, 0];
     for (const n of nodes) {
       let weight = 1;
       for (const m of nodes) if (m !== n) weight *= (s - length[m]) / (length[n] - length[m]);

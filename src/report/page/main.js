@@ -16,15 +16,17 @@ function table(columns, rows, options = {}) {
   const head = element("tr", {}, ...columns.map((c) => element("th", {}, c)));
   const body = element("tbody");
   const fill = (first) => {
-    body.replaceChildren(...rows.slice(first, first + most).map((row, i) => {
-      const line = element("tr", {}, ...row.map((cell) => element("td", {}, shown(cell))));
-      if (options.onClick) {
-        line.className = "linked";
-        line.addEventListener("click", () => options.onClick(first + i));
-      }
-      if (options.chosen === first + i) line.classList.add("now");
-      return line;
-    }));
+    body.replaceChildren(
+      ...rows.slice(first, first + most).map((row, i) => {
+        const line = element("tr", {}, ...row.map((cell) => element("td", {}, shown(cell))));
+        if (options.onClick) {
+          line.className = "linked";
+          line.addEventListener("click", () => options.onClick(first + i));
+        }
+        if (options.chosen === first + i) line.classList.add("now");
+        return line;
+      }),
+    );
   };
   const box = element("div", { class: "table" }, element("table", {}, element("thead", {}, head), body));
   let first = 0;
@@ -55,8 +57,18 @@ function table(columns, rows, options = {}) {
 function head() {
   document.title = `${data.title} – atrapos`;
   const s = data.summary;
-  document.body.append(element("header", {}, element("h1", {}, data.title),
-    element("p", { id: "ended" }, s ? `${s.why}; ${s.steps} steps, ${shown(s.seconds?.total, 3)} s; ${s.program}` : "the run has not finished: there is no summary.json")));
+  document.body.append(
+    element(
+      "header",
+      {},
+      element("h1", {}, data.title),
+      element(
+        "p",
+        { id: "ended" },
+        s ? `${s.why}; ${s.steps} steps, ${shown(s.seconds?.total, 3)} s; ${s.program}` : "the run has not finished: there is no summary.json",
+      ),
+    ),
+  );
   if (data.notes.length > 0) document.body.append(element("ul", { class: "notes" }, ...data.notes.map((n) => element("li", {}, n))));
 }
 
@@ -66,15 +78,25 @@ const words = (mark) => (mark.nullity > 0 ? mark.kind : `${mark.kind} of the loa
 
 function pathSection() {
   const names = data.quantities.map((q) => q.name);
-  const xChoice = element("select", { id: "path-x" }), yChoice = element("select", { id: "path-y" });
+  const xChoice = element("select", { id: "path-x" }),
+    yChoice = element("select", { id: "path-y" });
   for (const choice of [xChoice, yChoice]) names.forEach((n, i) => choice.append(element("option", { value: i }, n)));
   xChoice.value = data.axes.x;
   yChoice.value = data.axes.y;
   const legend = element("div", { class: "legend" });
   const hidden = new Set();
   const box = element("div", { class: "plot", id: "path-plot" });
-  section("Path", element("div", { class: "controls" }, element("label", {}, "over ", xChoice), element("label", {}, "show ", yChoice)), legend, box,
-    element("p", { class: "hint" }, "Thick: stable; dotted: unstable; thin: not counted. Circles: limit points, squares: bifurcation points. Wheel and drag: zoom, double click: all; click: that state."));
+  section(
+    "Path",
+    element("div", { class: "controls" }, element("label", {}, "over ", xChoice), element("label", {}, "show ", yChoice)),
+    legend,
+    box,
+    element(
+      "p",
+      { class: "hint" },
+      "Thick: stable; dotted: unstable; thin: not counted. Circles: limit points, squares: bifurcation points. Wheel and drag: zoom, double click: all; click: that state.",
+    ),
+  );
   const chart = new Chart(box, {
     height: 460,
     onHover: (c, i) => {
@@ -91,15 +113,26 @@ function pathSection() {
   const stabilities = ["stable", "unstable", "unknown"];
 
   function draw() {
-    const x = Number(xChoice.value), y = Number(yChoice.value);
+    const x = Number(xChoice.value),
+      y = Number(yChoice.value);
     const curves = visible().map((b) => ({
-      colour: colourOf(data.branches.indexOf(b)), x: b.values[x], y: b.values[y],
-      length: b.thinned ? null : b.values[1], steps: b.steps,
+      colour: colourOf(data.branches.indexOf(b)),
+      x: b.values[x],
+      y: b.values[y],
+      length: b.thinned ? null : b.values[1],
+      steps: b.steps,
       stability: Array.from(b.stability, (s) => stabilities[Number(s)]),
     }));
-    const marks = visible().flatMap((b) => b.marks.map((m) => ({
-      x: b.values[x][m.point], y: b.values[y][m.point], square: m.nullity > 0, text: shown(b.values[0][m.point], 4),
-    }))).filter((m) => m.x !== null && m.y !== null);
+    const marks = visible()
+      .flatMap((b) =>
+        b.marks.map((m) => ({
+          x: b.values[x][m.point],
+          y: b.values[y][m.point],
+          square: m.nullity > 0,
+          text: shown(b.values[0][m.point], 4),
+        })),
+      )
+      .filter((m) => m.x !== null && m.y !== null);
     const few = 14;
     if (marks.length > few) for (const m of marks) m.text = "";
     chart.set({ curves, marks, xLabel: names[x], yLabel: names[y] });
@@ -142,16 +175,20 @@ function pointsSection() {
   if (marks.length === 0) return;
   const columns = ["branch", "step", "kind", ...data.quantities.map((q) => q.name)];
   const rows = marks.map(({ b, m }) => [b.name, b.steps[m.point], words(m), ...b.values.map((v) => v[m.point])]);
-  section("Limit and bifurcation points", table(columns, rows, {
-    onClick: (i) => goTo({ branch: marks[i].b.number, length: marks[i].b.values[1][marks[i].m.point], step: marks[i].b.steps[marks[i].m.point] }),
-  })).id = "points";
+  section(
+    "Limit and bifurcation points",
+    table(columns, rows, {
+      onClick: (i) => goTo({ branch: marks[i].b.number, length: marks[i].b.values[1][marks[i].m.point], step: marks[i].b.steps[marks[i].m.point] }),
+    }),
+  ).id = "points";
 }
 
 function branchesSection() {
   if (data.branches.length < 2 || !data.summary) return;
   const rows = data.summary.branches.map((b, i) => [i, b.parent, b.imperfection, b.end === "path" ? b.ended : b.end, b.why, b.steps, b.load_factor]);
   section("Branches", table(["branch", "from", "imperfection", "end", "why", "steps", "load factor"], rows));
-  if (data.summary.branches_complete === false) document.body.lastChild.append(element("p", { class: "note" }, "Branches were left out (branch_depth, branch_count)."));
+  if (data.summary.branches_complete === false)
+    document.body.lastChild.append(element("p", { class: "note" }, "Branches were left out (branch_depth, branch_count)."));
 }
 
 function stepsSection() {
@@ -159,16 +196,34 @@ function stepsSection() {
   if (rows.length === 0) return;
   const at = (name) => columns.indexOf(name);
   const box = section("Steps");
-  const radius = element("div", { class: "plot", id: "radius-plot" }), decay = element("div", { class: "plot", id: "decay-plot" });
+  const radius = element("div", { class: "plot", id: "radius-plot" }),
+    decay = element("div", { class: "plot", id: "decay-plot" });
   const title = element("h3");
-  box.append(element("div", { class: "pair" },
-    element("div", {}, element("h3", {}, "Radius of the series (thick), length of the step (thin)"), radius), element("div", {}, title, decay)));
-  const radii = new Chart(radius, { height: 260, logY: true, dots: true, onClick: (c, i) => choose(i), onHover: (c, i) => columns.map((n, k) => `${n} = ${shown(rows[i][k])}`).join("\n") });
+  box.append(
+    element(
+      "div",
+      { class: "pair" },
+      element("div", {}, element("h3", {}, "Radius of the series (thick), length of the step (thin)"), radius),
+      element("div", {}, title, decay),
+    ),
+  );
+  const radii = new Chart(radius, {
+    height: 260,
+    logY: true,
+    dots: true,
+    onClick: (c, i) => choose(i),
+    onHover: (c, i) => columns.map((n, k) => `${n} = ${shown(rows[i][k])}`).join("\n"),
+  });
   const terms_ = new Chart(decay, { height: 260, logY: true, dots: true });
-  const number = rows.map((_, i) => i + 1), positive = (v) => (v > 0 ? v : null);
+  const number = rows.map((_, i) => i + 1),
+    positive = (v) => (v > 0 ? v : null);
   radii.set({
-    xLabel: "step, all branches in turn", yLabel: "radius and length",
-    curves: [{ colour: colourOf(0), x: number, y: rows.map((r) => positive(r[at("radius")])) }, { colour: colourOf(1), x: number, y: rows.map((r) => positive(r[at("length")])), stability: rows.map(() => "unknown") }],
+    xLabel: "step, all branches in turn",
+    yLabel: "radius and length",
+    curves: [
+      { colour: colourOf(0), x: number, y: rows.map((r) => positive(r[at("radius")])) },
+      { colour: colourOf(1), x: number, y: rows.map((r) => positive(r[at("length")])), stability: rows.map(() => "unknown") },
+    ],
   });
   const list = table(columns, rows, { onClick: (i) => choose(i) });
   list.id = "steps";
@@ -186,7 +241,11 @@ function stepsSection() {
   watchPlace((to) => {
     let best = -1;
     rows.forEach((r, i) => {
-      if (r[at("branch")] === to.branch && (best < 0 || Math.abs(r[at("path_length")] - to.length) < Math.abs(rows[best][at("path_length")] - to.length))) best = i;
+      if (
+        r[at("branch")] === to.branch &&
+        (best < 0 || Math.abs(r[at("path_length")] - to.length) < Math.abs(rows[best][at("path_length")] - to.length))
+      )
+        best = i;
     });
     if (best >= 0) draw(best);
   });
@@ -202,26 +261,44 @@ function timeSection() {
   const bars = parts.map(([name, value]) => {
     const bar = element("div", { class: "fill" });
     bar.style.width = `${seconds.total > 0 ? (100 * value) / seconds.total : 0}%`;
-    return element("div", { class: "part" }, element("span", {}, name.replace(/_/g, " ")), element("div", { class: "bar" }, bar), element("span", {}, `${shown(value, 3)} s`));
+    return element(
+      "div",
+      { class: "part" },
+      element("span", {}, name.replace(/_/g, " ")),
+      element("div", { class: "bar" }, bar),
+      element("span", {}, `${shown(value, 3)} s`),
+    );
   });
   const counts = ["steps", "factorizations", "solves", "orders_computed", "unknowns", "solver", "ranks", "threads"];
-  section("Time", element("div", { id: "time" }, ...bars),
-    table(["what", "number"], counts.filter((c) => c in data.summary).map((c) => [c.replace(/_/g, " "), data.summary[c]])));
+  section(
+    "Time",
+    element("div", { id: "time" }, ...bars),
+    table(
+      ["what", "number"],
+      counts.filter((c) => c in data.summary).map((c) => [c.replace(/_/g, " "), data.summary[c]]),
+    ),
+  );
 }
 
 function eventsSection() {
   if (!data.events || data.events.rows.length === 0) return;
   const { columns, rows } = data.events;
   const at = (name) => columns.indexOf(name);
-  section("Contact events", table(columns, rows, { onClick: (i) => goTo({ branch: rows[i][at("branch")], length: rows[i][at("path_length")], step: rows[i][at("step")] }) })).id = "events";
+  section(
+    "Contact events",
+    table(columns, rows, { onClick: (i) => goTo({ branch: rows[i][at("branch")], length: rows[i][at("path_length")], step: rows[i][at("step")] }) }),
+  ).id = "events";
 }
 
 function licencesSection() {
-  document.body.append(element("details", { class: "licences" }, element("summary", {}, "libraries in this page and their licences"), element("pre", {}, data.licences)));
+  document.body.append(
+    element("details", { class: "licences" }, element("summary", {}, "libraries in this page and their licences"), element("pre", {}, data.licences)),
+  );
 }
 
 function deckSection() {
-  if (data.deck) section("Deck", element("details", {}, element("summary", {}, data.summary?.deck || "deck"), element("pre", { id: "deck" }, data.deck)));
+  if (data.deck)
+    section("Deck", element("details", {}, element("summary", {}, data.summary?.deck || "deck"), element("pre", { id: "deck" }, data.deck)));
 }
 
 document.head.append(element("style", {}, style));

@@ -1,13 +1,26 @@
 // The deformed body in space: turns under the mouse, goes along the path with a slider, coloured by a field.
 import { interpolateViridis } from "d3-scale-chromatic";
 import {
-  AmbientLight, BufferAttribute, BufferGeometry, DirectionalLight, DoubleSide, LineBasicMaterial, LineSegments, Mesh,
-  MeshLambertMaterial, PerspectiveCamera, Scene, Color, Vector3, WebGLRenderer,
+  AmbientLight,
+  BufferAttribute,
+  BufferGeometry,
+  DirectionalLight,
+  DoubleSide,
+  LineBasicMaterial,
+  LineSegments,
+  Mesh,
+  MeshLambertMaterial,
+  PerspectiveCamera,
+  Scene,
+  Color,
+  Vector3,
+  WebGLRenderer,
 } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { data, element, floats, goTo, integers, shown, watchPlace } from "./data.js";
 
-const kNone = "none", kSize = "displacement";
+const kNone = "none",
+  kSize = "displacement";
 
 class Body {
   constructor(shape) {
@@ -31,7 +44,8 @@ class Body {
   }
 
   colour(valueAt, low, high) {
-    const colours = this.surface.attributes.color, colour = new Color();
+    const colours = this.surface.attributes.color,
+      colour = new Color();
     for (let i = 0; i < this.triangles.length; ++i) {
       const value = valueAt(this.triangles[i], this.ofElement[Math.floor(i / 3)]);
       if (value === null || !Number.isFinite(value)) colour.set("#9fb4c7");
@@ -43,7 +57,9 @@ class Body {
 
   /** Centre and radius of a box around the body at rest and with each of these displacements. */
   sphere(displacements) {
-    const at = new Vector3(), low = new Vector3(Infinity, Infinity, Infinity), high = low.clone().negate();
+    const at = new Vector3(),
+      low = new Vector3(Infinity, Infinity, Infinity),
+      high = low.clone().negate();
     for (const u of [new Float32Array(this.rest.length), ...displacements])
       for (let i = 0; i < this.rest.length; i += 3) {
         at.set(this.rest[i] + u[i], this.rest[i + 1] + u[i + 1], this.rest[i + 2] + u[i + 2]);
@@ -78,12 +94,16 @@ export function showShape(parent) {
     return;
   }
   const body = new Body(shape);
-  const scene = new Scene(), camera = new PerspectiveCamera(35, 1, 1e-3, 1e6);
+  const scene = new Scene(),
+    camera = new PerspectiveCamera(35, 1, 1e-3, 1e6);
   scene.background = new Color("#f7f8fa");
   const sun = new DirectionalLight(0xffffff, 2.2);
   camera.add(sun);
   scene.add(camera, new AmbientLight(0xffffff, 1.4));
-  const surface = new Mesh(body.surface, new MeshLambertMaterial({ vertexColors: true, side: DoubleSide, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 }));
+  const surface = new Mesh(
+    body.surface,
+    new MeshLambertMaterial({ vertexColors: true, side: DoubleSide, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 }),
+  );
   const lines = new LineSegments(body.lines, new LineBasicMaterial({ color: "#20303c" }));
   const rest = new LineSegments(body.restLines, new LineBasicMaterial({ color: "#b8c2cc" }));
   for (const object of [surface, lines, rest]) object.frustumCulled = false;
@@ -103,11 +123,20 @@ export function showShape(parent) {
   const says = element("output", { id: "shape-says" });
   const legend = element("div", { class: "ramp" });
   parent.append(
-    element("div", { class: "controls" },
-      element("label", {}, "path ", branchChoice), element("label", { class: "wide" }, "state ", slider),
-      element("label", {}, "colour ", field), element("label", {}, "displacements times ", scale),
-      element("label", {}, edges, " edges"), element("label", {}, undeformed, " undeformed")),
-    says, canvas, legend);
+    element(
+      "div",
+      { class: "controls" },
+      element("label", {}, "path ", branchChoice),
+      element("label", { class: "wide" }, "state ", slider),
+      element("label", {}, "colour ", field),
+      element("label", {}, "displacements times ", scale),
+      element("label", {}, edges, " edges"),
+      element("label", {}, undeformed, " undeformed"),
+    ),
+    says,
+    canvas,
+    legend,
+  );
 
   const decoded = new Map();
   const read = (b, s) => {
@@ -133,11 +162,20 @@ export function showShape(parent) {
   }
 
   function update() {
-    const b = Number(branchChoice.value), states = branches[b].states, s = Math.min(Number(slider.value), states.length - 1);
-    const state = read(b, s), values = valuesOf(state);
+    const b = Number(branchChoice.value),
+      states = branches[b].states,
+      s = Math.min(Number(slider.value), states.length - 1);
+    const state = read(b, s),
+      values = valuesOf(state);
     body.deform(state.u, Number(scale.value) || 0);
-    let low = Infinity, high = -Infinity;
-    if (values) for (const v of values.values) if (Number.isFinite(v)) { low = Math.min(low, v); high = Math.max(high, v); }
+    let low = Infinity,
+      high = -Infinity;
+    if (values)
+      for (const v of values.values)
+        if (Number.isFinite(v)) {
+          low = Math.min(low, v);
+          high = Math.max(high, v);
+        }
     body.colour((node, of) => (values ? values.values[values.ofNodes ? node : of] : null), low, high);
     legend.replaceChildren();
     if (values) {
@@ -158,7 +196,8 @@ export function showShape(parent) {
   }
 
   function resize() {
-    const width = parent.clientWidth, height = Math.max(320, Math.min(560, 0.6 * width));
+    const width = parent.clientWidth,
+      height = Math.max(320, Math.min(560, 0.6 * width));
     renderer.setPixelRatio(window.devicePixelRatio);
     renderer.setSize(width, height, true);
     camera.aspect = width / height;
@@ -188,7 +227,8 @@ export function showShape(parent) {
     tell();
   });
   const tell = () => {
-    const branch = branches[Number(branchChoice.value)], state = branch.states[Number(slider.value)];
+    const branch = branches[Number(branchChoice.value)],
+      state = branch.states[Number(slider.value)];
     goTo({ branch: branch.number, length: state.path_length });
   };
   slider.addEventListener("input", tell);
