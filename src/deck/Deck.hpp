@@ -30,9 +30,10 @@ using Vector3 = std::array<double, 3>;
 // ---------------------------------------------------------------------------------------------- mesh
 
 /// How `atrapos mesh` makes the mesh file.
-using Generate = std::variant<fem::BoxOptions, fem::StripOptions, fem::CylinderPanelOptions,
-                              fem::SpherePanelOptions, fem::ShellPlateOptions, fem::ShellCylinderOptions,
-                              fem::ShellAnnulusOptions, fem::ShellSphereOptions, fem::RectangleOptions>;
+using Generate =
+    std::variant<fem::BoxOptions, fem::StripOptions, fem::CylinderPanelOptions, fem::SpherePanelOptions,
+                 fem::ShellPlateOptions, fem::ShellCylinderOptions, fem::ShellAnnulusOptions,
+                 fem::ShellSphereOptions, fem::RectangleOptions, fem::AnnulusOptions>;
 
 struct MeshInput {
   std::string file;         ///< as written in the deck

@@ -112,6 +112,16 @@ Field<S> slit() {
 }
 
 template <class S>
+std::function<void(const Value&, const S&)> outerAboveInner() {
+  return [](const Value& map, const S& s) {
+    if (s.outerRadius <= s.innerRadius) {
+      map.at("outer_radius")
+          .fail(fmt::format("must be above inner_radius = {}, got {}", s.innerRadius, s.outerRadius));
+    }
+  };
+}
+
+template <class S>
 std::function<void(const Value&, const S&)> thinnerThanRadius() {
   return [](const Value& map, const S& s) {
     if (s.thickness >= 2 * s.midRadius) {
@@ -196,12 +206,7 @@ void addShells(Variants<GenerateInput, Generate>& v) {
            range("angle", &Annulus::angleMin, &Annulus::angleMax, "first and last, degrees from x to y"),
            slit<Annulus>(), attributeThickness<Annulus>()},
           "radius, angle", shellCells()),
-      [](const Value& map, const Annulus& s) {
-        if (s.outerRadius <= s.innerRadius) {
-          map.at("outer_radius")
-              .fail(fmt::format("must be above inner_radius = {}, got {}", s.innerRadius, s.outerRadius));
-        }
-      }));
+      outerAboveInner<Annulus>()));
   v.alternatives.push_back(alternative<Generate, Sphere>(
       "shell_sphere",
       withCells<Sphere>({real("radius", required, &Sphere::radius, check::positive, "of the middle surface"),
@@ -280,6 +285,15 @@ const Variants<GenerateInput, Generate>& generateVariants() {
              real("grading", optional, &Rectangle::grading, check::count,
                   "power with which elements grow from the edges inwards")},
             "x, y", planeCells())));
+    using Annulus = fem::AnnulusOptions;
+    v.alternatives.push_back(alternative<Generate, Annulus>(
+        "annulus",
+        withCells<Annulus>(
+            {real("inner_radius", required, &Annulus::innerRadius, check::positive, "of the hole"),
+             real("outer_radius", required, &Annulus::outerRadius, check::positive, "above inner_radius"),
+             range("angle", &Annulus::angleMin, &Annulus::angleMax, "first and last, degrees from x to y")},
+            "radius, angle", planeCells()),
+        outerAboveInner<Annulus>()));
     return v;
   }();
   return variants;

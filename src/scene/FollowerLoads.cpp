@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "atrapos/fem/PointSet.hpp"
+#include "atrapos/solid/EdgePressure.hpp"
 #include "atrapos/solid/FacePressure.hpp"
 
 namespace atrapos::followers {
@@ -13,9 +14,10 @@ namespace {
 using Terms = std::vector<std::unique_ptr<fem::Term>>;
 
 struct Maker {
-  const fem::Mesh& mesh;
-  const SceneShells& shells;
+  const Body& body;
   bool constant;
+  const fem::Mesh& mesh = body.mesh;
+  const SceneShells& shells = body.shells;
 
   solid::LoadAmount amount(double value) const {
     return constant ? solid::LoadAmount{value, 0} : solid::LoadAmount{0, value};
@@ -25,8 +27,10 @@ struct Maker {
   }
 
   Terms operator()(const deck::SurfaceLoad& load) const {
-    if (mesh.dimension == 2)
-      throw std::invalid_argument("a pressure that follows the body is for faces of solids and shells");
+    if (body.plane)
+      return solid::followerPressure(
+          mesh, sides(load.set), *body.plane, amount(load.pressure),
+          solid::potentialOrigin(mesh, sides(load.set), body.model.dofs, body.model.supports));
     const std::size_t blocks = shells.elements.size();
     // Pressure > 0 pushes on the body: against the normal of a top side, along it on a bottom side.
     std::vector<std::vector<int>> loaded(2 * blocks);
@@ -92,9 +96,8 @@ bool isFollower(const deck::Load& load) {
   return false;
 }
 
-std::vector<std::unique_ptr<fem::Term>> terms(const deck::Load& load, const fem::Mesh& mesh,
-                                              const SceneShells& shells) {
-  return std::visit(Maker{mesh, shells, load.constant}, load.load);
+std::vector<std::unique_ptr<fem::Term>> terms(const deck::Load& load, const Body& body) {
+  return std::visit(Maker{body, load.constant}, load.load);
 }
 
 }  // namespace atrapos::followers

@@ -92,7 +92,8 @@ void Scene::addFollowers(fem::FeModel& model) const {
   for (const deck::Load& load : deck_.loads) {
     if (!followers::isFollower(load)) continue;
     try {
-      for (auto& term : followers::terms(load, mesh_, shells_)) model.terms.push_back(std::move(term));
+      for (auto& term : followers::terms(load, {mesh_, shells_, plane_, model}))
+        model.terms.push_back(std::move(term));
     } catch (const std::invalid_argument& e) {
       fail("loads/" + load.name, e.what());
     }

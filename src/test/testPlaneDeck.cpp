@@ -70,6 +70,28 @@ TEST(PlaneDeck, goodDeckGivesItsValues) {
                    .plane->thickness);
 }
 
+TEST(PlaneDeck, annulusGivesItsValues) {
+  const std::string rectangle =
+      "{shape: rectangle, lengths: [4, 2], origin: [1, 0], divisions: [5, 3], cell: TRI6, grading: 2}";
+  const std::string annulus =
+      "{shape: annulus, inner_radius: 1, outer_radius: 1.5, angle: [0, 90], divisions: [2, 8], cell: QUAD9}";
+  const Deck deck = readDeckText(changed(rectangle, annulus), "plane.yaml");
+  const auto& options = std::get<fem::AnnulusOptions>(*deck.mesh.generate);
+  EXPECT_EQ(options.innerRadius, 1);
+  EXPECT_EQ(options.outerRadius, 1.5);
+  EXPECT_EQ(options.angleMax, 90);
+  EXPECT_EQ(options.divisions, (std::array<int, 2>{2, 8}));
+  EXPECT_EQ(options.topology, fem::Topology::Quad9);
+  std::ostringstream first, second;
+  describe(deck, first);
+  describe(readDeckText(first.str(), "plane.yaml"), second);
+  EXPECT_EQ(first.str(), second.str());
+  EXPECT_EQ(
+      errorOf(rectangle,
+              "{shape: annulus, inner_radius: 2, outer_radius: 1.5, angle: [0, 90], divisions: [2, 8]}"),
+      "plane.yaml:3:61: mesh/generate/outer_radius: must be above inner_radius = 2, got 1.5");
+}
+
 TEST(PlaneDeck, describedDeckReadsBack) {
   std::ostringstream first, second;
   describe(readDeckText(goodDeck, "plane.yaml"), first);

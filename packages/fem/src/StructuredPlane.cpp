@@ -21,8 +21,7 @@ Topology shellOf(Topology plane) {
     case Topology::Tri6:
       return Topology::Shell9;
     default:
-      throw std::invalid_argument(std::string("rectangle mesh: ") + topologyName(plane) +
-                                  " is no plane cell");
+      throw std::invalid_argument(std::string("plane mesh: ") + topologyName(plane) + " is no plane cell");
   }
 }
 
@@ -33,25 +32,15 @@ constexpr int kTriangles[2][6] = {{0, 1, 2, 4, 5, 8}, {0, 2, 3, 8, 6, 7}};
 /// Where its edges are: triangle, and its side.
 constexpr int kEdges[4][2] = {{0, 0}, {0, 1}, {1, 1}, {1, 2}};
 
-}  // namespace
-
-Mesh rectangleMesh(const RectangleOptions& o) {
-  ShellPlateOptions plate;
-  plate.length = o.lengths[0];
-  plate.width = o.lengths[1];
-  plate.origin = {o.origin[0], o.origin[1], 0};
-  plate.grading = o.grading;
-  plate.divisions = o.divisions;
-  plate.topology = shellOf(o.topology);
-  plate.blockName = o.blockName;
-  Mesh mesh = shellPlateMesh(plate);
-  mesh.title = "rectangle";
+/// A shell's mesh in the plane z = 0 as one of plane cells.
+Mesh planeMesh(Mesh mesh, Topology topology, const std::string& title) {
+  mesh.title = title;
   mesh.dimension = 2;
   Block& block = mesh.blocks.front();
-  const bool split = isTriangle(o.topology);
-  block.topology = o.topology;
+  const bool split = isTriangle(topology);
+  const int N = nodesPerElement(block.topology), own = nodesPerElement(topology);
+  block.topology = topology;
   if (split) {
-    const int N = nodesPerElement(plate.topology), own = nodesPerElement(o.topology);
     std::vector<int> nodes;
     for (std::size_t e = 0; e < block.nodes.size(); e += N)
       for (const auto& triangle : kTriangles)
@@ -69,6 +58,33 @@ Mesh rectangleMesh(const RectangleOptions& o) {
       if (split) side = {2 * side.element + kEdges[side.side][0], kEdges[side.side][1]};
     }
   return mesh;
+}
+
+}  // namespace
+
+Mesh rectangleMesh(const RectangleOptions& o) {
+  ShellPlateOptions plate;
+  plate.length = o.lengths[0];
+  plate.width = o.lengths[1];
+  plate.origin = {o.origin[0], o.origin[1], 0};
+  plate.grading = o.grading;
+  plate.divisions = o.divisions;
+  plate.topology = shellOf(o.topology);
+  plate.blockName = o.blockName;
+  return planeMesh(shellPlateMesh(plate), o.topology, "rectangle");
+}
+
+Mesh annulusMesh(const AnnulusOptions& o) {
+  ShellAnnulusOptions annulus;
+  annulus.innerRadius = o.innerRadius;
+  annulus.outerRadius = o.outerRadius;
+  annulus.angleMin = o.angleMin;
+  annulus.angleMax = o.angleMax;
+  annulus.slit = false;
+  annulus.divisions = o.divisions;
+  annulus.topology = shellOf(o.topology);
+  annulus.blockName = o.blockName;
+  return planeMesh(shellAnnulusMesh(annulus), o.topology, "annulus");
 }
 
 }  // namespace atrapos::fem

@@ -26,4 +26,22 @@ struct RectangleOptions {
 /// plane ones.
 Mesh rectangleMesh(const RectangleOptions& options);
 
+/// A part of an annulus about the origin, angles from x to y: the cross-section of a tube, and of a hollow
+/// sphere where x is a radius. Sets are named as those of a shell annulus: side sets and node sets inner,
+/// outer, angle_min, angle_max (360 degrees close it: then without the last two), node sets of corners and of
+/// the lines halfway (radius_mid, angle_mid). Triangles as in a rectangle.
+struct AnnulusOptions {
+  double innerRadius = 1.0;
+  double outerRadius = 2.0;
+  double angleMin = 0.0;               ///< degrees
+  double angleMax = 90.0;              ///< degrees
+  std::array<int, 2> divisions{1, 4};  ///< along radius, angle
+  Topology topology = Topology::Quad8;
+  std::string blockName = "body";
+};
+
+/// Throws std::invalid_argument, one line, for divisions below 1, radii that do not ascend from above 0,
+/// angles that do not ascend or span more than 360 degrees, and cells that are no plane ones.
+Mesh annulusMesh(const AnnulusOptions& options);
+
 }  // namespace atrapos::fem
