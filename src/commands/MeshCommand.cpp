@@ -24,6 +24,7 @@ struct Builder {
   fem::Mesh operator()(const fem::ShellSphereOptions& o) const { return fem::shellSphereMesh(o); }
   fem::Mesh operator()(const fem::RectangleOptions& o) const { return fem::rectangleMesh(o); }
   fem::Mesh operator()(const fem::AnnulusOptions& o) const { return fem::annulusMesh(o); }
+  fem::Mesh operator()(const fem::QuadrilateralOptions& o) const { return fem::quadrilateralMesh(o); }
 };
 
 /// Before memory is taken for it: nodes and elements with their copies for the file, at most 1 kB an element

@@ -30,10 +30,10 @@ using Vector3 = std::array<double, 3>;
 // ---------------------------------------------------------------------------------------------- mesh
 
 /// How `atrapos mesh` makes the mesh file.
-using Generate =
-    std::variant<fem::BoxOptions, fem::StripOptions, fem::CylinderPanelOptions, fem::SpherePanelOptions,
-                 fem::ShellPlateOptions, fem::ShellCylinderOptions, fem::ShellAnnulusOptions,
-                 fem::ShellSphereOptions, fem::RectangleOptions, fem::AnnulusOptions>;
+using Generate = std::variant<fem::BoxOptions, fem::StripOptions, fem::CylinderPanelOptions,
+                              fem::SpherePanelOptions, fem::ShellPlateOptions, fem::ShellCylinderOptions,
+                              fem::ShellAnnulusOptions, fem::ShellSphereOptions, fem::RectangleOptions,
+                              fem::AnnulusOptions, fem::QuadrilateralOptions>;
 
 struct MeshInput {
   std::string file;         ///< as written in the deck
@@ -54,15 +54,15 @@ struct NeoHookean {
   std::optional<double> youngsModulus;  ///< pressure, > 0
   std::optional<double> poissonsRatio;  ///< in (-1, 0.5)
   std::optional<double> shearModulus;   ///< pressure, > 0
-  std::optional<double> bulkModulus;    ///< pressure, > 0
+  std::optional<double> bulkModulus;    ///< pressure, > 0, or infinite
 };
 
-/// Pressures; c1 + c2 > 0, bulkModulus > 0.
+/// Pressures; c1 + c2 > 0, bulkModulus > 0 or infinite.
 struct MooneyRivlin {
   double c1 = 0, c2 = 0, bulkModulus = 0;
 };
 
-/// Pressures; c1 > 0, bulkModulus > 0.
+/// Pressures; c1 > 0, bulkModulus > 0 or infinite.
 struct Yeoh {
   double c1 = 0, c2 = 0, c3 = 0, bulkModulus = 0;
 };
@@ -70,13 +70,16 @@ struct Yeoh {
 struct Gent {
   double shearModulus = 0;  ///< pressure, > 0
   double limit = 0;         ///< J_m, > 0
-  double bulkModulus = 0;   ///< pressure, > 0
+  double bulkModulus = 0;   ///< pressure, > 0, or infinite
 };
 
 struct Material {
+  /// Displacements alone, or with pressures as further unknowns.
+  enum class Formulation { Displacement, Mixed };
   std::string name;
   std::variant<SaintVenantKirchhoff, NeoHookean, MooneyRivlin, Yeoh, Gent> law;
   std::vector<std::string> blocks;  ///< names or ids
+  Formulation formulation = Formulation::Displacement;
 };
 
 /// The body that a plane mesh (x, y) stands for.

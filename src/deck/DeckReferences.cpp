@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
+#include <optional>
 
 #include "deck/DeckTables.hpp"
 
@@ -43,6 +45,56 @@ void checkMaterials(const Value& materials, const Deck& deck) {
             .at("blocks")
             .fail(fmt::format("block '{}' already has the material '{}'", block, previous->second));
       }
+    }
+  }
+}
+
+/// The bulk modulus that a law says; none where it has no such key.
+std::optional<double> bulkModulus(const SaintVenantKirchhoff&) { return std::nullopt; }
+template <class Law>
+std::optional<double> bulkModulus(const Law& law) {
+  return law.bulkModulus;
+}
+
+/// Lame's lambda at rest, its sign at least.
+double lambda(const NeoHookean& m) {
+  return m.poissonsRatio ? *m.poissonsRatio : m.bulkModulus.value() - 2 * m.shearModulus.value() / 3;
+}
+
+/// What pressures as unknowns are for, and what is not there with them.
+void checkFormulations(const Value& root, const Deck& deck) {
+  for (const auto& material : deck.materials) {
+    const Value at = root.at("materials").at(material.name);
+    const bool mixed = material.formulation == Material::Formulation::Mixed;
+    const auto bulk = std::visit([](const auto& law) { return bulkModulus(law); }, material.law);
+    if (bulk && std::isinf(*bulk) && !mixed) {
+      at.at("bulk_modulus").fail("infinite needs formulation: mixed");
+    }
+    if (!mixed) {
+      continue;
+    }
+    const Value formulation = at.at("formulation");
+    if (std::holds_alternative<SaintVenantKirchhoff>(material.law)) {
+      formulation.fail(
+          "saint_venant_kirchhoff has no volumetric part that pressures could be of; expected a law of "
+          "rubber, "
+          "or formulation: displacement");
+    }
+    if (const auto* law = std::get_if<NeoHookean>(&material.law); law != nullptr && !(lambda(*law) > 0)) {
+      formulation.fail(
+          "needs Lame's lambda > 0 at rest: poissons_ratio > 0, or bulk_modulus > 2/3 shear_modulus; "
+          "expected "
+          "formulation: displacement");
+    }
+    if (deck.plane && deck.plane->kind == Plane::Kind::Stress) {
+      formulation.fail("volumes are free in plane stress; expected formulation: displacement");
+    }
+    if (!deck.path.imperfections.empty()) {
+      root.at("path")
+          .at("imperfections")
+          .fail(fmt::format("their shapes are of displacements alone; expected formulation: displacement in "
+                            "materials/{}, or a small constant load",
+                            material.name));
     }
   }
 }
@@ -199,6 +251,7 @@ void checkSolver(const Value& root, const Deck& deck) {
 
 void checkReferences(const Value& root, const Deck& deck) {
   checkMaterials(root.at("materials"), deck);
+  checkFormulations(root, deck);
   checkSections(root, deck);
   if (root.has("contact")) {
     for (const Value& contact : root.at("contact").entries().children()) {

@@ -67,6 +67,21 @@ Field<S> pair(std::string key, Need need, std::array<double, 2> S::*member, cons
           }};
 }
 
+Field<fem::QuadrilateralOptions> corners() {
+  using Quadrilateral = fem::QuadrilateralOptions;
+  return {"corners",
+          true,
+          "a list of 8 numbers",
+          "x and y of the corners, counter-clockwise",
+          [](const Value& v, Quadrilateral& s) {
+            const auto x = v.reals(s.corners.size());
+            std::copy(x.begin(), x.end(), s.corners.begin());
+          },
+          [](const Quadrilateral& s) {
+            return Node{yamlList(s.corners), {}};
+          }};
+}
+
 template <class S>
 Field<S> range(std::string key, double S::*low, double S::*high, std::string meaning) {
   return {std::move(key),
@@ -294,6 +309,9 @@ const Variants<GenerateInput, Generate>& generateVariants() {
              range("angle", &Annulus::angleMin, &Annulus::angleMax, "first and last, degrees from x to y")},
             "radius, angle", planeCells()),
         outerAboveInner<Annulus>()));
+    using Quadrilateral = fem::QuadrilateralOptions;
+    v.alternatives.push_back(alternative<Generate, Quadrilateral>(
+        "quadrilateral", withCells<Quadrilateral>({corners()}, "the first edge, the second", planeCells())));
     return v;
   }();
   return variants;

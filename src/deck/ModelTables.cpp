@@ -1,6 +1,7 @@
 // Keys of the blocks that describe the body and what acts on it: materials, loads, contact.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "deck/DeckTables.hpp"
 
@@ -140,6 +141,35 @@ Field<Contact> contactStiffness() {
           }};
 }
 
+/// A positive number, or infinite: a member of type double, or one that may be missing.
+template <class S, class M>
+Field<S> bulkModulus(bool needed, M S::*member) {
+  constexpr const char* word = "infinite";
+  return {"bulk_modulus",
+          needed,
+          "a positive number, or infinite with formulation: mixed",
+          "kappa, a pressure",
+          [=](const Value& v, S& s) {
+            if (!v.isText()) {
+              s.*member = v.real(check::positive);
+            } else if (v.text() == word) {
+              s.*member = std::numeric_limits<double>::infinity();
+            } else {
+              v.fail(fmt::format("expected a positive number or {}, got {}", word, v.shown()));
+            }
+          },
+          [=](const S& s) {
+            const std::optional<double> bulk = s.*member;
+            return !bulk ? Node{} : Node{std::isinf(*bulk) ? word : yaml(*bulk), {}};
+          }};
+}
+
+const Choices<Material::Formulation>& formulations() {
+  static const Choices<Material::Formulation> choices{{"displacement", Material::Formulation::Displacement},
+                                                      {"mixed", Material::Formulation::Mixed}};
+  return choices;
+}
+
 void requireElasticPair(const Value& map, const NeoHookean& m) {
   const bool young = m.youngsModulus || m.poissonsRatio, moduli = m.shearModulus || m.bulkModulus;
   const bool complete =
@@ -153,7 +183,6 @@ void requireElasticPair(const Value& map, const NeoHookean& m) {
 
 const Variants<Material, decltype(Material::law)>& materialVariants() {
   using V = decltype(Material::law);
-  const std::string bulk = "kappa, a pressure";
   static const Variants<Material, V> variants{
       "law",
       &Material::law,
@@ -167,13 +196,13 @@ const Variants<Material, decltype(Material::law)>& materialVariants() {
            {real("youngs_modulus", &NeoHookean::youngsModulus, check::positive, "E at rest, a pressure"),
             real("poissons_ratio", &NeoHookean::poissonsRatio, check::poissonsRatio, "nu at rest"),
             real("shear_modulus", &NeoHookean::shearModulus, check::positive, "mu, a pressure"),
-            real("bulk_modulus", &NeoHookean::bulkModulus, check::positive, bulk)},
+            bulkModulus(false, &NeoHookean::bulkModulus)},
            requireElasticPair),
        alternative<V, MooneyRivlin>(
            "mooney_rivlin",
            {real("c1", required, &MooneyRivlin::c1, check::any, "factor of the first invariant, a pressure"),
             real("c2", required, &MooneyRivlin::c2, check::any, "of the second; c1 + c2 > 0"),
-            real("bulk_modulus", required, &MooneyRivlin::bulkModulus, check::positive, bulk)},
+            bulkModulus(true, &MooneyRivlin::bulkModulus)},
            [](const Value& map, const MooneyRivlin& m) {
              if (!(m.c1 + m.c2 > 0)) {
                map.at("c2").fail(fmt::format(
@@ -185,14 +214,16 @@ const Variants<Material, decltype(Material::law)>& materialVariants() {
            {real("c1", required, &Yeoh::c1, check::positive, "half the shear modulus at rest, a pressure"),
             real("c2", required, &Yeoh::c2, check::any, "factor of the square, a pressure"),
             real("c3", required, &Yeoh::c3, check::any, "factor of the cube, a pressure"),
-            real("bulk_modulus", required, &Yeoh::bulkModulus, check::positive, bulk)}),
-       alternative<V, Gent>(
-           "gent",
-           {real("shear_modulus", required, &Gent::shearModulus, check::positive, "at rest, a pressure"),
-            real("limit", required, &Gent::limit, check::positive,
-                 "J_m, what the first invariant cannot exceed 3 by"),
-            real("bulk_modulus", required, &Gent::bulkModulus, check::positive, bulk)})},
-      {names("blocks", required, &Material::blocks, "blocks of the mesh that are made of it")}};
+            bulkModulus(true, &Yeoh::bulkModulus)}),
+       alternative<V, Gent>("gent", {real("shear_modulus", required, &Gent::shearModulus, check::positive,
+                                          "at rest, a pressure"),
+                                     real("limit", required, &Gent::limit, check::positive,
+                                          "J_m, what the first invariant cannot exceed 3 by"),
+                                     bulkModulus(true, &Gent::bulkModulus)})},
+      {names("blocks", required, &Material::blocks, "blocks of the mesh that are made of it"),
+       choice("formulation", optional, &Material::formulation, formulations(),
+              "mixed: pressures are unknowns too, for nearly incompressible rubber in solids and plane "
+              "bodies")}};
   return variants;
 }
 

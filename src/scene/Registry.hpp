@@ -16,6 +16,11 @@ namespace atrapos::registry {
 std::unique_ptr<fem::Term> materialTerm(const deck::Material& material, const fem::PointSet& points,
                                         const std::optional<solid::PlaneSection>& plane);
 
+/// The same with pressures, at points that have them.
+std::unique_ptr<fem::Term> mixedTerm(const deck::Material& material, const fem::Mesh& mesh,
+                                     const fem::Block& block, const fem::PointSet& points,
+                                     const std::optional<solid::PlaneSection>& plane);
+
 /// The term of a material in shells. Throws std::runtime_error where an element cannot be
 /// (solid::shellPoints).
 std::unique_ptr<fem::Term> shellTerm(const deck::Material& material, const solid::ShellElements& elements,

@@ -10,6 +10,7 @@
 #include "atrapos/fem/ReferenceCell.hpp"
 #include "atrapos/fem/RigidBody.hpp"
 #include "atrapos/fem/ShellFaces.hpp"
+#include "atrapos/solid/MixedBody.hpp"
 #include "atrapos/solid/ShellResults.hpp"
 #include "machine/Ranks.hpp"
 #include "scene/FollowerLoads.hpp"
@@ -55,7 +56,7 @@ fem::FeModel Scene::makeModel() {
   contacts_.clear();
   fem::FeModel model;
   model.comm = Teuchos::rcp(new Teuchos::MpiComm<int>(ranks::communicator()));
-  model.dofs = fem::DofMap::displacements(mesh_.numNodes(), mesh_.dimension);
+  model.dofs = fem::DofMap(mesh_.numNodes(), fields());
   model.dofs.addNodes(shells_.geometry.numDirectors(), fem::directorField());
   addMaterials(model);
   giveRanks(model);
@@ -79,7 +80,8 @@ std::string Scene::dofName(const fem::DofMap& dofs, int dof) const {
   if (at.node >= g.numNodes()) return dofs.nameOf(dof);  // of rigid bodies and contact points
   const int node = at.node < g.numMeshNodes ? at.node : g.meshNode[at.node - g.numMeshNodes];
   const fem::Field& field = dofs.fields()[at.field];
-  return fmt::format("{} {} {} node {}", field.name, field.components[at.component],
+  const std::string component = field.components[at.component];
+  return fmt::format("{}{}{} {} node {}", field.name, component.empty() ? "" : " ", component,
                      at.node < g.numMeshNodes ? "of" : "at",
                      mesh_.nodeIds.empty() ? static_cast<long long>(node) + 1 : mesh_.nodeIds[node]);
 }
@@ -106,6 +108,23 @@ void Scene::giveRanks(fem::FeModel& model) const {
   }
 }
 
+std::vector<fem::DofMap::Located> Scene::fields() const {
+  std::vector<fem::DofMap::Located> fields{{fem::displacementField(mesh_.dimension), {}}};
+  for (const deck::Material& material : deck_.materials)
+    if (material.formulation == deck::Material::Formulation::Mixed)
+      for (const std::string& name : material.blocks) {
+        const fem::Block& block = mesh_.blocks[fem::findBlock(mesh_, name)];
+        if (!solid::hasPressures(block.topology))
+          fail("materials/" + material.name + "/formulation",
+               fmt::format(
+                   "block '{}' has {}; pressures stand beside displacements of degree 2, in QUAD8, QUAD9, "
+                   "TRI6, HEX20, HEX27, TET10 and WEDGE15",
+                   name, fem::topologyName(block.topology)));
+        fields.push_back({solid::pressureField(block), solid::pressureNodes(block)});
+      }
+  return fields;
+}
+
 void Scene::addMaterials(fem::FeModel& model) {
   bodies_.resize(mesh_.blocks.size());
   for (const deck::Material& material : deck_.materials)
@@ -117,9 +136,13 @@ void Scene::addMaterials(fem::FeModel& model) {
           bodies_[b] = addShell(material, shells_.find(b), model);
           continue;
         }
-        const auto cell = fem::tabulate(block.topology);
+        const bool mixed = material.formulation == deck::Material::Formulation::Mixed;
+        const auto cell = mixed ? solid::mixedTabulation(block.topology) : fem::tabulate(block.topology);
+        const fem::PointSet points = materialPoints(block, cell);
         bodies_[b] = {static_cast<int>(model.terms.size()), -1, fem::extrapolation(block.topology, cell)};
-        model.terms.push_back(registry::materialTerm(material, materialPoints(block, cell), plane_));
+        model.terms.push_back(mixed ? registry::mixedTerm(material, mesh_, block,
+                                                          solid::withPressures(points, block, cell), plane_)
+                                    : registry::materialTerm(material, points, plane_));
       } catch (const std::runtime_error& e) {
         fail("mesh/file", e.what());
       }

@@ -92,6 +92,62 @@ TEST(PlaneDeck, annulusGivesItsValues) {
       "plane.yaml:3:61: mesh/generate/outer_radius: must be above inner_radius = 2, got 1.5");
 }
 
+TEST(PlaneDeck, quadrilateralGivesItsCorners) {
+  const Deck deck = readDeckText(
+      changed(
+          "{shape: rectangle, lengths: [4, 2], origin: [1, 0], divisions: [5, 3], cell: TRI6, grading: 2}",
+          "{shape: quadrilateral, corners: [0, 0, 48, 44, 48, 60, 0, 44], divisions: [2, 8]}"),
+      "plane.yaml");
+  EXPECT_EQ(std::get<fem::QuadrilateralOptions>(*deck.mesh.generate).corners,
+            (std::array<double, 8>{0, 0, 48, 44, 48, 60, 0, 44}));
+  std::ostringstream first, second;
+  describe(deck, first);
+  describe(readDeckText(first.str(), "plane.yaml"), second);
+  EXPECT_EQ(first.str(), second.str());
+}
+
+TEST(PlaneDeck, mixedFormulations) {
+  const std::string steel =
+      "{law: saint_venant_kirchhoff, youngs_modulus: 220000, poissons_ratio: 0.3, blocks: [body]}";
+  const auto said = [&](const std::string& material, const std::string& kind = "strain") -> std::string {
+    std::string text = changed(steel, material);
+    const auto at = text.find("kind: stress");
+    text.replace(at, 12, "kind: " + kind);
+    try {
+      const Deck deck = readDeckText(text, "plane.yaml");
+      std::ostringstream first, second;
+      describe(deck, first);
+      describe(readDeckText(first.str(), "plane.yaml"), second);
+      EXPECT_EQ(first.str(), second.str());
+      return deck.materials[0].formulation == Material::Formulation::Mixed ? "mixed" : "displacement";
+    } catch (const DeckError& error) {
+      return error.what();
+    }
+  };
+  const std::string rubber = "{law: neo_hookean, shear_modulus: 1, bulk_modulus: infinite, blocks: [body]";
+  EXPECT_EQ(said(rubber + ", formulation: mixed}"), "mixed");
+  EXPECT_EQ(said("{law: yeoh, c1: 1, c2: 0, c3: 0, bulk_modulus: 9, blocks: [body]}"), "displacement");
+  EXPECT_EQ(said(rubber + "}"),
+            "plane.yaml:6:61: materials/steel/bulk_modulus: infinite needs formulation: mixed");
+  EXPECT_EQ(said(rubber + ", formulation: mixed}", "stress"),
+            "plane.yaml:6:100: materials/steel/formulation: volumes are free in plane stress; expected "
+            "formulation: "
+            "displacement");
+  EXPECT_EQ(said("{law: saint_venant_kirchhoff, youngs_modulus: 1, poissons_ratio: 0.3, blocks: [body], "
+                 "formulation: mixed}"),
+            "plane.yaml:6:109: materials/steel/formulation: saint_venant_kirchhoff has no volumetric part "
+            "that pressures "
+            "could be of; expected a law of rubber, or formulation: displacement");
+  EXPECT_EQ(
+      said("{law: neo_hookean, shear_modulus: 3, bulk_modulus: 2, blocks: [body], formulation: mixed}"),
+      "plane.yaml:6:93: materials/steel/formulation: needs Lame's lambda > 0 at rest: poissons_ratio > 0, "
+      "or bulk_modulus > 2/3 shear_modulus; expected formulation: displacement");
+  EXPECT_EQ(
+      said("{law: gent, shear_modulus: 1, limit: 9, bulk_modulus: large, blocks: [body]}"),
+      "plane.yaml:6:64: materials/steel/bulk_modulus: expected a positive number or infinite, got the text "
+      "'large'");
+}
+
 TEST(PlaneDeck, describedDeckReadsBack) {
   std::ostringstream first, second;
   describe(readDeckText(goodDeck, "plane.yaml"), first);

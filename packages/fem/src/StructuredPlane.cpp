@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "atrapos/fem/StructuredShell.hpp"
@@ -72,6 +73,32 @@ Mesh rectangleMesh(const RectangleOptions& o) {
   plate.topology = shellOf(o.topology);
   plate.blockName = o.blockName;
   return planeMesh(shellPlateMesh(plate), o.topology, "rectangle");
+}
+
+Mesh quadrilateralMesh(const QuadrilateralOptions& o) {
+  const auto& c = o.corners;
+  for (int k = 0; k < 4; ++k) {
+    const double *a = &c[2 * k], *b = &c[2 * ((k + 1) % 4)], *d = &c[2 * ((k + 3) % 4)];
+    if (!((b[0] - a[0]) * (d[1] - a[1]) > (b[1] - a[1]) * (d[0] - a[0])))
+      throw std::invalid_argument(
+          "quadrilateral: corners must be those of a convex one, counter-clockwise; it is not at corner " +
+          std::to_string(k + 1));
+  }
+  RectangleOptions unit;
+  unit.divisions = o.divisions;
+  unit.topology = o.topology;
+  unit.blockName = o.blockName;
+  Mesh mesh = rectangleMesh(unit);
+  mesh.title = "quadrilateral";
+  for (int n = 0; n < mesh.numNodes(); ++n) {
+    double* x = &mesh.coordinates[3 * static_cast<std::size_t>(n)];
+    const double s = x[0], t = x[1], weights[4] = {(1 - s) * (1 - t), s * (1 - t), s * t, (1 - s) * t};
+    for (int i = 0; i < 2; ++i) {
+      x[i] = 0;
+      for (int k = 0; k < 4; ++k) x[i] += weights[k] * c[2 * k + i];
+    }
+  }
+  return mesh;
 }
 
 Mesh annulusMesh(const AnnulusOptions& o) {

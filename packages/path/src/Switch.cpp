@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include <Tpetra_Vector.hpp>
 
@@ -49,8 +50,13 @@ Switched switchBranch(Problem& problem, linear::TangentSolver& solver, const Opt
   auto F = calls.newVector(), r = calls.newVector(), trial = calls.newVector();
   auto x1 = calls.newVector(), x2 = calls.newVector();
   const double usual = 1e-2 * point.stepLength;
-  const double first = std::max(usual, leastDistance(calls, point, direction, tolerance));
-  for (const double s : {first, first > usual ? usual : 0.1 * usual}) {
+  const double least = leastDistance(calls, point, direction, tolerance);
+  const double first = std::max(usual, least);
+  std::vector<double> distances{first, first > usual ? usual : 0.1 * usual};
+  // A path that is straight up to the point makes long steps, whatever the scale of its branches.
+  if (const double closest = std::max(1e-2 * usual, least); closest < 0.1 * usual)
+    distances.push_back(closest);
+  for (const double s : distances) {
     State state = point.state.copy();
     state.u->update(s, *direction.x.u, 1);
     state.lambda += s * direction.lambda;

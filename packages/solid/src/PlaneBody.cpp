@@ -160,11 +160,13 @@ std::vector<fem::LineSet> planeEdgeLines(const fem::Mesh& mesh, const fem::SideS
 
 std::unique_ptr<fem::PointLaw> planeLaw(std::unique_ptr<fem::PointLaw> material, Kind kind) {
   // H by rows: xx, xy, xz, yx, yy, yz, zx, zy, zz.
-  if (kind == Kind::axisymmetric)
-    return fem::reducedLaw(std::move(material),
-                           {{0, 1, -1, 3, 4, -1, -1, -1, 2}, {0, 1, 8, 3, 4, -1}, 6, -1});
-  return fem::reducedLaw(std::move(material),
-                         {{0, 1, -1, 2, 3, -1, -1, -1, -1}, {0, 1, 3, 4}, 4, kind == Kind::stress ? 8 : -1});
+  fem::Reduction r{{0, 1, -1, 2, 3, -1, -1, -1, -1}, {0, 1, 3, 4}, 4, kind == Kind::stress ? 8 : -1};
+  if (kind == Kind::axisymmetric) r = {{0, 1, -1, 3, 4, -1, -1, -1, 2}, {0, 1, 8, 3, 4, -1}, 6, -1};
+  for (int more = 9; more < material->shape().inputs; ++more) {
+    r.inputs.push_back(r.numInputs++);
+    r.outputs.push_back(more);
+  }
+  return fem::reducedLaw(std::move(material), std::move(r));
 }
 
 }  // namespace atrapos::solid

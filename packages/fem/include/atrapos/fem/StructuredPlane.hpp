@@ -26,6 +26,19 @@ struct RectangleOptions {
 /// plane ones.
 Mesh rectangleMesh(const RectangleOptions& options);
 
+/// A quadrilateral with straight edges, mapped bilinearly. Sets are named as those of a rectangle: y_min is
+/// the edge from the first corner to the second, x_max the next one.
+struct QuadrilateralOptions {
+  std::array<double, 8> corners{0, 0, 1, 0, 1, 1, 0, 1};  ///< x and y of four, counter-clockwise
+  std::array<int, 2> divisions{1, 1};                     ///< along the first edge, along the second
+  Topology topology = Topology::Quad8;
+  std::string blockName = "body";
+};
+
+/// Throws std::invalid_argument, one line, for divisions below 1, corners of a quadrilateral that is not
+/// convex or runs clockwise, and cells that are no plane ones.
+Mesh quadrilateralMesh(const QuadrilateralOptions& options);
+
 /// A part of an annulus about the origin, angles from x to y: the cross-section of a tube, and of a hollow
 /// sphere where x is a radius. Sets are named as those of a shell annulus: side sets and node sets inner,
 /// outer, angle_min, angle_max (360 degrees close it: then without the last two), node sets of corners and of

@@ -28,6 +28,8 @@ struct Gent : FirstInvariantLaw<Gent> {
     return law;
   }
 
+  double shearModulus() const { return mu; }  ///< at rest
+
   /// (mu/2)/(1 - x/limit), by the logarithm of the energy: beyond the limit there is no value, where a
   /// quotient would have a negative one.
   template <class T>

@@ -27,6 +27,8 @@ struct MooneyRivlin : RubberLaw<MooneyRivlin> {
     return law;
   }
 
+  double shearModulus() const { return 2 * (c1 + c2); }  ///< at rest
+
   /// S from the Green-Lagrange strain.
   template <class T>
   KOKKOS_FORCEINLINE_FUNCTION taylor::Symmetric3<T> secondPiola(const taylor::Symmetric3<T>& E) const {
@@ -36,12 +38,29 @@ struct MooneyRivlin : RubberLaw<MooneyRivlin> {
     const T d = detail::determinantChange(A, K);
     const T J2 = 1.0 + d;
     const T m = pow(J2, -1.0 / 3);
-    return stress(A, K, d, J2, m);
+    const T pressure = d / J2;
+    return stress(A, K, d, J2, m, 0.5 * bulk, pressure);
   }
 
-  /// P = F S: the second invariant needs C anyway. J comes from F, for its sign.
   template <class T>
   KOKKOS_INLINE_FUNCTION void operator()(const T* in, const taylor::Passive<T>*, T* out) const {
+    stressOfGradient(in, 0.5 * bulk, detail::BulkPressure{}, out);
+  }
+
+  /// What MixedLaw is made of.
+  template <class T>
+  KOKKOS_FORCEINLINE_FUNCTION void mixed(const T* in, double scale, T* out) const {
+    const T j = stressOfGradient(in, scale, detail::GivenPressure<T>{in[9]}, out);
+    const T q = (scale / bulk) * in[9];
+    out[9] = scale * (j - detail::volumeChangeAt(q));
+  }
+
+ private:
+  /// P = F S: the second invariant needs C anyway. J comes from F, for its sign. U'(J)/J as in
+  /// FirstInvariantLaw. Returns J - 1.
+  template <class T, class Volumetric>
+  KOKKOS_FORCEINLINE_FUNCTION T stressOfGradient(const T* in, double modulus, const Volumetric& volumetric,
+                                                 T* out) const {
     using std::pow;
     const taylor::Matrix3<T> H(in);
     // The first row of cof F - I
@@ -53,28 +72,29 @@ struct MooneyRivlin : RubberLaw<MooneyRivlin> {
     const T m = pow(J, -2.0 / 3);
     const T d = j + j * J;
     const T J2 = 1.0 + d;
+    const T pressure = volumetric(J, d, J2);
     const taylor::Symmetric3<T> A = 2.0 * greenLagrange(H);
-    const taylor::Symmetric3<T> S = stress(A, detail::cofactorChange(A), d, J2, m);
+    const taylor::Symmetric3<T> S = stress(A, detail::cofactorChange(A), d, J2, m, modulus, pressure);
     const taylor::Matrix3<T> P = full(S) + H * S;
     P.store(out);
+    return j;
   }
 
- private:
-  /// S from A = C - I, K = cof C - I, d = J^2 - 1, J2 = J^2, m = J^(-2/3).
+  /// S from A = C - I, K = cof C - I, d = J^2 - 1, J2 = J^2, m = J^(-2/3), U'(J)/J = modulus pressure.
   template <class T>
   KOKKOS_FORCEINLINE_FUNCTION taylor::Symmetric3<T> stress(const taylor::Symmetric3<T>& A,
                                                            const taylor::Symmetric3<T>& K, const T& d,
-                                                           const T& J2, const T& m) const {
+                                                           const T& J2, const T& m, double modulus,
+                                                           const T& pressure) const {
     const T i1 = trace(A);
     const T i2 = trace(K);
     const T n = m / J2;
     const T p = m * n;
-    const T pressure = d / J2;
     const T first = d - (1.0 / 3) * i1;
     const T second = i1 + 2.0 * d + d * i1 - (2.0 / 3) * i2;
-    const T ofI = (0.5 * bulk) * pressure + (2 * c1) * (n * first) + (2 * c2) * (p * second);
-    const T ofK = (0.5 * bulk) * pressure - (2 * c1) * n - (2 * c1 / 3) * (n * i1) - (4 * c2) * p -
-                  (4 * c2 / 3) * (p * i2);
+    const T ofI = modulus * pressure + (2 * c1) * (n * first) + (2 * c2) * (p * second);
+    const T ofK =
+        modulus * pressure - (2 * c1) * n - (2 * c1 / 3) * (n * i1) - (4 * c2) * p - (4 * c2 / 3) * (p * i2);
     const T ofA = (-2 * c2) * p - (2 * c2) * (p * d);
     return plusIdentity(scaled(K, ofK) + scaled(A, ofA), ofI);
   }

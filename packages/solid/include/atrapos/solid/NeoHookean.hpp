@@ -59,6 +59,23 @@ struct NeoHookean : RubberLaw<NeoHookean> {
     P.store(out);
   }
 
+  /// What MixedLaw is made of: lambda ln J is scale times the last input.
+  template <class T>
+  KOKKOS_FORCEINLINE_FUNCTION void mixed(const T* in, double scale, T* out) const {
+    using std::log1p, atrapos::taylor::log1p;
+    const taylor::Matrix3<T> H(in);
+    const taylor::Matrix3<T> K = detail::cofactorChange(H);
+    const T j = detail::determinantChange(H, K);
+    const T logarithm = log1p(j);
+    const T J = 1.0 + j;
+    const T b = (mu * j + scale * in[9]) / J;
+    const taylor::Matrix3<T> P = plusIdentity(mu * (H - K) + scaled(K, b), b);
+    P.store(out);
+    out[9] = scale * logarithm - (scale * (scale / lambda)) * in[9];
+  }
+
+  double shearModulus() const { return mu; }  ///< at rest
+
  private:
   static NeoHookean fromLame(double lambda, double mu) {
     NeoHookean law;

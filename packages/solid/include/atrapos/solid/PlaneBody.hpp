@@ -42,7 +42,7 @@ std::vector<fem::PointSet> planeEdgePoints(const fem::Mesh& mesh, const fem::Sid
 std::vector<fem::LineSet> planeEdgeLines(const fem::Mesh& mesh, const fem::SideSet& set,
                                          const PlaneSection& section, int degree);
 
-/// A material of solids (H to P, 9 each) at planePoints.
+/// A material of solids (H to P, 9 each; what comes behind them, in and out, stays) at planePoints.
 std::unique_ptr<fem::PointLaw> planeLaw(std::unique_ptr<fem::PointLaw> material, PlaneSection::Kind kind);
 
 }  // namespace atrapos::solid

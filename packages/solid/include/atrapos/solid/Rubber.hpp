@@ -63,6 +63,29 @@ inline void requirePositive(double x, const char* what) {
   if (!(x > 0) || !std::isfinite(x)) throw std::invalid_argument(std::string(what) + " must be positive");
 }
 
+/// U'(J)/J of the common volumetric energy, by its bulk modulus: (J^2 - 1)/J^2.
+struct BulkPressure {
+  template <class T>
+  KOKKOS_FORCEINLINE_FUNCTION T operator()(const T&, const T& d, const T& J2) const {
+    return d / J2;
+  }
+};
+/// The same where the pressure U'(J) is an unknown of its own, by the scale of this unknown.
+template <class T>
+struct GivenPressure {
+  const T& pressure;
+  KOKKOS_FORCEINLINE_FUNCTION T operator()(const T& J, const T&, const T&) const { return pressure / J; }
+};
+
+/// J - 1 where U'(J) = bulk/2 (J - 1/J) = bulk sinh(ln J) is q bulk.
+template <class T>
+KOKKOS_FORCEINLINE_FUNCTION T volumeChangeAt(const T& q) {
+  using std::asinh;
+  using std::expm1, atrapos::taylor::expm1;
+  const T logarithm = asinh(q);
+  return expm1(logarithm);
+}
+
 }  // namespace detail
 
 /// Base of a law of rubber: its shape, and the Cauchy stress that is shown.
@@ -103,25 +126,45 @@ struct FirstInvariantLaw : RubberLaw<Law> {
     const T J2 = 1.0 + d;
     const T m = pow(J2, -1.0 / 3);
     const T i1 = trace(A);
+    const T pressure = d / J2;
     T s, t;
-    factors(i1, d, J2, m, s, t);
+    factors(i1, d, J2, m, 0.5 * bulk, pressure, s, t);
     return plusIdentity(scaled(K, t), s);
   }
 
-  /// P of F and cof F, without C: fewer products than F S, and J itself, not J^2, must be positive.
   template <class T>
   KOKKOS_INLINE_FUNCTION void operator()(const T* in, const taylor::Passive<T>*, T* out) const {
+    T j;
+    stress(in, 0.5 * bulk, detail::BulkPressure{}, out, j);
+  }
+
+  /// What MixedLaw is made of.
+  template <class T>
+  KOKKOS_FORCEINLINE_FUNCTION void mixed(const T* in, double scale, T* out) const {
+    T j;
+    stress(in, scale, detail::GivenPressure<T>{in[9]}, out, j);
+    const T q = (scale / bulk) * in[9];
+    out[9] = scale * (j - detail::volumeChangeAt(q));
+  }
+
+ private:
+  /// P of F and cof F, without C: fewer products than F S, and J itself, not J^2, must be positive. U'(J)/J
+  /// is modulus times what volumetric(J, J^2 - 1, J^2) says. j = J - 1.
+  template <class T, class Volumetric>
+  KOKKOS_FORCEINLINE_FUNCTION void stress(const T* in, double modulus, const Volumetric& volumetric, T* out,
+                                          T& j) const {
     using std::pow;
     const taylor::Matrix3<T> H(in);
     const taylor::Matrix3<T> K = detail::cofactorChange(H);
-    const T j = detail::determinantChange(H, K);
+    j = detail::determinantChange(H, K);
     const T J = 1.0 + j;
     const T d = j + j * J;
     const T J2 = 1.0 + d;
     const T m = pow(J, -2.0 / 3);
     const T i1 = detail::firstInvariantChange(H);
+    const T pressure = volumetric(J, d, J2);
     T s, t;
-    factors(i1, d, J2, m, s, t);
+    factors(i1, d, J2, m, modulus, pressure, s, t);
     // F (s I + t (cof C - I)) = (s - t) F + t J cof F
     const T tj = t * j;
     const T ofH = s - t;
@@ -131,19 +174,18 @@ struct FirstInvariantLaw : RubberLaw<Law> {
     P.store(out);
   }
 
- private:
-  /// S = s I + t (cof C - I) from i1 = I_1 - 3, d = J^2 - 1, J2 = J^2, m = J^(-2/3).
+  /// S = s I + t (cof C - I) from i1 = I_1 - 3, d = J^2 - 1, J2 = J^2, m = J^(-2/3), U'(J)/J = modulus
+  /// pressure.
   template <class T>
-  KOKKOS_FORCEINLINE_FUNCTION void factors(const T& i1, const T& d, const T& J2, const T& m, T& s,
-                                           T& t) const {
+  KOKKOS_FORCEINLINE_FUNCTION void factors(const T& i1, const T& d, const T& J2, const T& m, double modulus,
+                                           const T& pressure, T& s, T& t) const {
     const T x = m * i1 + 3.0 * m - 3.0;
     const T slope = static_cast<const Law&>(*this).slope(x);
     const T n = m / J2;
     const T q = 2.0 * (slope * n);
-    const T pressure = d / J2;
     const T spherical = d - (1.0 / 3) * i1;
-    s = (0.5 * bulk) * pressure + q * spherical;
-    t = (0.5 * bulk) * pressure - q - (1.0 / 3) * (q * i1);
+    s = modulus * pressure + q * spherical;
+    t = modulus * pressure - q - (1.0 / 3) * (q * i1);
   }
 };
 

@@ -28,6 +28,8 @@ struct Yeoh : FirstInvariantLaw<Yeoh> {
     return law;
   }
 
+  double shearModulus() const { return 2 * c1; }  ///< at rest
+
   template <class T>
   KOKKOS_FORCEINLINE_FUNCTION T slope(const T& x) const {
     const T curvature = 2 * c2 + (3 * c3) * x;
