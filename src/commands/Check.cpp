@@ -11,6 +11,7 @@
 #include "machine/Memory.hpp"
 #include "machine/Ranks.hpp"
 #include "machine/Threads.hpp"
+#include "scene/Compression.hpp"
 
 namespace atrapos {
 
@@ -36,6 +37,8 @@ void printCheck(Scene& scene, std::ostream& out) {
           "does not\n",
           contact.name, contact.attracted);
   }
+  for (const std::string& line : largeCompression(scene.deck(), scene.mesh()))
+    out << "# warning   " << line << '\n';
   if (ranks::count() > 1) out << fmt::format("# ranks     {}\n", threads::describe(ranks::communicator()));
   SceneCase pathCase(scene);
   const auto solver = tangentSolver(pathCase);
