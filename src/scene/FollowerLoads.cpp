@@ -30,7 +30,7 @@ struct Maker {
     if (body.plane)
       return solid::followerPressure(
           mesh, sides(load.set), *body.plane, amount(load.pressure),
-          solid::potentialOrigin(mesh, sides(load.set), body.model.dofs, body.model.supports));
+          solid::hasPotential(mesh, sides(load.set), body.model.dofs, body.model.supports));
     const std::size_t blocks = shells.elements.size();
     // Pressure > 0 pushes on the body: against the normal of a top side, along it on a bottom side.
     std::vector<std::vector<int>> loaded(2 * blocks);

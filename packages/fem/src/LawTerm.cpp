@@ -31,6 +31,7 @@ class LawTerm final : public Term {
     update_ = std::move(update);
     initialData_ = data;
   }
+  void setSymmetricSum() { symmetricSum_ = true; }
   void setPieces(PieceSearch search, const std::vector<double>& data) {
     pieces_ = std::make_unique<PointPieces>(std::move(search), numPoints(), data);
     setUpdate(
@@ -45,7 +46,7 @@ class LawTerm final : public Term {
   int numEntities() const override { return a_.elements.numEntities(); }
   int nodesPerEntity() const override { return a_.elements.nodesPerEntity(); }
   const std::vector<int>& nodes() const override { return a_.elements.nodes(); }
-  bool symmetric() const override { return a_.shape.symmetric; }
+  bool symmetric() const override { return a_.shape.symmetric || symmetricSum_; }
   bool seesLoadFactor() const override { return a_.shape.inputs > I_; }
   std::size_t historyBytes(int maxOrder) const override { return a_.historyBytes(maxOrder); }
 
@@ -246,6 +247,7 @@ class LawTerm final : public Term {
   int I_, O_;
   PointVariables variables_;
   std::size_t moduliDoubles_ = 0;
+  bool symmetricSum_ = false;
   DataUpdate update_;
   std::unique_ptr<PointPieces> pieces_;  ///< null: not in pieces
   std::vector<double> initialData_;      ///< [point][datum]
@@ -265,6 +267,13 @@ std::unique_ptr<Term> lawTerm(std::unique_ptr<PointLaw> law, const PointSet& poi
                               const std::vector<double>& data, PieceSearch search) {
   auto term = std::make_unique<LawTerm>(std::move(law), points, data);
   term->setPieces(std::move(search), data);
+  return term;
+}
+
+std::unique_ptr<Term> symmetricSumTerm(std::unique_ptr<PointLaw> law, const PointSet& points,
+                                       const std::vector<double>& data) {
+  auto term = std::make_unique<LawTerm>(std::move(law), points, data);
+  term->setSymmetricSum();
   return term;
 }
 

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <map>
+#include <optional>
 #include <stdexcept>
 
 #include "atrapos/fem/LawTerm.hpp"
@@ -15,7 +16,7 @@ namespace {
 
 using Kind = PlaneSection::Kind;
 
-// r^2 N_xi has degree 2 + 2 + 1 on edges of three nodes.
+// r r_xi N has degree 2 + 1 + 2 on edges of three nodes.
 constexpr int kDegree = 5;
 
 std::vector<int> nodesOfEdge(const fem::Mesh& mesh, const fem::Side& side, const fem::SideSet& set) {
@@ -36,7 +37,7 @@ struct Edges {
 };
 
 void append(const fem::Mesh& mesh, const fem::Tabulation& t, const std::vector<int>& nodes, double depth,
-            double origin, Edges& edges) {
+            Edges& edges) {
   fem::PointSet& p = edges.points;
   ++p.numEntities;
   p.components = 2;
@@ -46,7 +47,7 @@ void append(const fem::Mesh& mesh, const fem::Tabulation& t, const std::vector<i
   p.nodes.insert(p.nodes.end(), nodes.begin(), nodes.end());
   for (int q = 0; q < t.numPoints; ++q) {
     p.weights.push_back(t.weights[q] * depth);
-    double data[4] = {0, 0, 0, origin};
+    double data[3] = {0, 0, 0};
     for (int n = 0; n < t.numNodes; ++n) {
       const double N = t.values[q * t.numNodes + n], slope = t.gradients[q * t.numNodes + n];
       p.shape.insert(p.shape.end(), {N, slope});
@@ -55,20 +56,19 @@ void append(const fem::Mesh& mesh, const fem::Tabulation& t, const std::vector<i
       data[1] += slope * x[0];
       data[2] += slope * x[1];
     }
-    edges.data.insert(edges.data.end(), data, data + 4);
+    edges.data.insert(edges.data.end(), data, data + 3);
   }
 }
 
-template <bool ring>
-std::unique_ptr<fem::PointLaw> edgeLaw(LoadAmount pressure, bool conservative) {
-  if (conservative) return fem::pointLaw(EdgePressure<ring, true>{pressure});
-  return fem::pointLaw(EdgePressure<ring, false>{pressure});
+std::unique_ptr<fem::PointLaw> edgeLaw(LoadAmount pressure, bool ring) {
+  if (ring) return fem::pointLaw(EdgePressure<true>{pressure});
+  return fem::pointLaw(EdgePressure<false>{pressure});
 }
 
 }  // namespace
 
-std::optional<double> potentialOrigin(const fem::Mesh& mesh, const fem::SideSet& set, const fem::DofMap& dofs,
-                                      const fem::Supports& supports) {
+bool hasPotential(const fem::Mesh& mesh, const fem::SideSet& set, const fem::DofMap& dofs,
+                  const fem::Supports& supports) {
   std::map<int, int> ends;  // how many edges end at a node, less those that begin there
   for (const fem::Side& side : set.sides) {
     const std::vector<int> nodes = nodesOfEdge(mesh, side, set);
@@ -79,19 +79,18 @@ std::optional<double> potentialOrigin(const fem::Mesh& mesh, const fem::SideSet&
   for (const auto& [node, sum] : ends) {
     const int x = dofs.firstDof(node), y = x + 1;
     if (sum == 0 || supports.fixed(y)) continue;
-    if (!supports.fixed(x) || supports.perLoadFactor(x) != 0) return std::nullopt;
+    if (!supports.fixed(x) || supports.perLoadFactor(x) != 0) return false;
     const double held = mesh.coordinates[3 * static_cast<std::size_t>(node)] + supports.value(x);
-    // Two places that differ by rounding are one: the force that is left at the end is rounding too.
-    if (origin && std::abs(held - *origin) > 1e-12 * (std::abs(held) + std::abs(*origin)))
-      return std::nullopt;
+    // Two places that differ by rounding are one: what is not symmetric then is rounding too.
+    if (origin && std::abs(held - *origin) > 1e-12 * (std::abs(held) + std::abs(*origin))) return false;
     if (!origin) origin = held;
   }
-  return origin.value_or(0.0);
+  return true;
 }
 
 std::vector<std::unique_ptr<fem::Term>> followerPressure(const fem::Mesh& mesh, const fem::SideSet& set,
                                                          const PlaneSection& section, LoadAmount pressure,
-                                                         std::optional<double> potentialOrigin) {
+                                                         bool hasPotential) {
   if (section.kind == Kind::stress)
     throw std::invalid_argument(
         "a pressure that follows acts on the thickness of the deformed edge, which plane stress leaves open; "
@@ -104,13 +103,12 @@ std::vector<std::unique_ptr<fem::Term>> followerPressure(const fem::Mesh& mesh, 
     const std::vector<int> nodes = nodesOfEdge(mesh, side, set);
     const fem::Face face = nodes.size() == 2 ? fem::Face::Line2 : fem::Face::Line3;
     if (!tables.count(face)) tables[face] = fem::tabulateFace(face, kDegree);
-    append(mesh, tables.at(face), nodes, depth, potentialOrigin.value_or(0), byShape[face]);
+    append(mesh, tables.at(face), nodes, depth, byShape[face]);
   }
   std::vector<std::unique_ptr<fem::Term>> terms;
   for (const auto& [face, edges] : byShape)
-    terms.push_back(fem::lawTerm(ring ? edgeLaw<true>(pressure, potentialOrigin.has_value())
-                                      : edgeLaw<false>(pressure, potentialOrigin.has_value()),
-                                 edges.points, edges.data));
+    terms.push_back(hasPotential ? fem::symmetricSumTerm(edgeLaw(pressure, ring), edges.points, edges.data)
+                                 : fem::lawTerm(edgeLaw(pressure, ring), edges.points, edges.data));
   return terms;
 }
 

@@ -197,7 +197,7 @@ TubeErrors tubeErrors(Topology cell, int n, double lambda) {
   for (const int node : nodesOfSet(mesh, "angle_max")) model.prescribe(node, 0, 0, 0);
   const fem::SideSet& inner = sideSet(mesh, "inner");
   for (auto& term : followerPressure(mesh, inner, section, {0, radial(a)},
-                                     potentialOrigin(mesh, inner, model.dofs, model.supports)))
+                                     hasPotential(mesh, inner, model.dofs, model.supports)))
     model.terms.push_back(std::move(term));
   const fem::DofMap dofs = model.dofs;
   const int owed = numPressures(model), field = dofs.find(pressureField(mesh.blocks[0]).name);

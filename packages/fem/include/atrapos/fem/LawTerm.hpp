@@ -39,4 +39,9 @@ std::unique_ptr<Term> lawTerm(std::unique_ptr<PointLaw> law, const PointSet& poi
 std::unique_ptr<Term> lawTerm(std::unique_ptr<PointLaw> law, const PointSet& points,
                               const std::vector<double>& data, PieceSearch search);
 
+/// A law whose tangent is not symmetric at a point, while the sum over the points is, on all dofs that the
+/// supports leave free (a pressure that follows edges whose ends are held): the term counts as symmetric.
+std::unique_ptr<Term> symmetricSumTerm(std::unique_ptr<PointLaw> law, const PointSet& points,
+                                       const std::vector<double>& data);
+
 }  // namespace atrapos::fem

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -20,8 +19,8 @@ bool hasPressures(fem::Topology cell);
 /// The pressures of a block, with the role of multipliers: each owes the tangent a negative pivot.
 fem::Field pressureField(const fem::Block& block);
 
-/// The nodes that have them, ascending. Throws std::runtime_error for cells that have no pair of spaces:
-/// those of degree 1, and shells.
+/// The nodes that have them, ascending. This and withPressures throw std::invalid_argument where hasPressures
+/// is false.
 std::vector<int> pressureNodes(const fem::Block& block);
 
 /// The cell with the cubature of mixed laws: full, also of Quad8 and Hex20.
