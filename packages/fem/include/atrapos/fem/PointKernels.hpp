@@ -88,6 +88,7 @@ struct PointPasses {
         load(in + q * I * kLanes + s, I, x);
         loadData(points, q, s, data);
         auto context = scratch(shape, points.memory);
+        context.valuesOnly = count == 0;
         evaluate(*static_cast<const Law*>(law), context, x, data, y);
         store(y, O, out + q * O * kLanes + s);
         for (int j = 0; j < count; ++j) {

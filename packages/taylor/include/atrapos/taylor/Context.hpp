@@ -94,7 +94,8 @@ struct Context {
   int waiting = 0;           ///< HistoryShape::waiting(maxOrder) where sweeps work in blocks of orders
   std::ptrdiff_t ahead = 0;  ///< doubles from here to the memory that is wanted next, fetched meanwhile
   Failures<L>* failures = nullptr;  ///< where Start notes arguments outside an operation's domain
-  bool plain = false;  ///< Start gives the values of doubles also where an operation has no series
+  bool plain = false;       ///< Start gives the values of doubles also where an operation has no series
+  bool valuesOnly = false;  ///< no pass comes after Start: it need not leave what others read
 
   // Of the execution under way.
   double* nextSlot = nullptr;
@@ -117,6 +118,7 @@ struct Context {
     ahead = alone(given.ahead);
     failures = alone(given.failures);
     plain = given.plain;
+    valuesOnly = given.valuesOnly;
     nextConstant = memory;
     nextSum = nextConstant + static_cast<std::ptrdiff_t>(shape.constants) * L;
     nextSlot = nextSum + static_cast<std::ptrdiff_t>(shape.sums) * waiting * L;

@@ -13,7 +13,7 @@ namespace detail {
 template <int NX, int NY, int ND, class G>
 KOKKOS_INLINE_FUNCTION bool solveImplicit(const G& g, const double* x, const double* data, double* y) {
   LocalNewton<NX, NY, ND> newton;
-  if (newton.template solve<true>(g, x, data, y)) return true;
+  if (newton.solve(g, x, data, y, true)) return true;
   for (int j = 0; j < NY; ++j) y[j] = std::numeric_limits<double>::quiet_NaN();
   return false;
 }
@@ -46,21 +46,24 @@ KOKKOS_INLINE_FUNCTION bool solveImplicit(const G& g, const Fad* x, const double
   return converged;
 }
 
-// Order 0 in each lane: y, and the inverse of dg/dy where it is wanted. Lanes that fail become NaN.
+// Order 0 in each lane: y, and with `inverted` the inverse of dg/dy, else zeros, at half the work. Lanes that
+// fail become NaN.
 template <int NX, int NY, int ND, class G, class X>
 KOKKOS_INLINE_FUNCTION bool solveLanes(const G& g, const Sweep<X>* x, const LanesOf<X>* data, LanesOf<X>* y,
-                                       LanesOf<X>* inverse, Failures<X::lanes>* failures) {
+                                       bool inverted, LanesOf<X>* inverse, Failures<X::lanes>* failures) {
   bool converged = true;
+  for (int j = 0; j < NY * NY; ++j) inverse[j] = LanesOf<X>(0.0);
   for (int l = 0; l < X::lanes; ++l) {
     LocalNewton<NX, NY, ND> newton;
     double x0[NX], y0[NY], data0[ND + 1];
     for (int j = 0; j < NX; ++j) x0[j] = x[j].value()[l];
     for (int j = 0; j < ND; ++j) data0[j] = data[j][l];
     for (int j = 0; j < NY; ++j) y0[j] = y[j][l];
-    const bool good = newton.solve(g, x0, data0, y0);
+    const bool good = newton.solve(g, x0, data0, y0, !inverted);
     converged = converged && good;
     if (!good && failures != nullptr) failures->note(l, Operation::Implicit, newton.size);
     for (int j = 0; j < NY; ++j) y[j][l] = good ? y0[j] : std::numeric_limits<double>::quiet_NaN();
+    if (!inverted) continue;
     double inverse0[NY * NY];
     if (good) newton.lu.invert(inverse0);
     for (int j = 0; j < NY * NY; ++j)
@@ -82,14 +85,17 @@ KOKKOS_INLINE_FUNCTION bool solveImplicit(const G& g, const Sweep<X>* x, const L
   bool converged = true;
   if (context == nullptr) {  // constants only: the solution is one too
     for (int j = 0; j < NY; ++j) yk[j] = y[j].value();
-    converged = solveLanes<NX, NY, ND>(g, x, data, yk, inverse, static_cast<Failures<X::lanes>*>(nullptr));
+    converged =
+        solveLanes<NX, NY, ND>(g, x, data, yk, false, inverse, static_cast<Failures<X::lanes>*>(nullptr));
     for (int j = 0; j < NY; ++j) y[j] = Sweep<X>(yk[j]);
     return converged;
   }
 
   const bool start = X::pass == Pass::Start;
   for (int j = 0; j < NY; ++j) yk[j] = start ? y[j].value() : LanesOf<X>(0.0);
-  if (start && !X::counting) converged = solveLanes<NX, NY, ND>(g, x, data, yk, inverse, context->failures);
+  const bool valuesOnly = start && !X::counting && context->valuesOnly;
+  if (start && !X::counting)
+    converged = solveLanes<NX, NY, ND>(g, x, data, yk, !valuesOnly, inverse, context->failures);
 
   // y takes slots, the inverse of dg/dy is of order 0 only; then comes what g takes.
   double* slots = takeSlots<X>(*context, NY);
@@ -97,6 +103,7 @@ KOKKOS_INLINE_FUNCTION bool solveImplicit(const G& g, const Sweep<X>* x, const L
     record<X::pass>(*context, slots + j * X::lanes, yk[j]);
     y[j] = Sweep<X>(yk[j], context, slots + j * X::lanes);
   }
+  if (valuesOnly) return converged;
   for (int j = 0; j < NY * NY; ++j) inverse[j] = keep<X>(*context, inverse[j]);
 
   // The arguments as they are before g gives slots to some of them: g's second execution must take the

@@ -52,8 +52,9 @@ struct LocalNewton {
   /// by its own size, the sum of |dg/dz| |z| over its x and y, so neither units nor scalings matter. False
   /// where it does not converge or dg/dy is singular. The members hold what is at the solution; with
   /// `valueOnly` they do not, and the solution is the same.
-  template <bool valueOnly = false, class G>
-  KOKKOS_INLINE_FUNCTION bool solve(const G& law, const double* x, const double* data, double* y) {
+  template <class G>
+  KOKKOS_INLINE_FUNCTION bool solve(const G& law, const double* x, const double* data, double* y,
+                                    bool valueOnly = false) {
     // Size of a residual that internal cancellation may leave: stagnating below it is convergence.
     constexpr double nearRounding = 1e-10;
     double last = -1;
