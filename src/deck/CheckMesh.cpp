@@ -69,10 +69,12 @@ class MeshCheck {
     for (const auto& material : deck_.materials) {
       const std::string path = "materials/" + material.name + "/blocks";
       for (const auto& name : material.blocks) {
-        const auto [previous, isNew] = materialOf.emplace(block(path, name), material.name);
+        const int found = block(path, name);
+        const auto [previous, isNew] = materialOf.emplace(found, material.name);
         if (!isNew) {
           fail(path, fmt::format("block '{}' already has the material '{}'", name, previous->second));
         }
+        if (std::holds_alternative<VonMises>(material.law)) plastic(material.name, found);
       }
     }
     const auto blocks = labels(mesh_.blocks);
@@ -232,6 +234,20 @@ class MeshCheck {
   }
 
  private:
+  /// What a material that yields does not serve so far.
+  void plastic(const std::string& name, int block) const {
+    const std::string path = "materials/" + name + "/law";
+    if (fem::isShell(mesh_.blocks[static_cast<std::size_t>(block)].topology)) {
+      fail(path, "von_mises is for solids, plane strain and axisymmetry, not for shells");
+    }
+    if (deck_.plane && deck_.plane->kind == Plane::Kind::Stress) {
+      fail(path, "von_mises is for solids, plane strain and axisymmetry, not for plane stress");
+    }
+    if (!deck_.path.series()) {
+      fail(path, "von_mises needs path/method: series, whose events are the points that begin to yield");
+    }
+  }
+
   [[noreturn]] void fail(const std::string& path, const std::string& what) const {
     failAt(deck_, path, what);
   }

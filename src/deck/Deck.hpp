@@ -73,11 +73,23 @@ struct Gent {
   double bulkModulus = 0;   ///< pressure, > 0, or infinite
 };
 
+/// Plasticity; stresses and moduli are pressures.
+struct VonMises {
+  double youngsModulus = 0;     ///< > 0
+  double poissonsRatio = 0;     ///< in (-1, 0.5)
+  double yieldStress = 0;       ///< in tension, > 0
+  double hardeningModulus = 0;  ///< linear isotropic hardening by plastic strain, >= 0
+  double saturation = 0;        ///< what Voce's isotropic hardening adds in the end
+  double exponent = 0;          ///< of Voce's hardening, by plastic strain, >= 0
+  double kinematicModulus = 0;  ///< Armstrong and Frederick, >= 0
+  double recall = 0;            ///< of the backstress, >= 0; 0: Prager
+};
+
 struct Material {
   /// Displacements alone, or with pressures as further unknowns.
   enum class Formulation { Displacement, Mixed };
   std::string name;
-  std::variant<SaintVenantKirchhoff, NeoHookean, MooneyRivlin, Yeoh, Gent> law;
+  std::variant<SaintVenantKirchhoff, NeoHookean, MooneyRivlin, Yeoh, Gent, VonMises> law;
   std::vector<std::string> blocks;  ///< names or ids
   Formulation formulation = Formulation::Displacement;
 };

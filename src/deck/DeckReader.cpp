@@ -62,6 +62,7 @@ double youngsModulus(const NeoHookean& m) {
 double youngsModulus(const MooneyRivlin& m) { return isotropic(2 * (m.c1 + m.c2), m.bulkModulus); }
 double youngsModulus(const Yeoh& m) { return isotropic(2 * m.c1, m.bulkModulus); }
 double youngsModulus(const Gent& m) { return isotropic(m.shearModulus, m.bulkModulus); }
+double youngsModulus(const VonMises& m) { return m.youngsModulus; }
 
 }  // namespace
 

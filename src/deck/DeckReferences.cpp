@@ -51,6 +51,7 @@ void checkMaterials(const Value& materials, const Deck& deck) {
 
 /// The bulk modulus that a law says; none where it has no such key.
 std::optional<double> bulkModulus(const SaintVenantKirchhoff&) { return std::nullopt; }
+std::optional<double> bulkModulus(const VonMises&) { return std::nullopt; }
 template <class Law>
 std::optional<double> bulkModulus(const Law& law) {
   return law.bulkModulus;
@@ -74,11 +75,10 @@ void checkFormulations(const Value& root, const Deck& deck) {
       continue;
     }
     const Value formulation = at.at("formulation");
-    if (std::holds_alternative<SaintVenantKirchhoff>(material.law)) {
+    if (!bulk && !std::holds_alternative<NeoHookean>(material.law)) {
       formulation.fail(
-          "saint_venant_kirchhoff has no volumetric part that pressures could be of; expected a law of "
-          "rubber, "
-          "or formulation: displacement");
+          "is for laws of rubber: this one has no volumetric part that pressures could be of; expected "
+          "formulation: displacement");
     }
     if (const auto* law = std::get_if<NeoHookean>(&material.law); law != nullptr && !(lambda(*law) > 0)) {
       formulation.fail(

@@ -219,7 +219,29 @@ const Variants<Material, decltype(Material::law)>& materialVariants() {
                                           "at rest, a pressure"),
                                      real("limit", required, &Gent::limit, check::positive,
                                           "J_m, what the first invariant cannot exceed 3 by"),
-                                     bulkModulus(true, &Gent::bulkModulus)})},
+                                     bulkModulus(true, &Gent::bulkModulus)}),
+       alternative<V, VonMises>(
+           "von_mises",
+           {real("youngs_modulus", required, &VonMises::youngsModulus, check::positive, "E, a pressure"),
+            real("poissons_ratio", required, &VonMises::poissonsRatio, check::poissonsRatio, "nu"),
+            real("yield_stress", required, &VonMises::yieldStress, check::positive, "in tension, a pressure"),
+            real("hardening_modulus", optional, &VonMises::hardeningModulus, check::natural,
+                 "H, of linear isotropic hardening, a pressure"),
+            real("saturation", optional, &VonMises::saturation, check::any,
+                 "Q, what Voce's isotropic hardening adds in the end, a pressure"),
+            real("exponent", optional, &VonMises::exponent, check::natural,
+                 "of Voce's hardening, by plastic strain"),
+            real("kinematic_modulus", optional, &VonMises::kinematicModulus, check::natural,
+                 "C of Armstrong and Frederick's backstress, a pressure"),
+            real("recall", optional, &VonMises::recall, check::natural,
+                 "b of the backstress; 0: Prager's rule")},
+           [](const Value& map, const VonMises& m) {
+             if (!(m.yieldStress + m.saturation > 0)) {
+               map.at("saturation")
+                   .fail(fmt::format("must leave some of the yield stress {}, got {}", m.yieldStress,
+                                     m.saturation));
+             }
+           })},
       {names("blocks", required, &Material::blocks, "blocks of the mesh that are made of it"),
        choice("formulation", optional, &Material::formulation, formulations(),
               "mixed: pressures are unknowns too, for nearly incompressible rubber in solids and plane "

@@ -9,6 +9,7 @@
 #include "atrapos/solid/MixedBody.hpp"
 #include "atrapos/solid/MixedLaw.hpp"
 #include "atrapos/solid/SaintVenantKirchhoff.hpp"
+#include "atrapos/solid/VonMises.hpp"
 
 namespace atrapos::registry {
 namespace {
@@ -58,13 +59,51 @@ std::unique_ptr<fem::PointLaw> inBody(std::unique_ptr<fem::PointLaw> law,
   return plane ? solid::planeLaw(std::move(law), plane->kind) : std::move(law);
 }
 
-std::unique_ptr<fem::PointLaw> mixedLaw(const solid::SaintVenantKirchhoff&, const fem::Mesh&,
+std::unique_ptr<fem::PointLaw> mixedLaw(const deck::SaintVenantKirchhoff&, const fem::Mesh&,
                                         const fem::Block&) {
-  throw std::logic_error("registry: Saint Venant-Kirchhoff with pressures");  // decks are checked
+  throw std::logic_error("registry: saint_venant_kirchhoff with pressures");  // decks are checked
 }
-template <class Law>
-std::unique_ptr<fem::PointLaw> mixedLaw(const Law& law, const fem::Mesh& mesh, const fem::Block& block) {
-  return fem::pointLaw(solid::MixedLaw<Law>{law, solid::pressureScale(mesh, block, law.shearModulus())});
+std::unique_ptr<fem::PointLaw> mixedLaw(const deck::VonMises&, const fem::Mesh&, const fem::Block&) {
+  throw std::logic_error("registry: von_mises with pressures");
+}
+template <class Entry>
+std::unique_ptr<fem::PointLaw> mixedLaw(const Entry& entry, const fem::Mesh& mesh, const fem::Block& block) {
+  const auto rubber = law(entry);
+  return fem::pointLaw(solid::MixedLaw<decltype(law(entry))>{
+      rubber, solid::pressureScale(mesh, block, rubber.shearModulus())});
+}
+
+solid::Metal metal(const deck::VonMises& m) {
+  solid::Metal plastic;
+  plastic.yieldStress = m.yieldStress;
+  plastic.modulus = m.hardeningModulus;
+  plastic.saturation = m.saturation;
+  plastic.exponent = m.exponent;
+  plastic.kinematicModulus = m.kinematicModulus;
+  plastic.recall = m.recall;
+  return solid::metalFromYoung(m.youngsModulus, m.poissonsRatio, plastic);
+}
+
+template <class Entry>
+std::unique_ptr<fem::PointLaw> lawInSpace(const Entry& entry) {
+  return fem::pointLaw(law(entry));
+}
+std::unique_ptr<fem::PointLaw> lawInSpace(const deck::VonMises& entry) {
+  if (entry.kinematicModulus > 0) return fem::pointLaw(solid::VonMises<true>{metal(entry)});
+  return fem::pointLaw(solid::VonMises<false>{metal(entry)});
+}
+
+std::unique_ptr<fem::Term> shells(const deck::VonMises&, const solid::ShellElements&, deck::Shear) {
+  throw std::invalid_argument("von_mises is not for shells");
+}
+template <class Entry>
+std::unique_ptr<fem::Term> shells(const Entry& entry, const solid::ShellElements& elements,
+                                  deck::Shear shear) {
+  using Law = decltype(law(entry));
+  if (shear == deck::Shear::Assumed)
+    return fem::enhancedTerm(fem::pointLaw(solid::AssumedShearLaw<Law>{law(entry)}),
+                             solid::assumedShearPoints(elements));
+  return fem::enhancedTerm(fem::pointLaw(solid::ShellLaw<Law>{law(entry)}), solid::shellPoints(elements));
 }
 
 }  // namespace
@@ -73,7 +112,10 @@ std::unique_ptr<fem::Term> materialTerm(const deck::Material& material, const fe
                                         const std::optional<solid::PlaneSection>& plane) {
   return std::visit(
       [&](const auto& entry) -> std::unique_ptr<fem::Term> {
-        return fem::lawTerm(inBody(fem::pointLaw(law(entry)), plane), points);
+        auto inSpace = lawInSpace(entry);
+        // What a law keeps begins with zeros.
+        const std::vector<double> data(static_cast<std::size_t>(points.numPoints()) * inSpace->shape().data);
+        return fem::lawTerm(inBody(std::move(inSpace), plane), points, data);
       },
       material.law);
 }
@@ -82,23 +124,14 @@ std::unique_ptr<fem::Term> mixedTerm(const deck::Material& material, const fem::
                                      const fem::Block& block, const fem::PointSet& points,
                                      const std::optional<solid::PlaneSection>& plane) {
   return std::visit(
-      [&](const auto& entry) {
-        return fem::lawTerm(inBody(mixedLaw(law(entry), mesh, block), plane), points);
-      },
+      [&](const auto& entry) { return fem::lawTerm(inBody(mixedLaw(entry, mesh, block), plane), points); },
       material.law);
 }
 
 std::unique_ptr<fem::Term> shellTerm(const deck::Material& material, const solid::ShellElements& elements,
                                      deck::Shear shear) {
   return std::visit(
-      [&](const auto& entry) -> std::unique_ptr<fem::Term> {
-        using Law = decltype(law(entry));
-        if (shear == deck::Shear::Assumed)
-          return fem::enhancedTerm(fem::pointLaw(solid::AssumedShearLaw<Law>{law(entry)}),
-                                   solid::assumedShearPoints(elements));
-        return fem::enhancedTerm(fem::pointLaw(solid::ShellLaw<Law>{law(entry)}),
-                                 solid::shellPoints(elements));
-      },
+      [&](const auto& entry) -> std::unique_ptr<fem::Term> { return shells(entry, elements, shear); },
       material.law);
 }
 

@@ -136,6 +136,8 @@ class Scene {
   std::vector<fem::PointSet> pointsOf(const deck::Contact& contact) const;
   fem::PointSet materialPoints(const fem::Block& block, const fem::Tabulation& cell) const;
   std::vector<fem::DofMap::Located> fields() const;  ///< of the nodes of the mesh
+  /// Whether a material has plastic strains to show.
+  bool yields() const;
   void addMaterials(fem::FeModel& model);
   /// Those of the mesh's parts, to the materials' terms.
   void giveRanks(fem::FeModel& model) const;

@@ -25,6 +25,14 @@ void append(Fields more, Fields& fields) {
   for (auto& variable : more) fields.push_back(std::move(variable));
 }
 
+/// The named values [first, end) of all points.
+std::vector<double> columns(const fem::PointValues& shown, std::size_t first, std::size_t end) {
+  std::vector<double> result;
+  for (std::size_t i = 0; i < shown.values.size(); i += shown.names.size())
+    result.insert(result.end(), &shown.values[i] + first, &shown.values[i] + end);
+  return result;
+}
+
 /// Sums of stresses at nodes, and how many.
 struct NodalMeans {
   Fields sums;
@@ -77,13 +85,21 @@ std::vector<std::string> Scene::nodalNames() const {
   return names;
 }
 
+bool Scene::yields() const {
+  return std::any_of(deck_.materials.begin(), deck_.materials.end(), [](const deck::Material& material) {
+    return std::holds_alternative<deck::VonMises>(material.law);
+  });
+}
+
 std::vector<std::string> Scene::elementNames() const {
   if (!writes(deck::OutputField::Stress)) return {};
   std::vector<std::string> names = stressNames("stress_");
-  if (shells_.empty()) return names;
-  append(stressNames("stress_top_"), names);
-  append(stressNames("stress_bottom_"), names);
-  append(solid::ShellResultants::names(), names);
+  if (!shells_.empty()) {
+    append(stressNames("stress_top_"), names);
+    append(stressNames("stress_bottom_"), names);
+    append(solid::ShellResultants::names(), names);
+  }
+  if (yields()) names.push_back("equivalent_plastic_strain");
   return names;
 }
 
@@ -162,7 +178,7 @@ std::vector<std::vector<double>> Scene::nodalStress(const SceneState& state) con
       constexpr double zetas[3] = {solid::midSurface, solid::topSurface, solid::bottomSurface};
       if (body.shells < 0 && layer > 0 && !surfaces) break;
       const auto values =
-          body.shells < 0 ? observed.values : solid::surfaceStress(observed, {}, zetas[layer]);
+          body.shells < 0 ? columns(observed, 0, 6) : solid::surfaceStress(observed, {}, zetas[layer]);
       const int elements = static_cast<int>(block.nodes.size()) / N;
       for (int e = 0; e < elements; ++e)
         for (int n = 0; n < N; ++n) {
@@ -197,10 +213,18 @@ std::vector<std::vector<double>> Scene::elementValues(const SceneState& state) c
       add(6, meanSurfaceStress(observed, solid::topSurface), 6);
       add(12, meanSurfaceStress(observed, solid::bottomSurface), 6);
       add(18, meanResultants(shells_.elements[body.shells], observed, state.displacements()), 8);
+      if (yields()) add(result.size() - 1, std::vector<double>(elements), 1);
       continue;
     }
-    const auto means = meansOverPoints(observed.values, observed.values.size() / 6 / elements, 6);
+    const std::size_t points = observed.values.size() / observed.names.size() / elements;
+    const auto means = meansOverPoints(columns(observed, 0, 6), points, 6);
     add(0, means, 6);
+    if (yields()) {
+      const bool shown = observed.names.size() > 6;
+      const auto strain =
+          shown ? meansOverPoints(columns(observed, 6, 7), points, 1) : std::vector<double>(elements);
+      add(result.size() - 1, strain, 1);
+    }
     if (shells_.empty()) continue;
     add(6, means, 6);
     add(12, means, 6);

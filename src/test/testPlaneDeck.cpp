@@ -133,11 +133,11 @@ TEST(PlaneDeck, mixedFormulations) {
             "plane.yaml:6:100: materials/steel/formulation: volumes are free in plane stress; expected "
             "formulation: "
             "displacement");
-  EXPECT_EQ(said("{law: saint_venant_kirchhoff, youngs_modulus: 1, poissons_ratio: 0.3, blocks: [body], "
-                 "formulation: mixed}"),
-            "plane.yaml:6:109: materials/steel/formulation: saint_venant_kirchhoff has no volumetric part "
-            "that pressures "
-            "could be of; expected a law of rubber, or formulation: displacement");
+  EXPECT_EQ(
+      said("{law: saint_venant_kirchhoff, youngs_modulus: 1, poissons_ratio: 0.3, blocks: [body], "
+           "formulation: mixed}"),
+      "plane.yaml:6:109: materials/steel/formulation: is for laws of rubber: this one has no volumetric "
+      "part that pressures could be of; expected formulation: displacement");
   EXPECT_EQ(
       said("{law: neo_hookean, shear_modulus: 3, bulk_modulus: 2, blocks: [body], formulation: mixed}"),
       "plane.yaml:6:93: materials/steel/formulation: needs Lame's lambda > 0 at rest: poissons_ratio > 0, "

@@ -106,8 +106,7 @@ std::vector<int> EventTerms::at(const ConstDofView& u, double lambda) const {
       const double gap = gaps[entry.first + c];
       if (gap < -touching) {
         std::ostringstream text;
-        text << entry.term->eventText(c) << ' ' << -gap
-             << " inside the tool where the path starts; hard contact needs a gap >= 0";
+        text << entry.term->eventText(c) << ' ' << -gap << ' ' << entry.term->violation();
         throw std::invalid_argument(text.str());
       }
       if (gap <= touching) found.push_back(entry.first + c);
@@ -156,15 +155,25 @@ std::optional<EventTerm::Gradient> EventTerms::gradient(int index, const ConstDo
   return EventTerm::Gradient{sums[0], sums[1], sums[2]};
 }
 
+std::vector<int> EventTerms::growing(const std::vector<int>& conditions) const {
+  std::vector<int> all;
+  for (const Entry& entry : entries_) {
+    if (!entry.term->activeGrow()) continue;
+    for (int c = entry.first; c < entry.first + entry.term->eventCount(); ++c)
+      if (conditions[c] == 1) all.push_back(c);
+  }
+  return all;
+}
+
 bool EventTerms::renews() const {
   return std::any_of(entries_.begin(), entries_.end(),
-                     [](const Entry& entry) { return !entry.term->owesPivots(); });
+                     [](const Entry& entry) { return entry.term->renews(); });
 }
 
 void EventTerms::renew(const ConstDofView& u, double lambda) {
   std::vector<int> now = conditions_;
   for (const Entry& entry : entries_) {
-    if (entry.term->owesPivots()) continue;
+    if (!entry.term->renews()) continue;
     std::vector<double> on(count(), 0.0);
     ranks_.together([&] { put(entry, entry.term->renewed(u, lambda), on); });
     ranks_.sum(on);

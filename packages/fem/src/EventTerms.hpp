@@ -32,6 +32,8 @@ class EventTerms {
   void apply(const std::vector<int>& indices);  ///< the same ones on every rank
   const std::vector<int>& conditions() const { return conditions_; }
   void setConditions(const std::vector<int>& conditions);  ///< the same ones on every rank
+  /// path::Problem::growingAt with these conditions.
+  std::vector<int> growing(const std::vector<int>& conditions) const;
   int constraintPivots() const;
   /// path::Problem::eventGradient, this rank's part of byU; nothing where there is none.
   std::optional<EventTerm::Gradient> gradient(int index, const ConstDofView& u, double lambda,

@@ -667,6 +667,10 @@ void FeProblem::eventOrder(int k, std::vector<double>& g) const {
   g = impl_->events->order(k, impl_->last, impl_->lastLambda);
 }
 
+std::vector<int> FeProblem::growingAt(const path::State& state) const {
+  return impl_->events->growing(impl_->conditionsOf(state.memory.get()));
+}
+
 bool FeProblem::eventGradient(int index, const path::State& state, double& value, Vector& byU,
                               double& byLambda) {
   const ConstDofView u = onRank(state);

@@ -36,6 +36,13 @@ std::vector<double> LawArrays::packed(const std::vector<double>& pointData) cons
   return elements.packed(pointData, static_cast<std::size_t>(elements.numPoints()) * shape.data);
 }
 
+void LawArrays::setDatum(int entity, int point, int d, double value) {
+  const std::size_t at = indexOf(entity, point, d);
+  data_[at] = value;
+  if (entity + 1 < elements.numEntities()) return;
+  for (int lane = entity % kLanes + 1; lane < kLanes; ++lane) data_[at + lane - entity % kLanes] = value;
+}
+
 void LawArrays::keep(const TermPart& part) {
   data_ = ElementArrays::packedOf(part, data_.data(),
                                   static_cast<std::size_t>(elements.numPoints()) * shape.data);

@@ -23,6 +23,8 @@ class LawArrays {
   LawShape shape;
 
   const double* data() const { return data_.data(); }  ///< [batch][q][datum][lane]
+  double datum(int entity, int point, int d) const { return data_[indexOf(entity, point, d)]; }
+  void setDatum(int entity, int point, int d, double value);
   /// pointData in that order.
   std::vector<double> packed(const std::vector<double>& pointData) const;
   /// Numbers a batch of `count` entries a point.
@@ -57,6 +59,11 @@ class LawArrays {
   PointValues observe(const double* data, const Inputs& inputs) const;
 
  private:
+  std::size_t indexOf(int entity, int point, int d) const {
+    const std::size_t q = static_cast<std::size_t>(entity / kLanes) * elements.numPoints() + point;
+    return (q * shape.data + d) * kLanes + entity % kLanes;
+  }
+
   std::vector<double> data_;
   std::size_t lawDoubles_;
   ThreadMemory memory_;

@@ -13,10 +13,7 @@ namespace {
 class ReducedLaw final : public PointLaw {
  public:
   ReducedLaw(std::unique_ptr<PointLaw> law, Reduction reduction)
-      : law_(std::move(law)),
-        r_(std::move(reduction)),
-        full_(law_->shape()),
-        own_{r_.numInputs, static_cast<int>(r_.outputs.size()), full_.data, full_.symmetric, full_.observed} {
+      : law_(std::move(law)), r_(std::move(reduction)), full_(law_->shape()), own_(full_) {
     const auto within = [](const std::vector<int>& list, int end) {
       return std::all_of(list.begin(), list.end(), [=](int n) { return n >= -1 && n < end; });
     };
@@ -24,7 +21,12 @@ class ReducedLaw final : public PointLaw {
         !within(r_.outputs, full_.outputs) || r_.condensed >= std::min(full_.inputs, full_.outputs) ||
         (r_.condensed >= 0 && r_.inputs[r_.condensed] >= 0))
       throw std::logic_error("reducedLaw: the reduction does not fit the law");
-    if (full_.variables > 0) throw std::logic_error("reducedLaw: a law with internal variables");
+    if (full_.variables > 0 && r_.condensed >= 0)
+      throw std::logic_error("reducedLaw: a law with internal variables and a condensed input");
+    for (int o = full_.outputs - full_.variables - full_.events; o < full_.outputs; ++o)
+      r_.outputs.push_back(o);
+    own_.inputs = r_.numInputs;
+    own_.outputs = static_cast<int>(r_.outputs.size());
     // The memory that a thread works in is one for all of them.
     if (dynamic_cast<const ReducedLaw*>(law_.get()) != nullptr)
       throw std::logic_error("reducedLaw: the law is a reduced one already");
@@ -95,8 +97,7 @@ class ReducedLaw final : public PointLaw {
   }
 
   void advance(const PointBatch& points, const SeriesOrder& order, In in, Out out) const override {
-    if (in.current != nullptr || out.last != nullptr)
-      throw std::logic_error("reducedLaw: a reduced law is no stage");
+    if (in.current != nullptr) throw std::logic_error("reducedLaw: a reduced law is no stage");
     const Room room(*this, points.numPoints);
     double* kept = points.memory + points.numPoints * law_->seriesDoubles(order);
     if (order.k > 1) {
@@ -115,6 +116,14 @@ class ReducedLaw final : public PointLaw {
           for (int lane = 0; lane < kLanes; ++lane) h[lane] = -sum[lane] / k.D[lane];
         }
     }
+    if (full_.variables > 0) {
+      // No input is condensed.
+      law_->advance(points, order, {room.in, nullptr},
+                    {room.jacobian, out.current != nullptr ? room.out : nullptr});
+      if (out.last != nullptr) pickOutputs(points.numPoints, room.jacobian, out.last);
+      if (out.current != nullptr) pickOutputs(points.numPoints, room.out, out.current);
+      return;
+    }
     law_->order(points, order, room.in, room.out);
     if (r_.condensed >= 0)
       for (int q = 0; q < points.numPoints; ++q) {
@@ -126,6 +135,14 @@ class ReducedLaw final : public PointLaw {
             rows[o * kLanes + lane] -= k.byH[o * kLanes + lane] * (k.known[lane] / k.D[lane]);
       }
     pickOutputs(points.numPoints, room.out, out.current);
+  }
+
+  void carry(const PointBatch& points, const double* from, const double* to, double* variables,
+             PointFailure& failure) const override {
+    const Room room(*this, points.numPoints);
+    putInputs(points.numPoints, from, room.in);
+    putInputs(points.numPoints, to, room.jacobian);
+    law_->carry(points, room.in, room.jacobian, variables, failure);
   }
 
   std::vector<std::string> observedNames() const override { return law_->observedNames(); }

@@ -75,6 +75,7 @@ class ZoneTerm final : public EventTerm {
            std::to_string(numLines_) + ") is";
   }
   bool owesPivots() const override { return false; }
+  bool renews() const override { return true; }
 
   void keep(const TermPart& part) override {
     const std::size_t N = lines_.nodesPerLine();

@@ -54,7 +54,10 @@ std::vector<double> Run::falls(const Series& series, double end, const std::vect
   for (int i = 0; i < series.eventCount(); ++i) {
     const Polynomial p = eventPolynomial(series, i, zero);
     Rational g = series.scalar(p.coefficients());
-    if (p.coefficients()[0] == 0) g = g.withoutRootAtZero();
+    if (series.eventGrows(i))
+      g = g.derivative();
+    else if (p.coefficients()[0] == 0)
+      g = g.withoutRootAtZero();
     const auto slope = g.numerator().derivative();  // the root taken out at 0 does not change its sign
     for (const double a : g.roots(end))
       if (slope(a) <= 0) {
@@ -277,6 +280,9 @@ Series Run::seriesAfterEvents(StepReport& report) {
   }
   std::set<int> zero(applied_.begin(), applied_.end());
   zero.insert(due.begin(), due.end());
+  // What grows may cease to behind any change.
+  const auto growing = calls_.problem().growingAt(outcome_.final);
+  zero.insert(growing.begin(), growing.end());
   const std::vector<int> candidates(zero.begin(), zero.end());
   std::sort(due.begin(), due.end());
   if (lastLength_ <= options_.minStep || !applied_.empty())
@@ -379,7 +385,9 @@ std::vector<int> Run::overdue(const Series& series) const {
   std::vector<int> due;
   for (int i = 0; i < series.eventCount(); ++i) {
     const Polynomial p = eventPolynomial(series, i, applied_);
-    if (p.coefficients()[0] < 0 && !rises(p.coefficients(), 1, reach, 0)) due.push_back(i);
+    const auto& c = p.coefficients();
+    if (series.eventGrows(i) ? c[1] * reach < -1e-9 * size(c, reach) : c[0] < 0 && !rises(c, 1, reach, 0))
+      due.push_back(i);
   }
   return due;
 }

@@ -66,6 +66,7 @@ Series buildSeries(Calls& calls, const State& start, const SeriesRequest& reques
 
   Series series(start, w);
   series.appendEvents(calls.eventOrder(0));
+  series.setGrowing(problem.growingAt(start));
   for (int k = 1; k <= request.order; ++k) {
     auto V = calls.newVector();
     // Order 1 of an exact solution has no right-hand side.

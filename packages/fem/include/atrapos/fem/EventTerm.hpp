@@ -21,6 +21,9 @@ class EventTerm : public Term {
   /// The subject of a message on a condition's gap: "contact point 3 (of 40) is".
   virtual std::string eventText(int number) const = 0;
 
+  /// Whether the functions of active conditions are known by their growth: not the function but its
+  /// derivative along the path must not be negative (order 0 is not looked at).
+  virtual bool activeGrow() const { return false; }
   /// Coefficient k of the own conditions' event functions on the series under way: the part that sums over
   /// all ranks, and is to be divided by `covered`, too. k = 0 after beginSeries; k >= 1 after addOrder(k),
   /// with U_k and lambda_k given.
@@ -43,6 +46,11 @@ class EventTerm : public Term {
                                  const DofView& /*byU*/) const {
     return {};
   }
+  /// What is wrong where a free condition's function is negative at the start of a path, behind its text and
+  /// the amount.
+  virtual std::string violation() const {
+    return "inside the tool where the path starts; hard contact needs a gap >= 0";
+  }
   /// Gaps below this are the rounding of coordinates.
   virtual double touching(const ConstDofView& u) const = 0;
   /// [own condition] not 0: at this state one of its points here is on another piece than in the series.
@@ -53,8 +61,10 @@ class EventTerm : public Term {
 
   /// Whether an active condition has a multiplier among the unknowns, and so owes a negative pivot.
   virtual bool owesPivots() const { return true; }
-  /// Whether the own conditions are active at a state, in parts that sum over all ranks, where they follow
-  /// from it but next to their changes; empty where they change at events alone.
+  /// Whether conditions follow from a state but next to their changes (renewed).
+  virtual bool renews() const { return false; }
+  /// Whether the own conditions are active at a state, in parts that sum over all ranks, where
+  /// `renews`.
   virtual std::vector<double> renewed(const ConstDofView& /*u*/, double /*lambda*/) const { return {}; }
 
   /// The least stiffness of the body (force per length) at a node of each own condition, given those of the

@@ -61,6 +61,7 @@ class FeProblem final : public path::Problem {
   /// Number of the first one of this term.
   int firstEvent(int term) const;
   void eventOrder(int k, std::vector<double>& g) const override;
+  std::vector<int> growingAt(const path::State& state) const override;
   bool eventGradient(int index, const path::State& state, double& value, path::Vector& byU,
                      double& byLambda) override;
   std::vector<int> eventsAt(const path::State& state) override;

@@ -44,6 +44,10 @@ struct LawShape {
   bool symmetric = false;  ///< d out/d in is
   int observed = 0;        ///< named values
   int variables = 0;       ///< internal variables: the last data, and the last outputs
+  /// 1 where a point of the law is either free or active, as its first datum, 0 or 1, says, and changes at
+  /// events: the output in front of the variables, dimensionless and of size 1, is not negative at a free
+  /// point while it is free, and never falls along the path at an active one while it is active.
+  int events = 0;
 };
 
 /// A law in batches of points: compiled once, whatever loops it stands in. Virtual once a batch.

@@ -11,8 +11,9 @@
 ///     static constexpr int numObserved;  static std::vector<std::string> observedNames();
 ///     void observe(const double* in, const double* data, double* observed) const;
 /// keeps internal variables as its last data and last outputs where it says `static constexpr int
-/// numVariables` (their rates by taylor::solveRate), says `static constexpr bool symmetric` when d out/d in
-/// is symmetric, and, where it may have nothing to act on at a point, bool exists(const double* data) const.
+/// numVariables` (their rates by taylor::solveRate), changes at events with `static constexpr int numEvents =
+/// 1` (LawShape::events), says `static constexpr bool symmetric` when d out/d in is symmetric, and, where it
+/// may have nothing to act on at a point, bool exists(const double* data) const.
 ///
 /// A source with one line for each law, ATRAPOS_POINT_LAW(Law), compiles it (outside of namespaces).
 namespace atrapos::fem {
@@ -23,6 +24,11 @@ struct NumObserved : std::integral_constant<int, 0> {};
 template <class Law>
 struct NumObserved<Law, std::void_t<decltype(Law::numObserved)>>
     : std::integral_constant<int, Law::numObserved> {};
+
+template <class Law, class = void>
+struct NumEvents : std::integral_constant<int, 0> {};
+template <class Law>
+struct NumEvents<Law, std::void_t<decltype(Law::numEvents)>> : std::integral_constant<int, Law::numEvents> {};
 
 template <class Law, class = void>
 struct HasNames : std::false_type {};
@@ -51,7 +57,8 @@ class PointLawOf final : public PointLaw {
             Law::numData,
             Law::symmetric,
             detail::NumObserved<Law>::value,
-            detail::NumVariables<Law>::value};
+            detail::NumVariables<Law>::value,
+            detail::NumEvents<Law>::value};
   }
   std::size_t seriesDoubles(const SeriesOrder& order) const override {
     const bool scratch = order.maxOrder == 0 && detail::NumVariables<Law>::value > 0;

@@ -22,7 +22,8 @@ struct Reduction {
 /// space for points in a plane. All orders of a condensed input cost one division; it starts from Newton's
 /// method in each lane, with the law's own tangent (docs/theory/solid.md, "Plane bodies"). Where that finds
 /// nothing the outputs are NaN and a series does not start.
-/// Throws std::logic_error where the reduction does not fit the law.
+/// Internal variables and event functions of the law are those of the reduced one; with them no input can be
+/// condensed. Throws std::logic_error where the reduction does not fit the law.
 std::unique_ptr<PointLaw> reducedLaw(std::unique_ptr<PointLaw> law, Reduction reduction);
 
 }  // namespace atrapos::fem

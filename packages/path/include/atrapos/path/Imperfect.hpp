@@ -31,6 +31,7 @@ class ImperfectProblem : public Problem {
     perfect_.internalOrder(k, v, mu, y);
   }
   int eventCount() const override { return perfect_.eventCount(); }
+  std::vector<int> growingAt(const State& state) const override { return perfect_.growingAt(state); }
   void eventOrder(int k, std::vector<double>& g) const override { perfect_.eventOrder(k, g); }
   State afterEvent(const std::vector<int>& indices, const State& state) override {
     return perfect_.afterEvent(indices, state);

@@ -81,6 +81,11 @@ class Problem {
   /// completeOrder(k). g has eventCount() entries and is overwritten.
   virtual void eventOrder(int /*k*/, std::vector<double>& /*g*/) const {}
 
+  /// The event functions that are known by their growth at a state, ascending: it is not the function that
+  /// must not be negative but its derivative along the path (plastic work at a point that yields). Their
+  /// order 0 is not looked at.
+  virtual std::vector<int> growingAt(const State& /*state*/) const { return {}; }
+
   /// The event functions that are zero at a state from which a path starts, to the rounding of the state:
   /// they may have to be applied at once. Throws where one is below zero.
   virtual std::vector<int> eventsAt(const State& /*state*/) { return {}; }

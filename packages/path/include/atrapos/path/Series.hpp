@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <memory>
 #include <vector>
 
@@ -76,6 +77,10 @@ class Series {
   int eventCount() const { return static_cast<int>(events_.size()); }
   const std::vector<double>& eventCoefficients(int i) const { return events_.at(i); }
 
+  /// Problem::growingAt of its start.
+  void setGrowing(std::vector<int> events) { growing_ = std::move(events); }
+  bool eventGrows(int i) const { return std::binary_search(growing_.begin(), growing_.end(), i); }
+
   /// The same path with a replaced by -a.
   Series reversed() const;
 
@@ -99,6 +104,7 @@ class Series {
   std::vector<double> lambda_;
   std::vector<double> norm_;
   std::vector<std::vector<double>> events_;     ///< coefficients of each event function
+  std::vector<int> growing_;                    ///< event functions known by their growth, ascending
   std::shared_ptr<const Memory> memory_;        ///< at the start
   std::vector<std::vector<double>> variables_;  ///< coefficients of the internal variables, [k][variable]
 };

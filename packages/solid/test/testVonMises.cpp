@@ -1,0 +1,296 @@
+// Von Mises plasticity along paths: closed forms in uniaxial tension with all kinds of hardening, there and
+// back; a thick sphere under pressure against Hill; derivatives.
+#include <gtest/gtest.h>
+
+#include <Tpetra_Vector.hpp>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "atrapos/fem/FeProblem.hpp"
+#include "atrapos/fem/LawTerm.hpp"
+#include "atrapos/fem/Loads.hpp"
+#include "atrapos/fem/ReferenceCell.hpp"
+#include "atrapos/fem/StructuredPlane.hpp"
+#include "atrapos/linear/MakeTangentSolver.hpp"
+#include "atrapos/path/PathFollower.hpp"
+#include "atrapos/solid/PlaneBody.hpp"
+#include "atrapos/solid/VonMises.hpp"
+#include "support/Checks.hpp"
+#include "support/Meshes.hpp"
+#include "support/Vectors.hpp"
+
+using namespace atrapos;
+using namespace atrapos::solid;
+using namespace atrapos::fem::test;
+
+namespace {
+
+constexpr double E = 200e3, nu = 0.3, yield = 250;
+
+Metal metal(double modulus, double saturation, double exponent, double kinematic, double recall) {
+  Metal m;
+  m.yieldStress = yield;
+  m.modulus = modulus;
+  m.saturation = saturation;
+  m.exponent = exponent;
+  m.kinematicModulus = kinematic;
+  m.recall = recall;
+  return metalFromYoung(E, nu, m);
+}
+
+/// The start of every point: free, without plastic strain.
+std::vector<double> virgin(const fem::PointSet& points, const fem::PointLaw& law) {
+  return std::vector<double>(static_cast<std::size_t>(points.numPoints()) * law.shape().data, 0.0);
+}
+
+/// A unit cube of two HEX8 that is pulled along x by the load factor, free across.
+template <bool kinematic>
+fem::FeProblem bar(const Metal& m) {
+  const fem::Mesh mesh = box(fem::Topology::Hex8, {2, 1, 1});
+  const fem::PointSet points = fem::volumePoints(mesh, mesh.blocks[0], fem::tabulate(fem::Topology::Hex8));
+  fem::FeModel model;
+  model.dofs = fem::DofMap::displacements(mesh.numNodes());
+  auto law = fem::pointLaw(VonMises<kinematic>{m});
+  const auto data = virgin(points, *law);
+  model.terms.push_back(fem::lawTerm(std::move(law), points, data));
+  for (const int n : nodesOfSet(mesh, "x_min")) model.prescribe(n, 0, 0, 0);
+  for (const int n : nodesOfSet(mesh, "y_min")) model.prescribe(n, 1, 0, 0);
+  for (const int n : nodesOfSet(mesh, "z_min")) model.prescribe(n, 2, 0, 0);
+  for (const int n : nodesOfSet(mesh, "x_max")) model.prescribe(n, 0, 0, 1);
+  return fem::FeProblem(std::move(model));
+}
+
+struct Steps final : path::Observer {
+  std::vector<path::StepReport> reports;
+  std::vector<path::Series> series;
+  bool onStep(const path::StepReport& report, const path::Series& s) override {
+    reports.push_back(report);
+    series.push_back(s);
+    return true;
+  }
+};
+
+struct Followed {
+  Steps steps;
+  path::Outcome outcome;
+  Followed(fem::FeProblem& problem, const path::State& start, double loadFactor, double direction = 1) {
+    path::Options options;
+    options.delta = options.residualBound = 1e-9;
+    options.direction = direction;
+    path::Stops stops;
+    stops.loadFactors = {loadFactor};
+    const auto solver = linear::makeTangentSolver();
+    outcome = path::PathFollower(problem, *solver, options, stops).run(start, steps);
+  }
+};
+
+/// Stress and strain of a bar in tension and compression, with the sense of the last plastic strain;
+/// Armstrong and Frederick's backstress in closed form: a' = C p' - b a gamma' for a = 3/2 X_xx.
+struct Uniaxial {
+  Metal m;
+  double gamma = 0, plastic = 0, back = 0;  // at the last change of sense
+  /// Of gamma from there on in this sense.
+  double backAt(double g, double sense) const {
+    if (m.recall == 0) return back + sense * m.kinematicModulus * (g - gamma);
+    const double end = sense * m.kinematicModulus / m.recall;
+    return end + (back - end) * std::exp(-m.recall * (g - gamma));
+  }
+  double stress(double g, double sense) const { return sense * m.strength(g) + backAt(g, sense); }
+  double strain(double g, double sense) const { return stress(g, sense) / E + plastic + sense * (g - gamma); }
+};
+
+/// Along a monotonic path: S_xx and E_xx are those of the closed form at the point's gamma.
+void expectUniaxial(const fem::FeProblem& problem, const Steps& steps, const Uniaxial& exact, double sense) {
+  int yielding = 0;
+  for (std::size_t s = 0; s < steps.reports.size(); ++s)
+    for (int i = 1; i <= 4; ++i) {
+      const path::State state = steps.series[s].state(steps.reports[s].length * i / 4);
+      const double strain = state.lambda + 0.5 * state.lambda * state.lambda;
+      const auto shown = problem.observe(0, state);
+      const double gamma = shown.values.at(6);
+      // F S F^T / J along x: what is wide across is not asked for.
+      const double J = [&] {
+        const auto u = fem::FeProblem::values(*state.u);
+        const double across = 1 + u.at(3 * (problem.model().dofs.numNodes() - 1) + 1);
+        return (1 + state.lambda) * across * across;
+      }();
+      const double S = shown.values.at(0) * J / ((1 + state.lambda) * (1 + state.lambda));
+      if (gamma <= exact.gamma + 1e-12) {
+        EXPECT_NEAR(S, E * (strain - exact.plastic), 1e-6 * yield);
+        continue;
+      }
+      ++yielding;
+      // Series of an accuracy of 1e-9 of forces; a dozen of steps.
+      EXPECT_NEAR(S, exact.stress(gamma, sense), 1e-7 * yield) << "step " << s << ", gamma " << gamma;
+      EXPECT_NEAR(strain, exact.strain(gamma, sense), 1e-7 * yield / E)
+          << "step " << s << ", gamma " << gamma;
+    }
+  EXPECT_GE(yielding, 4);
+}
+
+}  // namespace
+
+// Out to 2 %, back and into compression: the yield stress there is the Bauschinger effect's.
+template <bool kinematic>
+void thereAndBack(const Metal& m) {
+  fem::FeProblem problem = bar<kinematic>(m);
+  const Followed out(problem, {problem.initialState(0), 0.0}, 0.02);
+  ASSERT_EQ(out.outcome.reason, path::EndReason::stopReached) << out.outcome.text;
+  EXPECT_EQ(out.outcome.events, 1);  // all points at once
+  Uniaxial exact{m};
+  expectUniaxial(problem, out.steps, exact, 1);
+
+  const Followed back(problem, out.outcome.final, -0.01, -1);
+  ASSERT_EQ(back.outcome.reason, path::EndReason::stopReached) << back.outcome.text;
+  EXPECT_EQ(back.outcome.events, 2);  // unloading, and yielding the other way
+  const double gamma = problem.observe(0, out.outcome.final).values.at(6);
+  exact.back = exact.backAt(gamma, 1);
+  exact.plastic = gamma;
+  exact.gamma = gamma;
+  expectUniaxial(problem, back.steps, exact, -1);
+}
+
+TEST(VonMises, BarWithVoceHardening) { thereAndBack<false>(metal(500, 120, 300, 0, 0)); }
+TEST(VonMises, BarWithKinematicHardening) { thereAndBack<true>(metal(0, 0, 0, 20e3, 0)); }
+TEST(VonMises, BarWithBoth) { thereAndBack<true>(metal(300, 60, 150, 30e3, 250)); }
+
+// Perfectly plastic: no equilibrium beyond the yield stress, but a driven bar goes on.
+TEST(VonMises, PerfectlyPlasticBar) {
+  fem::FeProblem problem = bar<false>(metal(0, 0, 0, 0, 0));
+  const Followed out(problem, {problem.initialState(0), 0.0}, 0.02);
+  ASSERT_EQ(out.outcome.reason, path::EndReason::stopReached) << out.outcome.text;
+  expectUniaxial(problem, out.steps, {metal(0, 0, 0, 0, 0)}, 1);
+}
+
+// Bent over by its end: points yield one after the other. The tangent behind all of these events is the
+// derivative along a chord that goes on: an error of first order.
+TEST(VonMises, TangentAlongThePath) {
+  const fem::Mesh mesh = box(fem::Topology::Hex8, {6, 2, 2}, {4, 1, 1});
+  const fem::PointSet points = fem::volumePoints(mesh, mesh.blocks[0], fem::tabulate(fem::Topology::Hex8));
+  fem::FeModel model;
+  model.dofs = fem::DofMap::displacements(mesh.numNodes());
+  auto law = fem::pointLaw(VonMises<true>{metal(300, 60, 150, 30e3, 250)});
+  const auto data = virgin(points, *law);
+  model.terms.push_back(fem::lawTerm(std::move(law), points, data));
+  for (const int n : nodesOfSet(mesh, "x_min"))
+    for (int i = 0; i < 3; ++i) model.prescribe(n, i, 0, 0);
+  for (const int n : nodesOfSet(mesh, "x_max")) model.prescribe(n, 2, 0, 1);
+  fem::FeProblem problem(std::move(model));
+  const Followed out(problem, {problem.initialState(0), 0.0}, 0.04);
+  ASSERT_EQ(out.outcome.reason, path::EndReason::stopReached) << out.outcome.text;
+  EXPECT_GT(out.outcome.events, 10);
+  const auto& last = out.steps.series.back();
+  const path::State at = out.outcome.final;
+  const Tangent K = tangent(problem, fem::FeProblem::values(*at.u), at.lambda, at.memory);
+  // Along the path, where points that yield go on to do so.
+  const auto rate = last.tangent(out.steps.reports.back().length);
+  const Numbers d = fem::FeProblem::values(*rate.x.u), u = fem::FeProblem::values(*at.u);
+  const Numbers exact = sum(K.times(d), -rate.lambda, K.F);
+  double before = 0;
+  const double scale = norm(K.F) * std::abs(rate.lambda);
+  for (double h = 1e-4; h > 1e-5; h /= 2) {
+    const Numbers plus = residual(problem, sum(u, h, d), at.lambda + h * rate.lambda, at.memory).r,
+                  zero = residual(problem, u, at.lambda, at.memory).r;
+    Numbers error = sum(plus, -1, zero);
+    for (std::size_t i = 0; i < error.size(); ++i) error[i] = error[i] / h - exact[i];
+    const double now = norm(error);
+    if (before > 0) {
+      EXPECT_NEAR(before / now, 2, 0.1) << h;
+    }
+    before = now;
+  }
+  EXPECT_LT(before, 1e-2 * scale);
+}
+
+namespace {
+
+/// A quarter of a sphere's section, inner radius 1, outer 2, QUAD8 cells, under an internal pressure of one
+/// yield stress times the load factor; elastic-perfectly plastic.
+struct Sphere {
+  static constexpr double a = 1, b = 2;
+  fem::Mesh mesh;
+  std::unique_ptr<fem::FeProblem> problem;
+  int outside = 0;  ///< a node on the outer surface and the plane of symmetry
+
+  explicit Sphere(int radial, double s = 1e-4 * E) {
+    fem::RectangleOptions options;
+    options.topology = fem::Topology::Quad8;
+    options.divisions = {radial, 3};
+    options.lengths = {b - a, std::acos(0.0)};
+    options.origin = {a, 0};
+    mesh = fem::rectangleMesh(options);
+    for (int n = 0; n < mesh.numNodes(); ++n) {
+      double* x = &mesh.coordinates[3 * n];
+      const double r = x[0], angle = x[1];
+      x[0] = std::abs(r * std::cos(angle)) < 1e-14 ? 0 : r * std::cos(angle);
+      x[1] = r * std::sin(angle);
+      if (r == b && angle == 0) outside = n;
+    }
+    const PlaneSection section{PlaneSection::Kind::axisymmetric, 1};
+    fem::FeModel model;
+    model.dofs = fem::DofMap::displacements(mesh.numNodes(), 2);
+    const auto points = planePoints(mesh, mesh.blocks[0], fem::tabulate(fem::Topology::Quad8), section);
+    Metal m;
+    m.yieldStress = s;
+    auto law = planeLaw(fem::pointLaw(VonMises<false>{metalFromYoung(E, nu, m)}), section.kind);
+    const auto data = virgin(points, *law);
+    model.terms.push_back(fem::lawTerm(std::move(law), points, data));
+    for (const int n : nodesOfSet(mesh, "y_min")) model.prescribe(n, 1, 0, 0);
+    for (const int n : nodesOfSet(mesh, "y_max")) model.prescribe(n, 0, 0, 0);
+    model.load.assign(model.dofs.numDofs(), 0.0);
+    std::vector<double> inSpace(3 * static_cast<std::size_t>(mesh.numNodes()), 0.0);
+    fem::addPressure(planeEdgePoints(mesh, sideSet(mesh, "x_min"), section, 5), s, inSpace);
+    for (int n = 0; n < mesh.numNodes(); ++n)
+      for (int i = 0; i < 2; ++i) model.load[2 * n + i] = inSpace[3 * n + i];
+    problem = std::make_unique<fem::FeProblem>(std::move(model));
+  }
+
+  /// Hill: pressure over yield stress with the plastic zone to c, and the displacement outside.
+  static double pressure(double c) { return 2 * std::log(c / a) + 2.0 / 3 * (1 - c * c * c / (b * b * b)); }
+  static double displacement(double c, double s) { return (1 - nu) * s * c * c * c / (E * b * b); }
+  double largestError(double upTo) const {
+    const double s = 1e-4 * E;
+    Followed f(*problem, {problem->initialState(0), 0.0}, pressure(upTo));
+    EXPECT_EQ(f.outcome.reason, path::EndReason::stopReached) << f.outcome.text;
+    double worst = 0;
+    for (std::size_t step = 0; step < f.steps.reports.size(); ++step) {
+      const path::State state = f.steps.series[step].state(f.steps.reports[step].length);
+      const double u = fem::FeProblem::values(*state.u)[2 * outside];
+      const double c = std::cbrt(u * E * b * b / ((1 - nu) * s));
+      if (c > a) worst = std::max(worst, std::abs(state.lambda - pressure(c)) / pressure(c));
+    }
+    steps = f.outcome.steps;
+    return worst;
+  }
+  mutable int steps = 0;
+};
+
+}  // namespace
+
+// Hill's solution of the thick sphere. First yield at (2/3)(1 - a^3/b^3) of the yield stress; the strains are
+// 1e-4, which is what finite strains change.
+TEST(VonMises, ThickSphereAgainstHill) {
+  const Sphere coarse(6), fine(12);
+  const double one = coarse.largestError(1.8), two = fine.largestError(1.8);
+  EXPECT_LT(two, 1e-3);
+  EXPECT_LT(two, 0.3 * one);  // second order in the size of the cells, whose points yield one after the other
+  RecordProperty("steps", fine.steps);
+}
+
+TEST(VonMises, BadMetalsAreRefused) {
+  Metal m;
+  m.yieldStress = yield;
+  for (auto change : {+[](Metal& x) { x.yieldStress = 0; }, +[](Metal& x) { x.modulus = -1; },
+                      +[](Metal& x) {
+                        x.saturation = -300;
+                        x.exponent = 1;
+                      },
+                      +[](Metal& x) { x.recall = -1; },
+                      +[](Metal& x) { x.modulus = std::numeric_limits<double>::infinity(); }}) {
+    Metal bad = m;
+    change(bad);
+    EXPECT_THROW(metalFromYoung(E, nu, bad), std::invalid_argument);
+  }
+  EXPECT_THROW(metalFromYoung(-1, nu, m), std::invalid_argument);
+}
