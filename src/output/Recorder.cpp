@@ -289,7 +289,12 @@ std::vector<PointRow> Recorder::writePoints(const path::StepReport& report, cons
 
 void Recorder::writeStep(const path::StepReport& report, const path::Series& series, const RunLog::Step& step,
                          long long negative) {
-  StepRow row{report.step, branch_, report.order, report.radius, report.length};
+  StepRow row;
+  row.step = report.step;
+  row.branch = branch_;
+  row.order = report.order;
+  row.radius = report.radius;
+  row.length = report.length;
   row.pathLength = report.pathLengthEnd;
   row.loadFactor = report.lambdaEnd;
   row.residual = report.residual;

@@ -144,8 +144,9 @@ struct VonMises {
 
     T xi[6];
     flow.relativeStress(E, z, xi);
-    const T strength = metal.strength(z[0]);
-    const T within = (strength * strength - flow.square(xi)) * (1 / (metal.yieldStress * metal.yieldStress));
+    const T strength = metal.strength(z[0]) * (1 / metal.yieldStress);
+    const T equivalent = flow.square(xi) * (1 / (metal.yieldStress * metal.yieldStress));
+    const T within = strength * strength - equivalent;
     const taylor::Passive<T> free = 1.0 - data[0];
     const taylor::Passive<T> active = (3 * metal.mu / metal.yieldStress) * data[0];
     out[9] = free * within + active * z[0];
