@@ -168,7 +168,7 @@ class MeshCheck {
     for (const fem::Side& side : sideSet(set).sides) {
       if (!fem::isShell(topologyOf(side)) || side.side < 2) {
         fail(path, fmt::format("side {} of element {} in the side set '{}' is no edge of a shell",
-                               side.side + 1, side.element + 1, set));
+                               side.side + 1, mesh_.elementNumber(side.element), set));
       }
     }
   }
@@ -210,7 +210,7 @@ class MeshCheck {
       if (!(nodeSet.factors[i] > 0)) {
         fail(path, fmt::format(
                        "the distribution factor of node {} in the node set '{}' is {:.6g}, must be positive",
-                       nodeSet.nodes[i] + 1, set, nodeSet.factors[i]));
+                       mesh_.nodeNumber(nodeSet.nodes[i]), set, nodeSet.factors[i]));
       }
     }
   }

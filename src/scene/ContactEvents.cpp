@@ -225,7 +225,7 @@ void ContactEvents::onStep(int branch, int step, double pathLengthStart, double 
                    [](const ContactEvent& l, const ContactEvent& r) { return l.a < r.a; });
   for (const ContactEvent& e : events) {
     const fem::Mesh& mesh = scene_.mesh();
-    const long long node = mesh.nodeIds.empty() ? e.node + 1 : mesh.nodeIds[e.node];
+    const long long node = mesh.nodeNumber(e.node);
     table_.append(fmt::format("{},{},{:.17g},{:.17g},{},{},{},{},{:.10g},{:.10g},{:.10g},{:.10g}", step,
                               branch, pathLengthStart + e.a, e.loadFactor, scene_.contacts()[e.contact].name,
                               e.closes ? "closes" : "opens", e.point + 1, node, e.place[0], e.place[1],

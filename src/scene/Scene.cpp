@@ -82,8 +82,7 @@ std::string Scene::dofName(const fem::DofMap& dofs, int dof) const {
   const fem::Field& field = dofs.fields()[at.field];
   const std::string component = field.components[at.component];
   return fmt::format("{}{}{} {} node {}", field.name, component.empty() ? "" : " ", component,
-                     at.node < g.numMeshNodes ? "of" : "at",
-                     mesh_.nodeIds.empty() ? static_cast<long long>(node) + 1 : mesh_.nodeIds[node]);
+                     at.node < g.numMeshNodes ? "of" : "at", mesh_.nodeNumber(node));
 }
 
 std::vector<int> Scene::nodesOf(const std::string& set) const { return atrapos::nodesOf(mesh_, set); }
@@ -172,7 +171,7 @@ void Scene::addSupports(fem::FeModel& model) const {
           fail("supports/" + support.name,
                fmt::format("displacement {0} of node {1}, or of its director, is prescribed twice with "
                            "different values",
-                           "xyz"[i], node + 1));
+                           "xyz"[i], mesh_.nodeNumber(node)));
         }
 }
 

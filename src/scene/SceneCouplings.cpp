@@ -94,7 +94,7 @@ Scene::SolidSide Scene::solidNodesAt(const deck::Coupling& coupling, int directo
   if (side.top < 0 || side.bottom < 0)
     fail("couplings/" + coupling.name + "/set",
          fmt::format("no node of a solid at the {} of the shell's node {}", side.top < 0 ? "top" : "bottom",
-                     shellNode + 1));
+                     mesh_.nodeNumber(shellNode)));
   return side;
 }
 

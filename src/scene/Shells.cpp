@@ -97,9 +97,7 @@ std::vector<std::string> describe(const fem::Mesh& mesh, const SceneShells& shel
     if (part.turned == 0) continue;
     elements += part.turned;
     const auto where = [&] {
-      return fmt::format("of element {} (block '{}')",
-                         mesh.elementIds.empty() ? part.element + 1LL : mesh.elementIds[part.element],
-                         part.block);
+      return fmt::format("of element {} (block '{}')", mesh.elementNumber(part.element), part.block);
     };
     if (++parts <= most)
       lines.push_back(

@@ -310,9 +310,10 @@ TEST(ShellDeck, sharesOfNodes) {
               &mesh);
   fem::NodeSet& set = mesh.nodeSets.at(static_cast<std::size_t>(fem::findNodeSet(mesh, "y_lines")));
   set.factors[2] = 0;
+  for (int n = 0; n < mesh.numNodes(); ++n) mesh.nodeIds.push_back(1000 + n);  // the file's numbers are told
   expectError("set: x_mid, points: nodes", shares,
-              "contact/points/shares: the distribution factor of node " + std::to_string(set.nodes[2] + 1) +
-                  " in the node set 'y_lines' is 0, must be positive",
+              "contact/points/shares: the distribution factor of node " +
+                  std::to_string(set.nodes[2] + 1000) + " in the node set 'y_lines' is 0, must be positive",
               &mesh);
 }
 

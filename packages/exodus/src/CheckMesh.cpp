@@ -100,7 +100,7 @@ class Checker {
     for (const fem::Block& block : mesh_.blocks) {
       const int count = fem::nodesPerElement(block.topology);
       for (std::size_t first = 0; first < block.nodes.size(); first += static_cast<std::size_t>(count)) {
-        Element e{0, static_cast<int>(elements.size()) + 1, &block.nodes[first], count};
+        Element e{0, static_cast<int>(elements.size()), &block.nodes[first], count};
         for (int i = 0; i < count; ++i) e.key += mixed(static_cast<std::uint64_t>(e.nodes[i]));
         elements.push_back(e);
       }
@@ -114,8 +114,8 @@ class Checker {
                  std::is_permutation(a.nodes, a.nodes + a.count, b.nodes);
         });
     if (twins != elements.end())
-      require(false, "elements " + std::to_string(twins->number) + " and " + std::to_string(twins[1].number) +
-                         " have the same nodes");
+      require(false, "elements " + std::to_string(mesh_.elementNumber(twins->number)) + " and " +
+                         std::to_string(mesh_.elementNumber(twins[1].number)) + " have the same nodes");
   }
 
   /// Steele, Lea and Flood's mixing function.
@@ -134,7 +134,7 @@ class Checker {
                   ", the mesh has " + std::to_string(numElements));
       require(side.side >= 0 && side.side < sidesOfElement_[side.element],
               describe("side set", set) + " has side " + std::to_string(side.side + 1LL) + " of element " +
-                  std::to_string(side.element + 1LL) + ", which has " +
+                  std::to_string(mesh_.elementNumber(side.element)) + ", which has " +
                   std::to_string(sidesOfElement_[side.element]) + " sides");
     }
     std::vector<std::pair<int, int>> sides;
@@ -143,7 +143,8 @@ class Checker {
     const auto twice = std::adjacent_find(sides.begin(), sides.end());
     require(twice == sides.end(),
             describe("side set", set) + " has a side twice" +
-                (twice == sides.end() ? "" : ", of element " + std::to_string(twice->first + 1LL)));
+                (twice == sides.end() ? ""
+                                      : ", of element " + std::to_string(mesh_.elementNumber(twice->first))));
   }
 
   template <class Items>

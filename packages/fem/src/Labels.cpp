@@ -9,16 +9,12 @@ std::string blockLabel(const Block& block) {
 }
 
 std::string elementLabel(const Mesh& mesh, int block, int elementOfBlock) {
-  std::size_t element = static_cast<std::size_t>(elementOfBlock);
+  int element = elementOfBlock;
   for (int b = 0; b < block; ++b)
-    element += mesh.blocks[b].nodes.size() / nodesPerElement(mesh.blocks[b].topology);
-  const long long id =
-      mesh.elementIds.empty() ? static_cast<long long>(element) + 1 : mesh.elementIds[element];
-  return fmt::format("element {} ({})", id, blockLabel(mesh.blocks[block]));
+    element += static_cast<int>(mesh.blocks[b].nodes.size()) / nodesPerElement(mesh.blocks[b].topology);
+  return fmt::format("element {} ({})", mesh.elementNumber(element), blockLabel(mesh.blocks[block]));
 }
 
-std::string nodeLabel(const Mesh& mesh, int node) {
-  return fmt::format("node {}", mesh.nodeIds.empty() ? node + 1LL : mesh.nodeIds[node]);
-}
+std::string nodeLabel(const Mesh& mesh, int node) { return fmt::format("node {}", mesh.nodeNumber(node)); }
 
 }  // namespace atrapos::fem

@@ -153,7 +153,7 @@ std::vector<PointSet> facePoints(const Mesh& mesh, const SideSet& set, int degre
     if (isLine(face))
       throw std::runtime_error(
           fmt::format("side set '{}': side {} of element {} is an edge, where a face is needed", set.name,
-                      side.side + 1, side.element + 1));
+                      side.side + 1, mesh.elementNumber(side.element)));
     if (!tables.count(face)) tables[face] = tabulateFace(face, degree);
     const Tabulation& t = tables.at(face);
     PointSet& p = byShape[face];
@@ -172,7 +172,7 @@ std::vector<PointSet> facePoints(const Mesh& mesh, const SideSet& set, int degre
       const double area = std::sqrt(dot(normal, normal));
       if (!(area > 0))
         throw std::runtime_error(fmt::format("side set '{}': side {} of element {} has no area", set.name,
-                                             side.side + 1, side.element + 1));
+                                             side.side + 1, mesh.elementNumber(side.element)));
       p.weights.push_back(t.weights[q] * area);
       appendPosition(mesh, nodes.data(), t, q, p);
       for (int i = 0; i < 3; ++i) p.normals.push_back(normal[i] / area);

@@ -180,7 +180,7 @@ class Builder {
     for (const PrescribedDirector& p : options_.directors) {
       const double length = norm(p.direction);
       if (p.node < 0 || p.node >= mesh_.numNodes() || corners_[p.node].empty())
-        fail(fmt::format("prescribed director: no shell has node {}", p.node + 1));
+        fail(fmt::format("prescribed director: no shell has node {}", mesh_.nodeNumber(p.node)));
       if (!(length > 0) || !std::isfinite(length))
         fail(fmt::format("{}: the prescribed director has no direction", nodeLabel(mesh_, p.node)));
       prescribed[p.node] = scaled(1 / length, p.direction);

@@ -82,6 +82,15 @@ struct Mesh {
   int dimension = 3;
 
   int numElements() const;
+
+  /// What the file calls a node or an element, for messages; also of one that is not there.
+  long long nodeNumber(int node) const { return number(nodeIds, node); }
+  long long elementNumber(int element) const { return number(elementIds, element); }
+
+ private:
+  static long long number(const std::vector<long long>& ids, int i) {
+    return i >= 0 && static_cast<std::size_t>(i) < ids.size() ? ids[static_cast<std::size_t>(i)] : i + 1LL;
+  }
 };
 
 /// Number of nodes of a cell.
