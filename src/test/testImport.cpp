@@ -157,7 +157,7 @@ supports:
   foot: {set: foot, condition: hinged}
   head: {set: head, x: 0, y: 0, z: {per_load_factor: -1}}
 path:
-  stop: {load_factor: 0.145}
+  stop: {load_factor: 0.143}
 output:
   monitors:
     force: {type: reaction, support: head, component: z}

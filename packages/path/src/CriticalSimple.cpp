@@ -107,7 +107,9 @@ bool refineSimple(Calls& calls, const CriticalSearch& search, double guess, cons
   point.residual = calls.residual(state, *r).relative();
   // Not on this path, or a near miss: an imperfection larger than the bound keeps the branches apart.
   if (distance > far * search.length || point.residual > search.residualBound) return false;
-  constexpr double outside = 0.01;
+  // Beyond an end it is a neighbour's, whose counts tell; in place of one of this step it would hide that
+  // one.
+  constexpr double outside = 1e-4;
   if (position < -outside * search.length || position > (1 + outside) * search.length) return false;
   std::vector<Augmented> tangents;
   if (!branches(*system, w, tangents)) return false;
