@@ -29,4 +29,7 @@ function(atrapos_precompiled target kind)
     endif()
   endif()
   target_precompile_headers(${target} REUSE_FROM ${headers})
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")  # ccache preprocesses first, and needs to see where they were used
+    target_compile_options(${target} PRIVATE $<$<COMPILE_LANGUAGE:CXX>:-fpch-preprocess>)
+  endif()
 endfunction()

@@ -17,7 +17,9 @@ configure() {
     options+=(-DATRAPOS_KOKKOS_DEVICE=OPENMP)
   fi
   if command -v ccache >/dev/null; then
-    options+=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache -DCMAKE_C_COMPILER_LAUNCHER=ccache)
+    # What another checkout on this machine compiled serves here; precompiled headers by their contents.
+    local launcher="env;CCACHE_BASEDIR=$root;CCACHE_SLOPPINESS=pch_defines,time_macros;ccache"
+    options+=("-DCMAKE_CXX_COMPILER_LAUNCHER=$launcher" "-DCMAKE_C_COMPILER_LAUNCHER=$launcher")
   fi
   [ -z "${CI:-}" ] || options+=(-DCMAKE_COMPILE_WARNING_AS_ERROR=ON)
   mkdir -p "$root/build"
