@@ -73,6 +73,13 @@ struct Gent {
   double bulkModulus = 0;   ///< pressure, > 0, or infinite
 };
 
+/// One to six terms mu_p, alpha_p, none of them 0; the sum of mu alpha, twice the shear modulus at rest, > 0.
+struct Ogden {
+  std::vector<double> mu;     ///< pressures
+  std::vector<double> alpha;  ///< as many, of at most 40
+  double bulkModulus = 0;     ///< pressure, > 0, or infinite
+};
+
 /// Plasticity; stresses and moduli are pressures.
 struct VonMises {
   double youngsModulus = 0;     ///< > 0
@@ -89,7 +96,7 @@ struct Material {
   /// Displacements alone, or with pressures as further unknowns.
   enum class Formulation { Displacement, Mixed };
   std::string name;
-  std::variant<SaintVenantKirchhoff, NeoHookean, MooneyRivlin, Yeoh, Gent, VonMises> law;
+  std::variant<SaintVenantKirchhoff, NeoHookean, MooneyRivlin, Yeoh, Gent, Ogden, VonMises> law;
   std::vector<std::string> blocks;  ///< names or ids
   Formulation formulation = Formulation::Displacement;
 };

@@ -4,6 +4,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <numeric>
 
 #include "deck/DeckReferences.hpp"
 #include "deck/DeckTables.hpp"
@@ -62,6 +63,9 @@ double youngsModulus(const NeoHookean& m) {
 double youngsModulus(const MooneyRivlin& m) { return isotropic(2 * (m.c1 + m.c2), m.bulkModulus); }
 double youngsModulus(const Yeoh& m) { return isotropic(2 * m.c1, m.bulkModulus); }
 double youngsModulus(const Gent& m) { return isotropic(m.shearModulus, m.bulkModulus); }
+double youngsModulus(const Ogden& m) {
+  return isotropic(std::inner_product(m.mu.begin(), m.mu.end(), m.alpha.begin(), 0.0) / 2, m.bulkModulus);
+}
 double youngsModulus(const VonMises& m) { return m.youngsModulus; }
 
 }  // namespace

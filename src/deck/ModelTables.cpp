@@ -179,6 +179,32 @@ void requireElasticPair(const Value& map, const NeoHookean& m) {
   }
 }
 
+void requireTerms(const Value& map, const Ogden& m) {
+  constexpr std::size_t most = 6;
+  constexpr double largest = 40;
+  if (m.mu.size() > most) {
+    map.at("mu").fail(fmt::format("expected one to {} numbers, got {}", most, m.mu.size()));
+  }
+  if (m.alpha.size() != m.mu.size()) {
+    map.at("alpha").fail(
+        fmt::format("expected as many numbers as mu has, {}, got {}", m.mu.size(), m.alpha.size()));
+  }
+  double shear = 0;
+  for (std::size_t i = 0; i < m.mu.size(); ++i) {
+    if (m.mu[i] == 0) {
+      map.at("mu").fail("no number may be 0");
+    }
+    if (m.alpha[i] == 0 || std::abs(m.alpha[i]) > largest) {
+      map.at("alpha").fail(fmt::format("no number may be 0 or beyond {}, got {}", largest, m.alpha[i]));
+    }
+    shear += m.mu[i] * m.alpha[i] / 2;
+  }
+  if (!(shear > 0)) {
+    map.at("mu").fail(fmt::format(
+        "half the sum of mu alpha, the shear modulus at rest, must be positive, got {:.6g}", shear));
+  }
+}
+
 }  // namespace
 
 const Variants<Material, decltype(Material::law)>& materialVariants() {
@@ -220,6 +246,11 @@ const Variants<Material, decltype(Material::law)>& materialVariants() {
                                      real("limit", required, &Gent::limit, check::positive,
                                           "J_m, what the first invariant cannot exceed 3 by"),
                                      bulkModulus(true, &Gent::bulkModulus)}),
+       alternative<V, Ogden>("ogden",
+                             {reals("mu", required, &Ogden::mu, "mu_p, pressures, one to six"),
+                              reals("alpha", required, &Ogden::alpha, "alpha_p, the power of the stretches"),
+                              bulkModulus(true, &Ogden::bulkModulus)},
+                             requireTerms),
        alternative<V, VonMises>(
            "von_mises",
            {real("youngs_modulus", required, &VonMises::youngsModulus, check::positive, "E, a pressure"),

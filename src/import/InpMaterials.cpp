@@ -41,6 +41,22 @@ double bulkModulus(double d, const InpPlace& place) {
   return 2 / d;
 }
 
+/// U = sum of 2 mu_i/alpha_i^2 (...) there, mu_i/alpha_i here; constants mu_1, alpha_1, ..., D_1, ...
+std::string ogden(InpModel& model, const InpCard& card, std::size_t n) {
+  const auto c = constants(model, card, 3 * n);
+  std::vector<double> mu, alpha;
+  for (std::size_t i = 0; i < n; ++i) {
+    if (c[2 * i] == 0 || c[2 * i + 1] == 0)
+      card.place.fail(fmt::format("*HYPERELASTIC, OGDEN: term {} has a constant that is 0", i + 1));
+    mu.push_back(2 * c[2 * i] / c[2 * i + 1]);
+    alpha.push_back(c[2 * i + 1]);
+  }
+  for (std::size_t i = 2 * n + 1; i < 3 * n; ++i)
+    if (c[i] != 0) model.remark(card.place, fmt::format("*HYPERELASTIC: D{} is left out", i - 2 * n + 1));
+  return fmt::format("law: ogden, mu: [{}], alpha: [{}], bulk_modulus: {}", fmt::join(mu, ", "),
+                     fmt::join(alpha, ", "), bulkModulus(c[2 * n], card.place));
+}
+
 std::string hyperelastic(InpModel& model, const InpCard& card) {
   const long long n = card.has("N") ? inpInteger(*card.find("N"), card.place, "N", 1, 6) : 1;
   const bool neo = card.has("NEOHOOKE") || (card.has("REDUCEDPOLYNOMIAL") && n == 1),
@@ -57,9 +73,12 @@ std::string hyperelastic(InpModel& model, const InpCard& card) {
     return fmt::format("law: mooney_rivlin, c1: {}, c2: {}, bulk_modulus: {}", c[0], c[1],
                        bulkModulus(c[2], card.place));
   }
+  if (card.has("OGDEN")) return ogden(model, card, static_cast<std::size_t>(n));
   if (!yeoh)
     card.place.fail(
-        "*HYPERELASTIC: no law here is equal; expected NEO HOOKE, MOONEY-RIVLIN, YEOH, POLYNOMIAL of N=1 or "
+        "*HYPERELASTIC: no law here is equal; expected NEO HOOKE, MOONEY-RIVLIN, OGDEN, YEOH, POLYNOMIAL of "
+        "N=1 "
+        "or "
         "REDUCED POLYNOMIAL of N=1 or 3");
   const auto c = constants(model, card, 6);
   if (c[4] != 0 || c[5] != 0) model.remark(card.place, "*HYPERELASTIC: D2 and D3 are left out");

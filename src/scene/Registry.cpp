@@ -53,6 +53,9 @@ solid::Gent law(const deck::Gent& m) {
   return withBulk(m.bulkModulus,
                   [&](double bulk) { return solid::Gent::fromModuli(m.shearModulus, m.limit, bulk); });
 }
+solid::Ogden law(const deck::Ogden& m) {
+  return withBulk(m.bulkModulus, [&](double bulk) { return solid::Ogden::fromModuli(m.mu, m.alpha, bulk); });
+}
 
 std::unique_ptr<fem::PointLaw> inBody(std::unique_ptr<fem::PointLaw> law,
                                       const std::optional<solid::PlaneSection>& plane) {

@@ -1057,6 +1057,9 @@ TEST(Deck, rubberLaws) {
   deck = law("law: gent, shear_modulus: 0.8, limit: 40, bulk_modulus: 5");
   EXPECT_EQ(std::get<Gent>(deck.materials[0].law).limit, 40);
   EXPECT_DOUBLE_EQ(largestYoungsModulus(deck), E);
+  deck = law("law: ogden, mu: [1.2, -0.1], alpha: [1.25, -1], bulk_modulus: 5");
+  EXPECT_EQ(std::get<Ogden>(deck.materials[0].law).alpha, (std::vector<double>{1.25, -1}));
+  EXPECT_DOUBLE_EQ(largestYoungsModulus(deck), E);
 }
 
 TEST(BadDeck, rubberLaws) {
@@ -1080,6 +1083,17 @@ TEST(BadDeck, rubberLaws) {
           "materials/steel/limit: must be positive, got 0");
   refused("law: gent, shear_modulus: 1, limit: 5, bulk_modulus: 0",
           "materials/steel/bulk_modulus: must be positive, got 0");
+  refused("law: ogden, mu: [], alpha: [], bulk_modulus: 1",
+          "materials/steel/mu: expected a list of finite numbers, got an empty list");
+  refused("law: ogden, mu: [1, 1, 1, 1, 1, 1, 1], alpha: [1], bulk_modulus: 1",
+          "materials/steel/mu: expected one to 6 numbers, got 7");
+  refused("law: ogden, mu: [1, 2], alpha: [1], bulk_modulus: 1",
+          "materials/steel/alpha: expected as many numbers as mu has, 2, got 1");
+  refused("law: ogden, mu: [1, 0], alpha: [1, 2], bulk_modulus: 1", "materials/steel/mu: no number may be 0");
+  refused("law: ogden, mu: [1], alpha: [41], bulk_modulus: 1",
+          "materials/steel/alpha: no number may be 0 or beyond 40, got 41");
+  refused("law: ogden, mu: [1, 1], alpha: [2, -2], bulk_modulus: 1",
+          "materials/steel/mu: half the sum of mu alpha, the shear modulus at rest, must be positive, got 0");
 }
 
 TEST(BadDeck, choices) {

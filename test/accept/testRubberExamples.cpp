@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -14,27 +15,39 @@
 namespace atrapos::test {
 namespace {
 
-/// p r0 / (4 h c1) of a hollow sphere of incompressible Mooney-Rivlin rubber of mean radius r0 = 1 and
-/// thickness h whose mean radius is L: the integral of L' dW/dL' / r over the wall, with W of one hoop
-/// stretch L'. Gauss' rule of five points is exact to rounding for walls that are a tenth of the radius or
-/// less.
-double spherePressure(double h, double ratio, double L) {
+/// dW/dl of equal hoop stretches l.
+using Slope = std::function<double(double)>;
+Slope mooneyRivlin(double ratio) {  // c1 = 1, c2 = ratio
+  return [=](double l) { return 4 * (l - std::pow(l, -5)) + 4 * ratio * (l * l * l - std::pow(l, -3)); };
+}
+Slope ogden(const std::vector<double>& mu, const std::vector<double>& alpha) {
+  return [=](double l) {
+    double sum = 0;
+    for (std::size_t p = 0; p < mu.size(); ++p)
+      sum += 2 * mu[p] * (std::pow(l, alpha[p] - 1) - std::pow(l, -2 * alpha[p] - 1));
+    return sum;
+  };
+}
+
+/// p r0 / (4 h) of a hollow sphere of incompressible rubber of mean radius r0 = 1 and thickness h whose mean
+/// radius is L: the integral of L' dW/dL' / r over the wall, with W of one hoop stretch L'. Gauss' rule of
+/// five points is exact to rounding for walls that are a tenth of the radius or less.
+double spherePressure(double h, const Slope& slope, double L) {
   const double x[5] = {-0.906179845938664, -0.538469310105683, 0, 0.538469310105683, 0.906179845938664},
                w[5] = {0.236926885056189, 0.478628670499366, 0.568888888888889, 0.478628670499366,
                        0.236926885056189};
   double sum = 0;
   for (int q = 0; q < 5; ++q) {
     const double R = 1 + h / 2 * x[q], r = std::cbrt(R * R * R + L * L * L - 1), l = r / R;
-    const double slope = 4 * (l - std::pow(l, -5)) + 4 * ratio * (l * l * l - std::pow(l, -3));
-    sum += w[q] * l * slope / r * R * R / (r * r);
+    sum += w[q] * l * slope(l) / r * R * R / (r * r);
   }
   return sum / 8;
 }
 
 /// Where the slope of that vanishes in an interval, by bisection.
-double sphereLimit(double h, double ratio, double low, double high) {
+double sphereLimit(double h, const Slope& law, double low, double high) {
   const auto slope = [&](double L) {
-    return spherePressure(h, ratio, L + 1e-4) - spherePressure(h, ratio, L - 1e-4);
+    return spherePressure(h, law, L + 1e-4) - spherePressure(h, law, L - 1e-4);
   };
   const bool rises = slope(low) > 0;
   for (int i = 0; i < 60; ++i) {
@@ -78,10 +91,10 @@ TEST(Balloon, LimitPoints) {
   ASSERT_EQ(found.size(), 2u);
   const double low[2] = {1.2, 2.5}, high[2] = {2, 4};
   for (int i = 0; i < 2; ++i) {
-    const double exact = sphereLimit(0.01, 0.1, low[i], high[i]);
+    const double exact = sphereLimit(0.01, mooneyRivlin(0.1), low[i], high[i]);
     // The sphere's own points to the residual's bound, which at a limit point of the load leaves its root
     // open to the stretch; the membrane's to the square of the thickness.
-    EXPECT_NEAR(found[i].load, spherePressure(0.01, 0.1, exact), 2e-6);
+    EXPECT_NEAR(found[i].load, spherePressure(0.01, mooneyRivlin(0.1), exact), 2e-6);
     EXPECT_NEAR(found[i].load, load[i], 1e-4 * load[i]);
     EXPECT_NEAR(found[i].stretch, exact, 1e-4);
     EXPECT_NEAR(found[i].stretch, L[i], 1e-4 * L[i]);
@@ -105,6 +118,25 @@ TEST(Balloon, BecomesAMembrane) {
   for (int i = 0; i < 2; ++i) {
     EXPECT_NEAR(found[i].load, load[i], 1e-6);
     EXPECT_NEAR(found[i].stretch, L[i], 1e-4);
+  }
+}
+
+// Ogden's constants of Treloar's rubber (1972), in kg/cm2: a membrane has its points where those of
+// p r0/(4 h0) = sum of mu_p (L^(alpha_p - 3) - L^(-2 alpha_p - 3))/2 are.
+TEST(Balloon, OfOgden) {
+  const std::string law = "law: ogden, mu: [6.3, 0.012, -0.1], alpha: [1.3, 5, -2]";
+  const Slope slope = ogden({6.3, 0.012, -0.1}, {1.3, 5, -2});
+  const double L[2] = {1.3740502897, 4.3202827118}, load[2] = {1.3735307704, 0.5888821781};
+  const ExampleRun run("rubber/balloon.yaml", {{"law: mooney_rivlin, c1: 1, c2: 0.1", law}});
+  const auto found = limitPoints(run);
+  ASSERT_EQ(found.size(), 2u);
+  const double low[2] = {1.2, 3}, high[2] = {2, 5};
+  for (int i = 0; i < 2; ++i) {
+    const double exact = sphereLimit(0.01, slope, low[i], high[i]);
+    EXPECT_NEAR(found[i].load, spherePressure(0.01, slope, exact), 2e-6 * load[0]);
+    EXPECT_NEAR(found[i].load, load[i], 2e-4 * load[i]);
+    EXPECT_NEAR(found[i].stretch, exact, 1e-4 * exact);
+    EXPECT_NEAR(found[i].stretch, L[i], 2e-4 * L[i]);
   }
 }
 

@@ -3,16 +3,36 @@
 #include "Inputs.hpp"
 #include "Laws.hpp"
 #include "atrapos/contact/ContactLaw.hpp"
+#include "atrapos/solid/Gent.hpp"
+#include "atrapos/solid/MooneyRivlin.hpp"
+#include "atrapos/solid/NeoHookean.hpp"
+#include "atrapos/solid/Ogden.hpp"
 #include "atrapos/solid/SaintVenantKirchhoff.hpp"
+#include "atrapos/solid/Yeoh.hpp"
 
 namespace atrapos::bench {
 
-/// Calls f(name, law, peerLaw, domain) for every law of the benchmark. peerLaw is what the peers run: the
-/// same where they can, for contact its closed form (they have no implicit functions).
+/// H around rest.
+inline Domain gradients() {
+  return {std::vector<double>(9, 0.0), std::vector<double>(9, 0.1), std::vector<double>(9, 0.1), 0.0};
+}
+
+/// Calls f(name, law, domain) for the solids' laws of rubber, which peers do not run.
+template <class F>
+void forEachRubber(const F& f) {
+  f("rubber_neo_hookean", solid::NeoHookean::fromModuli(0.8, 1.7), gradients());
+  f("rubber_yeoh", solid::Yeoh::fromModuli(0.4, -0.02, 0.01, 1.7), gradients());
+  f("rubber_gent", solid::Gent::fromModuli(0.8, 20, 1.7), gradients());
+  f("rubber_mooney_rivlin", solid::MooneyRivlin::fromModuli(0.3, 0.1, 1.7), gradients());
+  f("rubber_ogden", solid::Ogden::fromModuli({1.2}, {1.3}, 1.7), gradients());
+  f("rubber_ogden_3", solid::Ogden::fromModuli({6.3, 0.012, -0.1}, {1.3, 5, -2}, 1.7), gradients());
+}
+
+/// Calls f(name, law, peerLaw, domain) for every other law of the benchmark. peerLaw is what the peers run:
+/// the same where they can, for contact its closed form (they have no implicit functions).
 template <class F>
 void forEachCase(const F& f) {
-  const Domain gradient{std::vector<double>(9, 0.0), std::vector<double>(9, 0.1), std::vector<double>(9, 0.1),
-                        0.0};
+  const Domain gradient = gradients();
   const solid::SaintVenantKirchhoff linear{1.2, 0.8};
   f("saint_venant_kirchhoff", linear, linear, gradient);
   const NeoHookean hyperelastic{1.2, 0.8};

@@ -70,6 +70,21 @@ class Factory {
     }
   }
 
+  template <class Law>
+  void operator()(const char* name, const Law& law, const Domain& domain) const {
+    if (!has(selection_.laws, name)) return;
+    for (int order : selection_.orders) {
+      Row row;
+      row.law = name;
+      row.order = order;
+      row.usefulFlops = usefulFlops(law, order);
+      const auto inputs = std::make_shared<const Inputs>(domain, order);
+      for (std::size_t points : selection_.points)
+        addSweep<Law::numOutputs>(row, "atrapos", points, inputs,
+                                  std::make_shared<AtraposSweep<Law>>(law, order));
+    }
+  }
+
  private:
   template <int O, class S>
   void addSweep(Row row, const char* method, std::size_t points, const std::shared_ptr<const Inputs>& inputs,
@@ -141,12 +156,15 @@ std::vector<std::string> methodNames() {
 std::vector<std::string> lawNames() {
   std::vector<std::string> names;
   forEachCase([&](const char* name, const auto&, const auto&, const Domain&) { names.push_back(name); });
+  forEachRubber([&](const char* name, const auto&, const Domain&) { names.push_back(name); });
   return names;
 }
 
 std::vector<Job> makeJobs(const Selection& selection) {
   std::vector<Job> jobs;
-  forEachCase(Factory(selection, jobs));
+  const Factory factory(selection, jobs);
+  forEachCase(factory);
+  forEachRubber(factory);
   return jobs;
 }
 

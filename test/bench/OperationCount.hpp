@@ -36,7 +36,10 @@ class Counted {
   }
   friend Counted sqrt(const Counted& a) { return a.result(1, 0); }
   friend Counted log(const Counted& a) { return a.result(2, 1); }
-  friend Counted tanh(const Counted& a) { return a.result(2 + 1, 1); }  // t' = w a', and w = 1 - t^2
+  friend Counted log1p(const Counted& a) { return a.result(2, 1); }
+  friend Counted exp(const Counted& a) { return a.result(2, 1); }
+  friend Counted pow(const Counted& a, double) { return a.result(4, 2); }  // a p' = r a' p
+  friend Counted tanh(const Counted& a) { return a.result(2 + 1, 1); }     // t' = w a', and w = 1 - t^2
 
  private:
   static Counted linear(const Counted& a, const Counted& b) {

@@ -44,20 +44,22 @@ TEST(BenchTable, QuickRunWritesTheWholeTable) {
     ASSERT_EQ(f.size(), 8u) << "line " << n;
     EXPECT_TRUE(seen.insert({f[0], f[3]}).second) << f[0] << " " << f[3] << " twice";
     EXPECT_EQ(f[1], "10");
-    for (int i : {2, 4, 5, 6, 7}) {
+    const bool alone = f[0].rfind("rubber", 0) == 0;  // peers do not run it
+    for (int i : {2, 4, 5, 6, alone ? 6 : 7}) {
       const double value = std::stod(f[i]);
       EXPECT_TRUE(std::isfinite(value) && value > 0)
           << f[0] << " " << f[3] << ": " << lines[0][i] << " " << f[i];
     }
     const double us = std::stod(f[4]);
     if (f[3] == "sacado") sacado = us;
-    EXPECT_NEAR(std::stod(f[7]) * us / sacado, 1, 2e-5);  // three numbers of six digits
+    EXPECT_NEAR(std::stod(f[7]) * us / sacado, alone ? 0 : 1, 2e-5);  // three numbers of six digits
   }
   for (const std::string& law : lawNames())
     for (const std::string& method : methodNames()) {
       const bool contact = law.rfind("contact", 0) == 0;
       if (method == "atrapos_closed" && !contact) continue;
       if (method.rfind("hand", 0) == 0 && law != "saint_venant_kirchhoff") continue;
+      if (law.rfind("rubber", 0) == 0 && method != "atrapos") continue;
       EXPECT_TRUE(seen.count({law, method})) << law << " " << method;
     }
 }

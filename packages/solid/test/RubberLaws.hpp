@@ -9,13 +9,14 @@
 #include "atrapos/solid/Gent.hpp"
 #include "atrapos/solid/MooneyRivlin.hpp"
 #include "atrapos/solid/NeoHookean.hpp"
+#include "atrapos/solid/Ogden.hpp"
 #include "atrapos/solid/Yeoh.hpp"
 
 /// The laws of rubber with numbers, and what docs/theory/rubber.md says of them in principal stretches, which
 /// the laws themselves do not know.
 namespace atrapos::solid::test {
 
-using RubberTypes = testing::Types<NeoHookean, MooneyRivlin, Yeoh, Gent>;
+using RubberTypes = testing::Types<NeoHookean, MooneyRivlin, Yeoh, Gent, Ogden>;
 
 // Stresses of size one; volumes that change enough to be seen.
 template <class Law>
@@ -37,6 +38,11 @@ inline Gent rubber() {
   return Gent::fromModuli(1.2, 20, 1);
 }
 
+template <>
+inline Ogden rubber() {
+  return Ogden::fromModuli({0.9, 0.1, -0.1}, {1, 3, -1}, 3);  // powers of sqrt(C), of which there are series
+}
+
 /// Moduli at rest.
 struct AtRest {
   double shear, bulk;
@@ -45,6 +51,8 @@ inline AtRest atRest(const NeoHookean& m) { return {m.mu, m.lambda + 2 * m.mu / 
 inline AtRest atRest(const MooneyRivlin& m) { return {2 * (m.c1 + m.c2), m.bulk}; }
 inline AtRest atRest(const Yeoh& m) { return {2 * m.c1, m.bulk}; }
 inline AtRest atRest(const Gent& m) { return {m.mu, m.bulk}; }
+
+inline AtRest atRest(const Ogden& m) { return {m.shearModulus(), m.bulk}; }
 
 using Real = long double;
 using Numbers = std::vector<double>;
@@ -90,6 +98,33 @@ Real principalStress(const Law& m, const Stretches& s) {
   // Kirchhoff stress: 2 (W_1 a_i - W_2 / a_i), its deviator, and J dU/dJ
   const auto of = [&](Real q) { return 2 * (w.first * q - w.second / q); };
   return (of(a) - (of(a) + of(b) + of(c)) / 3 + Real(m.bulk) / 2 * (J * J - 1)) / s.x;
+}
+
+inline Real principalStress(const Ogden& m, const Stretches& s) {
+  const Real J = s.x * s.y * s.z, r = std::pow(J, -Real(1) / 3);
+  const auto of = [&](Real stretch) {
+    Real sum = 0;
+    for (int i = 0; i < m.numTerms; ++i) sum += m.terms[i].mu * std::pow(r * stretch, Real(m.terms[i].alpha));
+    return sum;
+  };
+  return (of(s.x) - (of(s.x) + of(s.y) + of(s.z)) / 3 + Real(m.bulk) / 2 * (J * J - 1)) / s.x;
+}
+
+/// Shear stress of simple shear by g.
+inline Real shearStress(const NeoHookean& m, Real g) { return m.mu * g; }
+template <class Law>
+Real shearStress(const Law& m, Real g) {
+  const Slopes w = slopes(m, g * g);
+  return 2 * (w.first + w.second) * g;
+}
+inline Real shearStress(const Ogden& m, Real g) {  // principal stretches l, 1, 1/l with l - 1/l = g
+  const Real l = (g + std::sqrt(g * g + 4)) / 2;
+  Real sum = 0;
+  for (int i = 0; i < m.numTerms; ++i) {
+    const Real alpha = m.terms[i].alpha;
+    sum += m.terms[i].mu * (std::pow(l, alpha) - std::pow(l, -alpha)) / (l + 1 / l);
+  }
+  return sum;
 }
 
 /// The root of an increasing function.

@@ -87,6 +87,24 @@ Real energy(const Gent& m, const Numbers& H) {
   return -m.mu * m.limit / 2 * std::log(1 - reducedFirst(I) / m.limit) + volumetric(m.bulk, I.J);
 }
 
+/// By the eigenvalues of C, which are apart here.
+Real energy(const Ogden& m, const Numbers& H) {
+  const Invariants I = invariants(H);
+  const Real middle = I.first / 3, radius = std::sqrt(middle * middle - I.second / 3);
+  const Real cosine =
+      (2 * middle * middle * middle - middle * I.second + I.J * I.J) / (2 * radius * radius * radius);
+  const Real angle = std::acos(cosine) / 3;
+  Real sum = 0;
+  for (int n = 0; n < 3; ++n) {
+    const Real square = middle + 2 * radius * std::cos(angle - 2 * n * std::acos(-1.0L) / 3);
+    for (int i = 0; i < m.numTerms; ++i) {
+      const Real alpha = m.terms[i].alpha;
+      sum += m.terms[i].mu / alpha * (std::pow(square * std::pow(I.J, -2.0L / 3), alpha / 2) - 1);
+    }
+  }
+  return sum + volumetric(m.bulk, I.J);
+}
+
 template <class Law>
 class Rubber : public testing::Test {};
 
@@ -120,13 +138,7 @@ TYPED_TEST(Rubber, SimpleShear) {
   const TypeParam law = rubber<TypeParam>();
   for (const double g : {0.2, 1.0, 2.0}) {
     const Numbers P = stress(law, {0, g, 0, 0, 0, 0, 0, 0, 0});
-    Real shear;
-    if constexpr (std::is_same_v<TypeParam, NeoHookean>) {
-      shear = law.mu * g;
-    } else {
-      const Slopes w = slopes(law, Real(g) * g);
-      shear = 2 * (w.first + w.second) * g;
-    }
+    const Real shear = shearStress(law, g);
     EXPECT_NEAR(P[1], static_cast<double>(shear), rounding);
     double sigma[6];
     law.observe(Numbers{0, g, 0, 0, 0, 0, 0, 0, 0}.data(), nullptr, sigma);
@@ -245,6 +257,49 @@ TEST(GentLimit, IsADomainError) {
   EXPECT_NEAR(stress(law, {0, 1, 0, 0, 0, 0, 0, 0, 0})[1], 2, rounding);
 }
 
+// Ogden's constants of Treloar's rubber (1972), fractional, large and negative powers; stretches far apart,
+// nearly equal, equal.
+TEST(OgdenLaw, AnyPowersOfAnyStretches) {
+  const Ogden law = Ogden::fromModuli({6.3, 0.012, -0.1}, {1.3, 5, -2}, 1e3);
+  EXPECT_NEAR(law.shearModulus(), 4.225, 1e-15);
+  for (const Stretches& s :
+       {Stretches{1, 1, 1}, Stretches{1.5L, 1.5L, 1 / 2.25L}, Stretches{3, 1 / 3.0L, 1},
+        Stretches{2, 2 + 1e-7L, 0.25L}, Stretches{1 + 1e-9L, 1 - 1e-9L, 1}, Stretches{4, 0.5L, 0.5L}}) {
+    const Numbers H = diagonal(s.x, s.y, s.z), P = stress(law, H);
+    const Stretches t{1 + Real(H[0]), 1 + Real(H[4]), 1 + Real(H[8])};
+    const double expected[3] = {static_cast<double>(principalStress(law, t)),
+                                static_cast<double>(principalStress(law, Stretches{t.y, t.z, t.x})),
+                                static_cast<double>(principalStress(law, Stretches{t.z, t.x, t.y}))};
+    // 1e3 times the rounding of the volume, beside the stresses' own
+    for (int i = 0; i < 3; ++i)
+      EXPECT_NEAR(P[4 * i], expected[i], 4e-13 + 1e-14 * std::abs(expected[i])) << static_cast<double>(s.x);
+  }
+}
+
+// What the docs say of stretches beyond: the quadrature's error, not a wall.
+TEST(OgdenLaw, LargeStretches) {
+  const Ogden law = Ogden::fromModuli({1}, {1.3}, 1);
+  const auto error = [&](Real s) {
+    const Stretches t{s, 1 / std::sqrt(s), 1 / std::sqrt(s)};
+    const Numbers P = stress(law, diagonal(t.x, t.y, t.z));
+    const Real expected = principalStress(law, t);
+    return static_cast<double>(std::abs((P[0] - expected) / expected));
+  };
+  EXPECT_LT(error(5), 2e-14);
+  EXPECT_LT(error(10), 1e-10);
+  EXPECT_LT(error(20), 1e-7);
+}
+
+// A power of 2 is a neo-Hookean law, 2 and -2 are Mooney-Rivlin's, and powers near them are near.
+TEST(OgdenLaw, WholePowersAreMooneyRivlin) {
+  const MooneyRivlin mooney = MooneyRivlin::fromModuli(0.5, 0.2, 3);
+  const Numbers H = randomNumbers(9, 0.3, 11), expected = stress(mooney, H);
+  EXPECT_LT(distance(stress(Ogden::fromModuli({1, -0.4}, {2, -2}, 3), H), expected), rounding);
+  const double near = distance(stress(Ogden::fromModuli({1, -0.4}, {2 + 1e-8, -2 - 1e-8}, 3), H), expected);
+  EXPECT_LT(near, 1e-8);
+  EXPECT_GT(near, 1e-12);
+}
+
 TEST(RubberErrors, BadMaterialsAreRefused) {
   const auto messageOf = [](const auto& f) -> std::string {
     try {
@@ -264,6 +319,18 @@ TEST(RubberErrors, BadMaterialsAreRefused) {
   EXPECT_EQ(messageOf([] { Yeoh::fromModuli(0, 1, 1, 1); }),
             "c1, half the shear modulus at rest, must be positive");
   EXPECT_EQ(messageOf([] { Yeoh::fromModuli(1, std::nan(""), 1, 1); }), "c2 and c3 must be finite");
+  EXPECT_EQ(messageOf([] {
+              Ogden::fromModuli({1, 2}, {1}, 1);
+            }),
+            "there must be one to six mu, and as many alpha");
+  EXPECT_EQ(messageOf([] {
+              Ogden::fromModuli({1, 2}, {1, 0}, 1);
+            }),
+            "no mu and no alpha may be 0, and alpha is 40 at most");
+  EXPECT_EQ(messageOf([] {
+              Ogden::fromModuli({1, 1}, {1, -1}, 1);
+            }),
+            "the sum of mu alpha, twice the shear modulus at rest, must be positive");
   EXPECT_EQ(messageOf([] { Gent::fromModuli(1, 0, 1); }), "the limit J_m must be positive");
   EXPECT_EQ(messageOf([] { Gent::fromModuli(1, 1, std::nan("")); }), "the bulk modulus must be positive");
 }

@@ -285,6 +285,9 @@ TEST(Inp, Materials) {
   const std::vector<std::pair<std::string, std::string>> laws{
       {"*HYPERELASTIC, NEO HOOKE\n3., .04\n", "law: mooney_rivlin, c1: 3, c2: 0, bulk_modulus: 50"},
       {"*HYPERELASTIC, MOONEY-RIVLIN\n3., 1., .04\n", "law: mooney_rivlin, c1: 3, c2: 1, bulk_modulus: 50"},
+      {"*HYPERELASTIC, OGDEN\n3., 1.5, .04\n", "law: ogden, mu: [4], alpha: [1.5], bulk_modulus: 50"},
+      {"*HYPERELASTIC, OGDEN, N=3\n3., 2., -.5, -2., .1, 5., .04, 0\n0\n",
+       "law: ogden, mu: [3, 0.5, 0.04], alpha: [2, -2, 5], bulk_modulus: 50"},
       {"*HYPERELASTIC, POLYNOMIAL, N=1\n3., 1., .04\n", "law: mooney_rivlin, c1: 3, c2: 1, bulk_modulus: 50"},
       {"*HYPERELASTIC, YEOH\n3., -.1, .2, .04\n", "law: yeoh, c1: 3, c2: -0.1, c3: 0.2, bulk_modulus: 50"}};
   for (const auto& [card, law] : laws) {
@@ -294,8 +297,10 @@ TEST(Inp, Materials) {
   }
   expectRefused(begin + "*HYPERELASTIC, NEO HOOKE\n3., 0.\n" + end, Deck::yes,
                 ":15: *HYPERELASTIC: D1 is not positive");
-  expectRefused(begin + "*HYPERELASTIC, OGDEN\n3., 0.\n" + end, Deck::yes,
+  expectRefused(begin + "*HYPERELASTIC, ARRUDA-BOYCE\n3., 5., .1\n" + end, Deck::yes,
                 ":15: *HYPERELASTIC: no law here is equal");
+  expectRefused(begin + "*HYPERELASTIC, OGDEN\n3., 0., .1\n" + end, Deck::yes,
+                ":15: *HYPERELASTIC, OGDEN: term 1 has a constant that is 0");
   expectRefused(begin + "*ELASTIC, TYPE=ORTHO\n3., 0.\n" + end, Deck::yes, ":15: *ELASTIC, TYPE=ORTHO");
   expectRefused(begin + end, Deck::yes, ":14: material 'm' has neither");
 }

@@ -3,6 +3,7 @@
 #include "atrapos/solid/Gent.hpp"
 #include "atrapos/solid/MooneyRivlin.hpp"
 #include "atrapos/solid/NeoHookean.hpp"
+#include "atrapos/solid/Ogden.hpp"
 #include "atrapos/solid/Yeoh.hpp"
 
 namespace atrapos::solid {
@@ -45,3 +46,4 @@ ATRAPOS_DECLARE_POINT_LAW(atrapos::solid::MixedLaw<atrapos::solid::NeoHookean>)
 ATRAPOS_DECLARE_POINT_LAW(atrapos::solid::MixedLaw<atrapos::solid::MooneyRivlin>)
 ATRAPOS_DECLARE_POINT_LAW(atrapos::solid::MixedLaw<atrapos::solid::Yeoh>)
 ATRAPOS_DECLARE_POINT_LAW(atrapos::solid::MixedLaw<atrapos::solid::Gent>)
+ATRAPOS_DECLARE_POINT_LAW(atrapos::solid::MixedLaw<atrapos::solid::Ogden>)

@@ -86,6 +86,16 @@ KOKKOS_FORCEINLINE_FUNCTION T volumeChangeAt(const T& q) {
   return expm1(logarithm);
 }
 
+/// What laws of both invariants of the isochoric part are functions of.
+template <class T>
+struct Dilated {
+  const T& i1;  ///< I_1 - 3
+  const T& i2;  ///< I_2 - 3
+  const T& d;   ///< J^2 - 1
+  const T& J2;  ///< J^2
+  const T& m;   ///< J^(-2/3)
+};
+
 }  // namespace detail
 
 /// Base of a law of rubber: its shape, and the Cauchy stress that is shown.
@@ -186,6 +196,81 @@ struct FirstInvariantLaw : RubberLaw<Law> {
     const T spherical = d - (1.0 / 3) * i1;
     s = modulus * pressure + q * spherical;
     t = modulus * pressure - q - (1.0 / 3) * (q * i1);
+  }
+};
+
+/// Laws whose energy is one of both invariants of the isochoric part and the common volumetric one,
+///
+///     W = f(J^(-2/3) I_1, J^(-4/3) I_2) + (bulk/4) (J^2 - 1 - 2 ln J),   J = det F > 0
+///
+/// Law: `template <class T> void factors(const detail::Dilated<T>& x, const T& pressure, T& ofI, T& ofK, T&
+/// ofA) const`, of S = ofI I + ofK (cof C - I) + ofA (C - I), where `pressure` is U'(J)/J.
+template <class Law>
+struct SecondInvariantLaw : RubberLaw<Law> {
+  double bulk = 0;  ///< bulk modulus, stress units
+
+  /// S from the Green-Lagrange strain.
+  template <class T>
+  KOKKOS_FORCEINLINE_FUNCTION taylor::Symmetric3<T> secondPiola(const taylor::Symmetric3<T>& E) const {
+    using std::pow;
+    const taylor::Symmetric3<T> A = 2.0 * E;
+    const taylor::Symmetric3<T> K = detail::cofactorChange(A);
+    const T d = detail::determinantChange(A, K);
+    const T J2 = 1.0 + d;
+    const T m = pow(J2, -1.0 / 3);
+    const T pressure = d / J2;
+    return stress(A, K, d, J2, m, 0.5 * bulk, pressure);
+  }
+
+  template <class T>
+  KOKKOS_INLINE_FUNCTION void operator()(const T* in, const taylor::Passive<T>*, T* out) const {
+    stressOfGradient(in, 0.5 * bulk, detail::BulkPressure{}, out);
+  }
+
+  /// What MixedLaw is made of.
+  template <class T>
+  KOKKOS_FORCEINLINE_FUNCTION void mixed(const T* in, double scale, T* out) const {
+    const T j = stressOfGradient(in, scale, detail::GivenPressure<T>{in[9]}, out);
+    const T q = (scale / bulk) * in[9];
+    out[9] = scale * (j - detail::volumeChangeAt(q));
+  }
+
+ private:
+  /// P = F S: the second invariant needs C anyway. J comes from F, for its sign. U'(J)/J as in
+  /// FirstInvariantLaw. Returns J - 1.
+  template <class T, class Volumetric>
+  KOKKOS_FORCEINLINE_FUNCTION T stressOfGradient(const T* in, double modulus, const Volumetric& volumetric,
+                                                 T* out) const {
+    using std::pow;
+    const taylor::Matrix3<T> H(in);
+    // The first row of cof F - I
+    const T K0 = in[4] + in[8] + (in[4] * in[8] - in[5] * in[7]);
+    const T K1 = in[5] * in[6] - in[3] * in[8] - in[3];
+    const T K2 = in[3] * in[7] - in[4] * in[6] - in[6];
+    const T j = in[0] + K0 + (in[0] * K0 + in[1] * K1 + in[2] * K2);
+    const T J = 1.0 + j;
+    const T m = pow(J, -2.0 / 3);
+    const T d = j + j * J;
+    const T J2 = 1.0 + d;
+    const T pressure = volumetric(J, d, J2);
+    const taylor::Symmetric3<T> A = 2.0 * greenLagrange(H);
+    const taylor::Symmetric3<T> S = stress(A, detail::cofactorChange(A), d, J2, m, modulus, pressure);
+    const taylor::Matrix3<T> P = full(S) + H * S;
+    P.store(out);
+    return j;
+  }
+
+  template <class T>
+  KOKKOS_FORCEINLINE_FUNCTION taylor::Symmetric3<T> stress(const taylor::Symmetric3<T>& A,
+                                                           const taylor::Symmetric3<T>& K, const T& d,
+                                                           const T& J2, const T& m, double modulus,
+                                                           const T& pressure) const {
+    const T i1 = trace(A);
+    const T i2 = trace(K);
+    const T spherical = modulus * pressure;
+    T ofI, ofK, ofA;
+    static_cast<const Law&>(*this).factors(detail::Dilated<T>{i1, i2, d, J2, m}, spherical, ofI, ofK, ofA);
+    return plusIdentity(scaled(K, ofK) + scaled(A, ofA), ofI);
   }
 };
 

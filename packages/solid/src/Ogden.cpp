@@ -1,0 +1,5 @@
+#include "atrapos/solid/Ogden.hpp"
+
+#include "atrapos/fem/PointLawOf.hpp"
+
+ATRAPOS_MATERIAL(atrapos::solid::Ogden)
