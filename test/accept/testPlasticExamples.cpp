@@ -24,7 +24,7 @@ TEST(PlasticExamples, ThickSphereAgainstHill) {
     most = std::max(most, c);
   }
   EXPECT_LT(worst, 1e-3);  // 12 cells through the wall; second order
-  EXPECT_GT(most, 1.85);
+  EXPECT_GT(most, 1.83);  // where Hill has the load of the stop
 }
 
 }  // namespace
