@@ -111,7 +111,7 @@ bool Run::step() {
   report.pathLengthStart = outcome_.pathLength;
   report.inertia = tangent.inertia;
   report.radius = series.radius(options_.delta);
-  weight_ = outcome_.weight = series.weight();
+  if (!series.standsStill()) weight_ = outcome_.weight = series.weight();  // a response to weigh
 
   Trial trial;
   try {
@@ -202,7 +202,7 @@ Start Run::here() const {
   next.tangent = tangent_;
   next.steps = outcome_.steps;
   next.pathLength = outcome_.pathLength;
-  next.weight = last_->weight();
+  next.weight = weight_;
   next.length = lastLength_;
   next.events = applied_;
   next.due = due_;

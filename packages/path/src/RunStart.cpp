@@ -137,7 +137,7 @@ Run::EndTangent Run::closeEnd() {
     tangent.modes = modesHere(*tangent_, last_->weight());
     calls_.solve(*F, *Uhat);
     const Increment hat{Uhat, std::vector<double>(tangent_->x.internal.size(), 0.0)};
-    const double w = *weight_, along = w * calls_.problem().inner(hat, tangent_->x) + tangent_->lambda;
+    const double w = last_->weight(), along = w * calls_.problem().inner(hat, tangent_->x) + tangent_->lambda;
     tangent.lambda1 = std::copysign(1 / std::sqrt(1 + w * calls_.problem().inner(hat, hat)), along);
     polishEnd(Uhat);
   } catch (const PathError&) {

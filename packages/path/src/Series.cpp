@@ -120,12 +120,26 @@ Rational Series::functional(const Vector& weights) const {
   return scalar(c);
 }
 
+bool Series::standsStill() const {
+  return std::all_of(norm_.begin() + 1, norm_.end(), [](double norm) { return norm == 0; });
+}
+
+bool Series::eventsMove() const {
+  return std::any_of(events_.begin(), events_.end(), [](const std::vector<double>& g) {
+    return std::any_of(g.begin() + 1, g.end(), [](double c) { return c != 0; });
+  });
+}
+
 double Series::convergence(int k) const {
   const auto both = [&](int j) { return std::hypot(std::sqrt(weight_) * norm_[j], lambda_[j]); };
   const auto ratio = [&](double first, double last) {
     return last > 0 ? std::pow(first / last, 1.0 / (k - 1)) : std::numeric_limits<double>::infinity();
   };
-  return std::min(ratio(norm_[1], norm_[k]), ratio(both(1), both(k)));
+  double smallest = std::min(ratio(norm_[1], norm_[k]), ratio(both(1), both(k)));
+  if (standsStill())
+    for (const auto& g : events_)
+      smallest = std::min(smallest, ratio(std::max(std::abs(g[0]), std::abs(g[1])), std::abs(g[k])));
+  return smallest;
 }
 
 double Series::radius(double delta) const {

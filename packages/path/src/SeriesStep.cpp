@@ -19,6 +19,12 @@ constexpr double nearlySingular = 1e-8;
   throw PathError(EndReason::notFinite, text.str());
 }
 
+[[noreturn]] void withoutEffect(const State& start) {
+  std::ostringstream text;
+  text << "the load parameter does not move the unknowns (K_T^-1 F = 0 at lambda = " << start.lambda << ")";
+  throw PathError(EndReason::loadWithoutEffect, text.str());
+}
+
 /// x + mu y.
 Increment combine(Increment x, double mu, const Increment& y) {
   x.u->update(mu, *y.u, 1);
@@ -43,14 +49,12 @@ Series buildSeries(Calls& calls, const State& start, const SeriesRequest& reques
   auto Fk = calls.newVector();
   calls.orderRhs(1, *Fk);  // zero at a solution; called for what it leaves behind for the later orders
   const Increment Xhat = calls.internalOrder(1, Uhat, 1);
-  const double w = calls.weight(Xhat, request.weight);
-  const double hat2 = problem.inner(Xhat, Xhat);
+  // Nothing moves yet: lambda alone goes on, up to an event that its motion brings.
+  const bool still = problem.inner(Xhat, Xhat) == 0;
+  if (still && problem.eventCount() == 0) withoutEffect(start);
+  const double w = still ? request.weight.value_or(1) : calls.weight(Xhat, request.weight);
+  const double hat2 = problem.inner(Xhat, Xhat);  // which the weight may change
   if (!std::isfinite(hat2)) notFinite("the tangent direction", 1, start);
-  if (!(hat2 > 0)) {
-    std::ostringstream text;
-    text << "the load parameter does not move the unknowns (K_T^-1 F = 0 at lambda = " << start.lambda << ")";
-    throw PathError(EndReason::loadWithoutEffect, text.str());
-  }
 
   double lambda1 = request.direction / std::sqrt(1 + w * hat2);
   if (std::abs(lambda1) < nearlySingular) {
@@ -91,6 +95,7 @@ Series buildSeries(Calls& calls, const State& start, const SeriesRequest& reques
     series.appendEvents(calls.eventOrder(k));
     if (k < request.order && request.enough && request.enough(series)) break;
   }
+  if (still && !std::isfinite(series.radius(1)) && !series.eventsMove()) withoutEffect(start);
   series.setMemory(calls.memoryOrders());
   return series;
 }

@@ -63,8 +63,14 @@ class Series {
   /// Validity, eq. (36): (delta ||X_1|| / ||X_K||)^(1/(K-1)), once with the norm of X alone as printed and
   /// once with w ||X||^2 + lambda^2 (where U is the better parameter, lambda is what the truncation spoils);
   /// the smaller. Where X_K is nearly zero by symmetry, order K-1 stands in for it. Infinity where both
-  /// vanish (the series terminates) and for K = 1 (nothing to estimate from).
+  /// vanish (the series terminates) and for K = 1 (nothing to estimate from). Where the unknowns stand still,
+  /// that of the event functions.
   double radius(double delta) const;
+
+  /// Whether no unknown moves, only lambda.
+  bool standsStill() const;
+  /// Whether an event function changes on the path.
+  bool eventsMove() const;
 
   /// Coefficients of the Problem's internal variables, [k][variable], for all orders present.
   void setMemory(std::vector<std::vector<double>> orders) { variables_ = std::move(orders); }
@@ -91,7 +97,8 @@ class Series {
   double convergenceRadius() const { return radius(1); }
 
  private:
-  /// (||X_1|| / ||X_k||)^(1/(k-1)), the smaller over both norms.
+  /// (||X_1|| / ||X_k||)^(1/(k-1)), the smaller over both norms; of the event functions, max(|g_0|, |g_1|)
+  /// over |g_k|, where the unknowns stand still.
   double convergence(int k) const;
   /// Factors of X_0 .. X_K in X(a).
   std::vector<double> weights(double a) const;
