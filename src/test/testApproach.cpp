@@ -92,6 +92,14 @@ TEST_F(Approach, NothingTouches) {
   const CommandResult away = run("away", deck(10.5, 3, -1));
   ASSERT_EQ(away.exitCode, 0) << away.err;
   EXPECT_EQ(last("away"), (std::vector<double>{3, 0, 0}));
+  // ... and without a stop on its way it ends, with a reason.
+  std::string backwards = deck(10.5, 3, -1);
+  backwards.insert(backwards.find("path:\n") + 6, "  direction: -1\n");
+  backwards.replace(backwards.find("shift: [0, 0, 1]"), 16, "shift: [0, 0, -1]");
+  const CommandResult never = run("never", backwards);
+  EXPECT_EQ(never.exitCode, 3);
+  EXPECT_NE(never.err.find("moves nothing, and neither an event nor a stop lies ahead"), std::string::npos)
+      << never.err;
   const CommandResult beside = run("beside", deck(10.5, 3, 0));
   EXPECT_EQ(beside.exitCode, 3);
   EXPECT_NE(beside.err.find("the load parameter does not move the unknowns"), std::string::npos)

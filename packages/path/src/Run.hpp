@@ -130,6 +130,7 @@ class Run {
   double longestLength() const;
   double firstLength(double radius) const;
   Trial acceptedTrial(Series& series, StepReport& report);
+  bool goesNowhere(const Series& series, const Trial& trial) const;
   void keepClearOfLimitPoints(const Series& series, Trial& trial);
   PadeFit rationalForm(const Series& series, double polynomial);
   bool polynomialReaches(Series& series, double a);

@@ -100,7 +100,20 @@ Run::Trial Run::acceptedTrial(Series& series, StepReport& report) {
   auto rational = padeTrial(series, report);
   Trial trial = rational ? std::move(*rational) : polynomialTrial(series, report);
   keepClearOfLimitPoints(series, trial);
+  if (goesNowhere(series, trial))
+    throw PathError(EndReason::loadWithoutEffect,
+                    line("from lambda = ", outcome_.final.lambda,
+                         " on the load parameter moves nothing, and neither an event nor a stop lies ahead"));
   return trial;
+}
+
+/// Whether lambda alone goes on, by the longest step there is, with nothing ahead that could end that.
+bool Run::goesNowhere(const Series& series, const Trial& trial) const {
+  if (!series.standsStill() || trial.stop || !trial.events.empty()) return false;
+  const double rate = series.lambdaCoefficient(1);
+  return trial.a >= rounded(options_.maxStep) && !std::isfinite(stops_.pathLength) &&
+         std::none_of(stops_.loadFactors.begin(), stops_.loadFactors.end(),
+                      [&](double stop) { return (stop - outcome_.final.lambda) * rate > 0; });
 }
 
 /// The tangent is singular at a limit point of lambda: a step that would end on one by chance ends before it.
