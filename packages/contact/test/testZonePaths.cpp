@@ -80,6 +80,48 @@ TEST(ZonePaths, LeadToTheEquilibriumOfNewtonsMethod) {
   }
 }
 
+// A roll that comes from afar, onto the node that two edges share, next to it and onto the middle of an edge:
+// the zone is born on two edges at once, or on one and passes on to the other, and dies as it was born.
+TEST(ZonePaths, RollOnANode) {
+  const auto mesh = stripMesh(12);
+  const double size = kLength / 12;
+  std::vector<double> forces;
+  for (const double off : {0.0, 1e-7, 1e-4, 1e-2, 0.5}) {
+    SCOPED_TRACE(off);
+    fem::FeModel model = planeModel(mesh, {}, 1000, 0.2);
+    for (const char* const set : {"x_min", "x_max"})
+      for (const int n : fem::test::nodesOfSet(mesh, set))
+        for (int i = 0; i < 2; ++i) model.prescribe(n, i, 0, 0);
+    Motion motion;
+    motion.shift[1][1] = 1;
+    const auto roll =
+        rigidTool(Cylinder{{6 * size + off * size, -2.1, 0}, {0, 0, 1}, 2}, std::optional(motion));
+    const auto lines = addZones(model, mesh, {}, *roll, {2e3, 1});
+    model.comm = linear::rcp(new Teuchos::MpiComm<int>(MPI_COMM_SELF));
+    fem::FeProblem problem(std::move(model));
+    Walk walk, back;
+    const auto out = follow(problem, {problem.initialState(0), 0.0}, 0.5, walk, loose(1e-8));
+    ASSERT_EQ(out.reason, path::EndReason::stopReached) << out.text;
+    EXPECT_GE(out.events, 1);
+    EXPECT_LT(walk.worst, 1e-8);
+    const Numbers u = fem::FeProblem::values(*out.final.u);
+    const Numbers exact = fem::test::equilibrium(problem, 0.5, u, 1e-11).u;
+    EXPECT_LE(fem::test::largest(fem::test::sum(u, -1, exact)), 1e-5 * fem::test::largest(exact));
+    const Numbers pressures = observed(problem, 1, out.final, "contact_pressure");
+    double force = 0;
+    for (std::size_t i = 0; i < pressures.size(); ++i) force += lines.weights[i] * pressures[i];
+    forces.push_back(force);
+    const auto home = follow(problem, out.final, 0, back, loose(1e-8));
+    ASSERT_EQ(home.reason, path::EndReason::stopReached) << home.text;
+    EXPECT_GE(home.events, 1);
+    EXPECT_LE(fem::test::largest(fem::FeProblem::values(*home.final.u)), 1e-8);
+  }
+  // Forces are even functions of the offset.
+  EXPECT_NEAR(forces[1], forces[0], 1e-6 * forces[0]);
+  EXPECT_NEAR(forces[2], forces[0], 1e-6 * forces[0]);
+  EXPECT_NEAR(forces[3], forces[0], 1e-3 * forces[0]);
+}
+
 // The contact patch test, from a gap and from where all ends of edges touch at the start: they close
 // together.
 TEST(ZonePaths, FlatContactIsUniform) {

@@ -115,6 +115,12 @@ std::vector<int> EventTerms::at(const ConstDofView& u, double lambda) const {
   return found;
 }
 
+double EventTerms::touching(const ConstDofView& u) const {
+  double largest = 0;
+  for (const Entry& entry : entries_) largest = std::max(largest, entry.term->touching(u));
+  return ranks_.max(largest);
+}
+
 void EventTerms::apply(const std::vector<int>& indices) {
   auto changed = conditions_;
   for (const int i : indices)

@@ -29,6 +29,8 @@ class EventTerms {
   std::vector<int> at(const ConstDofView& u, double lambda) const;
   /// path::Pieces::eventsAstray.
   bool astray(const ConstDofView& u, double lambda, const std::vector<int>& indices) const;
+  /// The largest gap that is the rounding of coordinates. Collective.
+  double touching(const ConstDofView& u) const;
   void apply(const std::vector<int>& indices);  ///< the same ones on every rank
   const std::vector<int>& conditions() const { return conditions_; }
   void setConditions(const std::vector<int>& conditions);  ///< the same ones on every rank

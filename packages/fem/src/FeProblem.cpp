@@ -331,6 +331,23 @@ struct FeProblem::Impl {
       if (std::isfinite(driving[b])) size[b] = std::max(size[b], driving[b]);
       scaleFloor[b] = std::max(1e-6 * size[b], 1e-300);
     }
+    if (*std::min_element(size.begin(), size.end()) > 0 || events->empty()) return;
+    // Tools that come from afar and may go again: without them there are no forces but those of rounding.
+    const Sizes rounding = forcesOfRounding();
+    for (std::size_t b = 0; b < size.size(); ++b)
+      if (size[b] == 0 && std::isfinite(rounding[b])) scaleFloor[b] = std::max(scaleFloor[b], rounding[b]);
+  }
+
+  /// Sizes of the forces of terms that do not see lambda where places are off by their rounding, from node to
+  /// node to and fro.
+  Sizes forcesOfRounding() {
+    constexpr double part = 1e-5;  // of gaps that count as none
+    const double off = part * events->touching(DofView("rest", rate.extent(0)));
+    std::vector<double> whole(model.dofs.numDofs());
+    for (std::size_t d = 0; d < whole.size(); ++d) whole[d] = d % 2 == 0 ? off : -off;
+    const std::vector<int>& nodes = ranks->nodes();
+    const DofView u = toDevice(ofNodes(whole, model.dofs, nodes, static_cast<int>(nodes.size())));
+    return forcesAt(u, 0);
   }
 
   /// Sizes of the forces of terms that do not see lambda, where supports alone are displaced, by their rate.
@@ -339,6 +356,9 @@ struct FeProblem::Impl {
     Kokkos::parallel_for(
         "supports", Kokkos::RangePolicy<Execution>(0, u.size()),
         KOKKOS_LAMBDA(int d) { u(d) = lambda * per(d); });
+    return forcesAt(u, lambda);
+  }
+  Sizes forcesAt(const ConstDofView& u, double lambda) {
     Sizes own(numBalances(), 0.0);
     ranks->together([&] {
       for (const auto& term : model.terms)

@@ -11,6 +11,7 @@ struct ZoneBatch {
   int lanes = 0;
   std::vector<double> limits;     ///< [2][lane] xi
   std::vector<Hold> hold;         ///< [2][lane] of the limits
+  std::vector<bool> grows;        ///< [lane] whether its width is what changes most where it is narrow
   std::vector<double> c;          ///< [coefficient][lane] of the places
   std::vector<double> reference;  ///< [coefficient][lane] of the undeformed lines
 };

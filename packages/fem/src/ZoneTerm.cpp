@@ -145,8 +145,7 @@ class ZoneTerm final : public EventTerm {
       zones.push_back(batch);
       seriesLines_.emplace_back(lines, lines + batch.lanes);
       for (int lane = 0; lane < L; ++lane) {
-        const bool free = batch.hold[lane] == Hold::root && batch.hold[L + lane] == Hold::root;
-        seriesWidths_.push_back(free ? batch.limits[L + lane] - batch.limits[lane] : 0);
+        seriesWidths_.push_back(batch.grows[lane] ? batch.limits[L + lane] - batch.limits[lane] : 0);
       }
     });
     forces_.reserve(static_cast<int>(zones.size()), maxOrder);
@@ -179,7 +178,8 @@ class ZoneTerm final : public EventTerm {
     }
   }
 
-  /// Of each line the width of zones between two roots, in units of what it was at the start of the series.
+  /// Of each line the width of zones between two roots, or from a bottom to a root, in units of what it was
+  /// at the start of the series.
   int internalCount() const override { return numEntities(); }
   void internalOrder(int, const ConstDofView& v, double mu, double* y) const override {
     std::fill_n(y, numEntities(), 0.0);
@@ -221,28 +221,34 @@ class ZoneTerm final : public EventTerm {
     return all;
   }
 
-  /// Of minima: a zone counts from a depth on, where it has a force.
+  /// Of minima and bottoms: a zone counts from a depth on, where it has a force.
   Gradient eventGradient(int number, const ConstDofView& u, double lambda,
                          const DofView& byU) const override {
     const auto own = std::lower_bound(numbers_.begin(), numbers_.end(), number) - numbers_.begin();
     const auto at =
         std::find(conditionOf_.begin(), conditionOf_.end(), static_cast<int>(own)) - conditionOf_.begin();
-    const int e = static_cast<int>(at) / kPlaces, slot = static_cast<int>(at) % kPlaces - 2;
-    if (own == static_cast<long>(numbers_.size()) || numbers_[own] != number || slot < 0) return {};
+    const int e = static_cast<int>(at) / kPlaces, p = static_cast<int>(at) % kPlaces;
+    if (own == static_cast<long>(numbers_.size()) || numbers_[own] != number || !tells(e, p)) return {};
     std::vector<double> c(laws_.coefficients() * L);
     gather(&e, 1, u, 1, c.data());
     const GapShape shape = gapShapes(laws_, c.data(), lambda)[0];
-    const Extremum* x = slotsOf(shape).of[slot];
-    if (x == nullptr || !x->least || std::abs(x->xi) > 1) return {};
-    const std::vector<double> xi(L, x->xi);
+    Extremum place{p == 0 ? -1.0 : 1.0, p < 2 ? shape.ends[p] : 0};
+    if (p < 2) {
+      if (!bottoms(e, p, shape)) return {};
+    } else {
+      const Extremum* x = slotsOf(shape).of[p - 2];
+      if (x == nullptr || !x->least || std::abs(x->xi) > 1) return {};
+      place = *x;
+    }
+    const std::vector<double> xi(L, place.xi);
     const LineProbe there = probe(laws_, 1, xi.data(), c.data(), lambda);
     const int N = lines_.nodesPerLine();
     for (int n = 0; n < N; ++n) {
       double value = 0, power = 1;
-      for (int k = 0; k < N; ++k, power *= x->xi) value += nodal(n, k) * power;
+      for (int k = 0; k < N; ++k, power *= place.xi) value += nodal(n, k) * power;
       for (int i = 0; i < 2; ++i) byU(dofs_[e * N + n] + i) += value * there.gradient[i * L];
     }
-    return {1, x->gap + least(e), there.gradient[3 * L]};
+    return {1, place.gap + least(e), there.gradient[3 * L]};
   }
 
   std::vector<double> covered() const override {
@@ -262,6 +268,7 @@ class ZoneTerm final : public EventTerm {
       for (int end = 0; end < 2; ++end) {
         const int own = conditionOf_[e * kPlaces + end];
         if (!tells(e, end) || active_[own] != 0 || !(std::abs(shape.ends[end]) <= small)) continue;
+        if (bottoms(e, end, shape)) continue;  // in contact from a depth on
         gaps.sum[own] = shape.ends[end];
         gaps.covered[own] = 1;
       }
@@ -298,6 +305,8 @@ class ZoneTerm final : public EventTerm {
           on = isIn(e, p, shape.ends[p]);
         } else if (const Extremum* x = slots.of[p - 2]) {
           const double depth = x->least ? -x->gap : x->gap;
+          if (const int end = endAt(e, *x, shape); end >= 0)
+            on = active_[conditionOf_[e * kPlaces + end]] != 0;
           if (depth >= 4 * least(e)) on = true;
           if (depth < -border(e)) on = false;
         } else {
@@ -343,6 +352,7 @@ class ZoneTerm final : public EventTerm {
     int line;
     double limits[2];
     Hold hold[2];
+    bool grows;
   };
   /// sign (h - level) >= 0; sign 0: nothing to tell.
   struct EventFunction {
@@ -375,11 +385,27 @@ class ZoneTerm final : public EventTerm {
     if (options_.events && std::abs(gap) <= border(e)) return active_[conditionOf_[e * kPlaces + end]] != 0;
     return gap < 0;
   }
+  /// The end (0, 1) of its line that a minimum cannot be told from, as far as a birth is concerned; -1: none.
+  int endAt(int e, const Extremum& x, const GapShape& shape) const {
+    for (int end = 0; end < 2; ++end)
+      if (x.least && std::abs(x.xi - (end == 0 ? -1 : 1)) < kBeyondEnds &&
+          std::abs(shape.ends[end] - x.gap) <= 2 * least(e))
+        return end;
+    return -1;
+  }
+  /// Whether an end is the deepest place of its gap: there, as at a minimum, a zone has no series at the gap
+  /// zero. Its condition is then that of the minimum too.
+  bool bottoms(int e, int end, const GapShape& shape) const {
+    return std::any_of(shape.extrema.begin(), shape.extrema.end(),
+                       [&](const Extremum& x) { return endAt(e, x, shape) == end; });
+  }
   /// Whether a minimum is in contact, or a maximum is out of it.
-  bool counts(int e, const Extremum& x, const Slots& slots) const {
+  bool counts(int e, const Extremum& x, const Slots& slots, const GapShape& shape) const {
     const double depth = x.least ? -x.gap : x.gap;
     if (depth >= 4 * least(e)) return true;
     if (depth < 0.5 * least(e)) return false;
+    const int end = endAt(e, x, shape);
+    if (options_.events && end >= 0) return active_[conditionOf_[e * kPlaces + end]] != 0;
     for (int s = 0; options_.events && s < kSlots; ++s)
       if (slots.of[s] == &x) return active_[conditionOf_[e * kPlaces + 2 + s]] != 0;
     return depth >= least(e);
@@ -395,7 +421,7 @@ class ZoneTerm final : public EventTerm {
     const Slots slots = slotsOf(shape);
     std::vector<Stop> stops{{-1, shape.ends[0], isIn(e, 0, shape.ends[0]), true}};
     for (const Extremum& x : shape.extrema)
-      if (std::abs(x.xi) < 1 && counts(e, x, slots)) stops.push_back({x.xi, x.gap, x.least, false});
+      if (std::abs(x.xi) < 1 && counts(e, x, slots, shape)) stops.push_back({x.xi, x.gap, x.least, false});
     stops.push_back({1, shape.ends[1], isIn(e, 1, shape.ends[1]), true});
     const auto limit = [&](const Stop& a, const Stop& b) -> std::optional<double> {
       if ((a.gap < 0) != (b.gap < 0)) return rootBetween(laws_, c, lambda, a.xi, b.xi);
@@ -403,24 +429,29 @@ class ZoneTerm final : public EventTerm {
       const Stop& end = !a.end ? b : !b.end ? a : std::abs(a.gap) < std::abs(b.gap) ? a : b;
       return rootNear(laws_, c, lambda, end.xi, 0.5);
     };
-    std::optional<Zone> open;
-    if (stops[0].in) open = Zone{e, {-1, 1}, {Hold::place, Hold::place}};
+    Zone zone{e, {-1, 1}, {Hold::place, Hold::place}, false};
+    bool open = stops[0].in;
+    const auto close = [&] {
+      const bool from = zone.hold[0] == Hold::root, to = zone.hold[1] == Hold::root;
+      zone.grows = (from || to) && (from || bottoms(e, 0, shape)) && (to || bottoms(e, 1, shape));
+      zones.push_back(zone);
+      open = false;
+    };
     for (std::size_t i = 0; i + 1 < stops.size(); ++i) {
       if (stops[i].in == stops[i + 1].in) continue;
       const auto at = limit(stops[i], stops[i + 1]);
       if (stops[i + 1].in) {
-        open.reset();
-        if (at) open = Zone{e, {*at, 1}, {Hold::root, Hold::place}};
-      } else if (open) {
-        if (at) {
-          open->limits[1] = *at;
-          open->hold[1] = Hold::root;
-          zones.push_back(*open);
-        }
-        open.reset();
+        open = at.has_value();
+        if (open) zone = {e, {*at, 1}, {Hold::root, Hold::place}, false};
+      } else if (open && at) {
+        zone.limits[1] = *at;
+        zone.hold[1] = Hold::root;
+        close();
+      } else {
+        open = false;
       }
     }
-    if (open) zones.push_back(*open);
+    if (open) close();
   }
 
   /// f(batch of zones, [lane] their lines), in the lines' order.
@@ -436,12 +467,14 @@ class ZoneTerm final : public EventTerm {
       batch.lanes = static_cast<int>(std::min<std::size_t>(L, zones.size() - first));
       batch.limits.resize(2 * L);
       batch.hold.resize(2 * L);
+      batch.grows.resize(L);
       batch.c.resize(C * L);
       batch.reference.resize(C * L);
       int lines[L];
       for (int lane = 0; lane < L; ++lane) {
         const Zone& zone = zones[first + (lane < batch.lanes ? lane : 0)];
         lines[lane] = zone.line;
+        batch.grows[lane] = zone.grows;
         for (int r = 0; r < 2; ++r) {
           batch.limits[r * L + lane] = zone.limits[r];
           batch.hold[r * L + lane] = zone.hold[r];
@@ -507,13 +540,14 @@ class ZoneTerm final : public EventTerm {
           xi[p * L + lane] = p == 0 ? -1 : 1;
           hold[p * L + lane] = Hold::place;
           if (p < 2) {
-            function = {isIn(e, p, shape.ends[p]) ? -1.0 : 1.0, 0};
+            function = {isIn(e, p, shape.ends[p]) ? -1.0 : 1.0, bottoms(e, p, shape) ? -least(e) : 0.0};
           } else if (const Extremum* x = slots.of[p - 2]) {
             xi[p * L + lane] = x->xi;
             hold[p * L + lane] = Hold::extremum;
             const double depth = least(e);
-            function =
-                x->least ? EventFunction{on ? -1.0 : 1.0, -depth} : EventFunction{on ? 1.0 : -1.0, depth};
+            function = endAt(e, *x, shape) >= 0 ? EventFunction{}
+                       : x->least               ? EventFunction{on ? -1.0 : 1.0, -depth}
+                                                : EventFunction{on ? 1.0 : -1.0, depth};
           }
           if (real) functions_[e * kPlaces + p] = function;
         }

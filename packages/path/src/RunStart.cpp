@@ -32,13 +32,16 @@ bool Run::directionAgrees(const Series& series, const PathTangent& previous) con
   if (order_ < 3) return true;  // a straight or parabolic step may turn by any angle
   if (!last_) return true;      // a direction given at the start says the sense only
   const auto& problem = calls_.problem();
-  const double w = series.weight();
-  const auto& x = series.coefficient(1);
-  const double length2 = w * problem.inner(previous.x, previous.x) + previous.lambda * previous.lambda;
-  const double along = w * problem.inner(x, previous.x) + series.lambdaCoefficient(1) * previous.lambda;
-  const double own2 =
-      w * series.norm(1) * series.norm(1) + series.lambdaCoefficient(1) * series.lambdaCoefficient(1);
-  return along > options_.minCosine * std::sqrt(length2 * own2);
+  // Of the unknowns alone: which internal variables take part may differ from series to series.
+  const std::vector<double> none(problem.internalCount(), 0.0);
+  const Increment before{previous.x.u, none}, now{series.coefficient(1).u, none};
+  const double lambda = series.lambdaCoefficient(1);
+  const auto dot = [&](const Increment& x, const Increment& y) {
+    return series.weight() * problem.inner(x, y);
+  };
+  const double length2 = dot(before, before) + previous.lambda * previous.lambda;
+  const double own2 = dot(now, now) + lambda * lambda;
+  return dot(now, before) + lambda * previous.lambda > options_.minCosine * std::sqrt(length2 * own2);
 }
 
 /// The pending step ends half as far along its series. False where it was shortened often enough.
