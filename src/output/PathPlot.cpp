@@ -198,6 +198,15 @@ class Script {
     bool minimum;
   };
 
+  /// The point that a path without steps has: gnuplot draws nothing, and fails, where there is nothing.
+  std::string startOnly(const Panel& panel) const {
+    for (const BranchCurve& b : curves_.branches)
+      if (b.numPoints() > 0)
+        return fmt::format("'+' every ::0::0 using ({:.10g}):({:.10g}) with points notitle",
+                           b.values[panel.x][0], b.values[panel.y[0]][0]);
+    return "1/0 notitle";
+  }
+
   void addPanel(std::size_t p) {
     const Panel& panel = panels_[p];
     Frame frame;
@@ -207,7 +216,7 @@ class Script {
     std::string plots;
     for (std::size_t b = 0; b < curves_.branches.size(); ++b)
       for (std::size_t y = 0; y < panel.y.size(); ++y) addCurve(p, b, y, frame, plots);
-    if (plots.empty()) plots = "1/0 notitle";
+    if (plots.empty()) plots = startOnly(panel);
     Labels labels(frame);
     for (const bool bifurcations : {true, false}) addMarks(p, bifurcations, frame, labels, plots);
     labels.write(p, data_, plots);

@@ -102,6 +102,7 @@ TEST_F(Approach, NothingTouches) {
       << never.err;
   const CommandResult beside = run("beside", deck(10.5, 3, 0));
   EXPECT_EQ(beside.exitCode, 3);
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "beside" / "path.png"));  // of one point
   EXPECT_NE(beside.err.find("the load parameter does not move the unknowns"), std::string::npos)
       << beside.err;
 }
