@@ -10,9 +10,9 @@ namespace atrapos::solid {
 
 namespace detail {
 
-/// Second divided differences of the powers z^(power - 1) .. of the eigenvalues of a matrix with determinant
-/// 1, as functions of its invariants (docs/theory/rubber.md, Ogden): power = whole + fraction, with the
-/// fraction's from a rule of Gauss and Jacobi.
+/// Second divided differences [z^power], [z^(power + 1)] on the eigenvalues of a matrix with determinant 1,
+/// as functions of its invariants (docs/theory/rubber.md, Ogden): power = whole + fraction, that of the
+/// fraction by a rule of Gauss and Jacobi.
 struct StretchPower {
   static constexpr int numPoles = 28;
   int whole = 0;
