@@ -116,14 +116,13 @@ struct RubberLaw {
   }
 };
 
-/// Laws whose energy is a function f of the first invariant of the isochoric part and the common volumetric
-/// one,
+/// Laws of an isochoric part and the common volumetric one, (bulk/4) (J^2 - 1 - 2 ln J).
 ///
-///     W = f(x) + (bulk/4) (J^2 - 1 - 2 ln J),   x = J^(-2/3) I_1 - 3,   J = det F > 0
-///
-/// Law: `template <class T> T slope(const T& x) const`, f'(x).
+/// Law: `stress(A, K, d, J2, m, modulus, pressure)`, S from A = C - I, K = cof C - I, d = J^2 - 1, J2 = J^2,
+/// m = J^(-2/3), U'(J)/J = modulus pressure; and `stressOfGradient(in, modulus, volumetric, out)`, P from H,
+/// where U'(J)/J is modulus times what volumetric(J, J^2 - 1, J^2) says; returns J - 1.
 template <class Law>
-struct FirstInvariantLaw : RubberLaw<Law> {
+struct SplitLaw : RubberLaw<Law> {
   double bulk = 0;  ///< bulk modulus, stress units
 
   /// S from the Green-Lagrange strain.
@@ -135,38 +134,54 @@ struct FirstInvariantLaw : RubberLaw<Law> {
     const T d = detail::determinantChange(A, K);
     const T J2 = 1.0 + d;
     const T m = pow(J2, -1.0 / 3);
-    const T i1 = trace(A);
     const T pressure = d / J2;
-    T s, t;
-    factors(i1, d, J2, m, 0.5 * bulk, pressure, s, t);
-    return plusIdentity(scaled(K, t), s);
+    return law().stress(A, K, d, J2, m, 0.5 * bulk, pressure);
   }
 
   template <class T>
   KOKKOS_INLINE_FUNCTION void operator()(const T* in, const taylor::Passive<T>*, T* out) const {
-    T j;
-    stress(in, 0.5 * bulk, detail::BulkPressure{}, out, j);
+    law().stressOfGradient(in, 0.5 * bulk, detail::BulkPressure{}, out);
   }
 
   /// What MixedLaw is made of.
   template <class T>
   KOKKOS_FORCEINLINE_FUNCTION void mixed(const T* in, double scale, T* out) const {
-    T j;
-    stress(in, scale, detail::GivenPressure<T>{in[9]}, out, j);
+    const T j = law().stressOfGradient(in, scale, detail::GivenPressure<T>{in[9]}, out);
     const T q = (scale / bulk) * in[9];
     out[9] = scale * (j - detail::volumeChangeAt(q));
   }
 
  private:
-  /// P of F and cof F, without C: fewer products than F S, and J itself, not J^2, must be positive. U'(J)/J
-  /// is modulus times what volumetric(J, J^2 - 1, J^2) says. j = J - 1.
+  KOKKOS_FORCEINLINE_FUNCTION const Law& law() const { return static_cast<const Law&>(*this); }
+};
+
+/// Laws whose energy is a function f of the first invariant of the isochoric part and the common volumetric
+/// one,
+///
+///     W = f(x) + (bulk/4) (J^2 - 1 - 2 ln J),   x = J^(-2/3) I_1 - 3,   J = det F > 0
+///
+/// Law: `template <class T> T slope(const T& x) const`, f'(x).
+template <class Law>
+struct FirstInvariantLaw : SplitLaw<Law> {
+  template <class T>
+  KOKKOS_FORCEINLINE_FUNCTION taylor::Symmetric3<T> stress(const taylor::Symmetric3<T>& A,
+                                                           const taylor::Symmetric3<T>& K, const T& d,
+                                                           const T& J2, const T& m, double modulus,
+                                                           const T& pressure) const {
+    const T i1 = trace(A);
+    T s, t;
+    factors(i1, d, J2, m, modulus, pressure, s, t);
+    return plusIdentity(scaled(K, t), s);
+  }
+
+  /// P of F and cof F, without C: fewer products than F S, and J itself, not J^2, must be positive.
   template <class T, class Volumetric>
-  KOKKOS_FORCEINLINE_FUNCTION void stress(const T* in, double modulus, const Volumetric& volumetric, T* out,
-                                          T& j) const {
+  KOKKOS_FORCEINLINE_FUNCTION T stressOfGradient(const T* in, double modulus, const Volumetric& volumetric,
+                                                 T* out) const {
     using std::pow;
     const taylor::Matrix3<T> H(in);
     const taylor::Matrix3<T> K = detail::cofactorChange(H);
-    j = detail::determinantChange(H, K);
+    const T j = detail::determinantChange(H, K);
     const T J = 1.0 + j;
     const T d = j + j * J;
     const T J2 = 1.0 + d;
@@ -182,8 +197,10 @@ struct FirstInvariantLaw : RubberLaw<Law> {
     const T ofI = s + tj;
     const taylor::Matrix3<T> P = plusIdentity(scaled(H, ofH) + scaled(K, ofK), ofI);
     P.store(out);
+    return j;
   }
 
+ private:
   /// S = s I + t (cof C - I) from i1 = I_1 - 3, d = J^2 - 1, J2 = J^2, m = J^(-2/3), U'(J)/J = modulus
   /// pressure.
   template <class T>
@@ -206,38 +223,8 @@ struct FirstInvariantLaw : RubberLaw<Law> {
 /// Law: `template <class T> void factors(const detail::Dilated<T>& x, const T& pressure, T& ofI, T& ofK, T&
 /// ofA) const`, of S = ofI I + ofK (cof C - I) + ofA (C - I), where `pressure` is U'(J)/J.
 template <class Law>
-struct SecondInvariantLaw : RubberLaw<Law> {
-  double bulk = 0;  ///< bulk modulus, stress units
-
-  /// S from the Green-Lagrange strain.
-  template <class T>
-  KOKKOS_FORCEINLINE_FUNCTION taylor::Symmetric3<T> secondPiola(const taylor::Symmetric3<T>& E) const {
-    using std::pow;
-    const taylor::Symmetric3<T> A = 2.0 * E;
-    const taylor::Symmetric3<T> K = detail::cofactorChange(A);
-    const T d = detail::determinantChange(A, K);
-    const T J2 = 1.0 + d;
-    const T m = pow(J2, -1.0 / 3);
-    const T pressure = d / J2;
-    return stress(A, K, d, J2, m, 0.5 * bulk, pressure);
-  }
-
-  template <class T>
-  KOKKOS_INLINE_FUNCTION void operator()(const T* in, const taylor::Passive<T>*, T* out) const {
-    stressOfGradient(in, 0.5 * bulk, detail::BulkPressure{}, out);
-  }
-
-  /// What MixedLaw is made of.
-  template <class T>
-  KOKKOS_FORCEINLINE_FUNCTION void mixed(const T* in, double scale, T* out) const {
-    const T j = stressOfGradient(in, scale, detail::GivenPressure<T>{in[9]}, out);
-    const T q = (scale / bulk) * in[9];
-    out[9] = scale * (j - detail::volumeChangeAt(q));
-  }
-
- private:
-  /// P = F S: the second invariant needs C anyway. J comes from F, for its sign. U'(J)/J as in
-  /// FirstInvariantLaw. Returns J - 1.
+struct SecondInvariantLaw : SplitLaw<Law> {
+  /// P = F S: the second invariant needs C anyway. J comes from F, for its sign.
   template <class T, class Volumetric>
   KOKKOS_FORCEINLINE_FUNCTION T stressOfGradient(const T* in, double modulus, const Volumetric& volumetric,
                                                  T* out) const {
