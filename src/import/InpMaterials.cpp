@@ -77,9 +77,7 @@ std::string hyperelastic(InpModel& model, const InpCard& card) {
   if (!yeoh)
     card.place.fail(
         "*HYPERELASTIC: no law here is equal; expected NEO HOOKE, MOONEY-RIVLIN, OGDEN, YEOH, POLYNOMIAL of "
-        "N=1 "
-        "or "
-        "REDUCED POLYNOMIAL of N=1 or 3");
+        "N=1 or REDUCED POLYNOMIAL of N=1 or 3");
   const auto c = constants(model, card, 6);
   if (c[4] != 0 || c[5] != 0) model.remark(card.place, "*HYPERELASTIC: D2 and D3 are left out");
   return fmt::format("law: yeoh, c1: {}, c2: {}, c3: {}, bulk_modulus: {}", c[0], c[1], c[2],

@@ -95,7 +95,7 @@ Series buildSeries(Calls& calls, const State& start, const SeriesRequest& reques
     series.appendEvents(calls.eventOrder(k));
     if (k < request.order && request.enough && request.enough(series)) break;
   }
-  if (still && !std::isfinite(series.radius(1)) && !series.eventsMove()) withoutEffect(start);
+  if (still && !series.eventsMove()) withoutEffect(start);
   series.setMemory(calls.memoryOrders());
   return series;
 }

@@ -258,6 +258,12 @@ TEST(GentLimit, IsADomainError) {
   EXPECT_NEAR(stress(law, {0, 1, 0, 0, 0, 0, 0, 0, 0})[1], 2, rounding);
 }
 
+Numbers principalStresses(const Ogden& law, const Stretches& s) {
+  return {static_cast<double>(principalStress(law, s)),
+          static_cast<double>(principalStress(law, Stretches{s.y, s.z, s.x})),
+          static_cast<double>(principalStress(law, Stretches{s.z, s.x, s.y}))};
+}
+
 // Ogden's constants of Treloar's rubber (1972), fractional, large and negative powers; stretches far apart,
 // nearly equal, equal.
 TEST(OgdenLaw, AnyPowersOfAnyStretches) {
@@ -268,9 +274,7 @@ TEST(OgdenLaw, AnyPowersOfAnyStretches) {
         Stretches{2, 2 + 1e-7L, 0.25L}, Stretches{1 + 1e-9L, 1 - 1e-9L, 1}, Stretches{4, 0.5L, 0.5L}}) {
     const Numbers H = diagonal(s.x, s.y, s.z), P = stress(law, H);
     const Stretches t{1 + Real(H[0]), 1 + Real(H[4]), 1 + Real(H[8])};
-    const double expected[3] = {static_cast<double>(principalStress(law, t)),
-                                static_cast<double>(principalStress(law, Stretches{t.y, t.z, t.x})),
-                                static_cast<double>(principalStress(law, Stretches{t.z, t.x, t.y}))};
+    const Numbers expected = principalStresses(law, t);
     // 1e3 times the rounding of the volume, beside the stresses' own
     for (int i = 0; i < 3; ++i)
       EXPECT_NEAR(P[4 * i], expected[i], 4e-13 + 1e-14 * std::abs(expected[i])) << static_cast<double>(s.x);
@@ -284,9 +288,7 @@ TEST(OgdenLaw, LargePowers) {
     const Stretches s{2, 0.6L, 0.9L};
     const Numbers H = diagonal(s.x, s.y, s.z), P = stress(law, H);
     const Stretches t{1 + Real(H[0]), 1 + Real(H[4]), 1 + Real(H[8])};
-    const double expected[3] = {static_cast<double>(principalStress(law, t)),
-                                static_cast<double>(principalStress(law, Stretches{t.y, t.z, t.x})),
-                                static_cast<double>(principalStress(law, Stretches{t.z, t.x, t.y}))};
+    const Numbers expected = principalStresses(law, t);
     const double size = std::max({std::abs(expected[0]), std::abs(expected[1]), std::abs(expected[2])});
     for (int i = 0; i < 3; ++i) EXPECT_NEAR(P[4 * i], expected[i], 2e-13 * size) << alpha;
   }
