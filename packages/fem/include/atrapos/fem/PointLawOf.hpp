@@ -55,7 +55,7 @@ class PointLawOf final : public PointLaw {
     return {Law::numInputs,
             Law::numOutputs,
             Law::numData,
-            Law::symmetric,
+            law_.symmetric,
             detail::NumObserved<Law>::value,
             detail::NumVariables<Law>::value,
             detail::NumEvents<Law>::value};

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "atrapos/formula/Program.hpp"
+
+namespace atrapos::formula {
+
+/// What is wrong with a formula, in one line.
+class FormulaError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Makes programs: what was asked for before is given again, operations on numbers are worked out. Numbers of
+/// steps are counted over all formulas of a builder.
+class Builder {
+ public:
+  /// Throws FormulaError where the number is not finite: a constant part that divides by zero, or the like.
+  int number(double value);
+  int input(int index);
+  int datum(int index);
+  /// Throws FormulaError where the formulas become longer than Program::maxSteps.
+  int unary(Operation operation, int a);
+  int binary(Operation operation, int a, int b);
+
+  /// The inputs that a step depends on, ascending.
+  std::vector<int> inputsOf(int step) const;
+
+  /// Those of the steps that the results need. Throws FormulaError as above.
+  Program program(const std::vector<int>& results) const;
+
+ private:
+  static bool isBinary(Operation operation);
+  bool isNumber(int step) const { return steps_[step].operation == Operation::number; }
+  bool isNumber(int step, double value) const { return isNumber(step) && steps_[step].number == value; }
+  int add(const Step& step);
+
+  std::vector<Step> steps_;
+};
+
+}  // namespace atrapos::formula

@@ -1,0 +1,252 @@
+#include "atrapos/physics/Balance.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <stdexcept>
+#include <utility>
+
+#include "atrapos/fem/LawTerm.hpp"
+#include "atrapos/fem/ReducedLaw.hpp"
+#include "atrapos/fem/ReferenceCell.hpp"
+#include "atrapos/formula/Parse.hpp"
+#include "atrapos/physics/BalanceLaw.hpp"
+
+namespace atrapos::physics {
+namespace {
+
+using formula::Builder;
+using formula::Operation;
+using formula::Symbols;
+
+/// Where the inputs of the laws are.
+struct Layout {
+  Place place;
+  int fields;
+  int value(int f) const { return place == Place::body ? 4 * f + 3 : f; }
+  int gradient(int f, int i) const { return 4 * f + i; }
+  int loadFactor() const { return place == Place::body ? 4 * fields : fields; }
+  /// The field that an input belongs to; -1: the load factor.
+  int fieldOf(int input) const {
+    return input == loadFactor() ? -1 : place == Place::body ? input / 4 : input;
+  }
+};
+
+Symbols symbols(const std::vector<std::string>& fields, const Constants& constants, const Layout& layout,
+                Builder& builder) {
+  Symbols s;
+  for (int i = 0; i < 3; ++i) s.scalars[std::string(1, "xyz"[i])] = builder.datum(i);
+  for (const auto& [name, value] : constants) s.scalars[name] = builder.number(value);
+  if (layout.place == Place::reference) return s;
+  s.scalars["lambda"] = builder.input(layout.loadFactor());
+  for (int f = 0; f < layout.fields; ++f) {
+    s.scalars[fields[f]] = builder.input(layout.value(f));
+    if (layout.place == Place::body)
+      for (int i = 0; i < 3; ++i) s.gradients[fields[f]].push_back(builder.input(layout.gradient(f, i)));
+  }
+  return s;
+}
+
+Layout layoutOf(const std::vector<std::string>& fields, Place place) {
+  return {place, static_cast<int>(fields.size())};
+}
+
+/// The formulas of a law together: for each field the sums of what is said of it.
+struct Formulas {
+  Builder builder;
+  Layout layout;
+  Symbols known;
+  std::vector<int> results;
+
+  Formulas(const std::vector<std::string>& fields, const Constants& constants, Place place, int each)
+      : layout(layoutOf(fields, place)),
+        known(symbols(fields, constants, layout, builder)),
+        results(fields.size() * each, builder.number(0)) {
+    if (fields.empty() || static_cast<int>(fields.size()) > mostFields)
+      throw std::invalid_argument("between 1 and " + std::to_string(mostFields) +
+                                  " scalar fields can meet, here are " + std::to_string(fields.size()));
+  }
+  void add(int result, const std::string& text) {
+    results[result] = builder.binary(Operation::add, results[result], formula::parse(text, known, builder));
+  }
+  /// Whether a result depends on fields other than this one; -1: on any.
+  bool dependsOnOthers(int result, int field) const {
+    const std::vector<int> inputs = builder.inputsOf(results[result]);
+    return std::any_of(inputs.begin(), inputs.end(), [&](int input) {
+      const int of = layout.fieldOf(input);
+      return of >= 0 && (of != field || input != layout.value(of));
+    });
+  }
+};
+
+int positionOf(const std::string& field, const std::vector<std::string>& fields) {
+  const auto at = std::find(fields.begin(), fields.end(), field);
+  if (at == fields.end()) throw std::logic_error("physics: a balance of a field that is not there");
+  return static_cast<int>(at - fields.begin());
+}
+
+/// make(std::integral_constant<int, count>) for 1 <= count <= mostFields.
+template <class Make>
+std::unique_ptr<fem::PointLaw> withFields(int count, const Make& make) {
+  switch (count) {
+    case 1:
+      return make(std::integral_constant<int, 1>{});
+    case 2:
+      return make(std::integral_constant<int, 2>{});
+    case 3:
+      return make(std::integral_constant<int, 3>{});
+    default:
+      return make(std::integral_constant<int, 4>{});
+  }
+}
+
+/// A law in space at points of a plane.
+std::unique_ptr<fem::PointLaw> inPlane(std::unique_ptr<fem::PointLaw> law, int fields) {
+  fem::Reduction r;
+  for (int f = 0; f < fields; ++f) {
+    for (const int i : {3 * f, 3 * f + 1, -1, 3 * f + 2}) r.inputs.push_back(i);
+    for (const int o : {4 * f, 4 * f + 1, 4 * f + 3}) r.outputs.push_back(o);
+  }
+  r.inputs.push_back(3 * fields);
+  r.numInputs = 3 * fields + 1;
+  return fem::reducedLaw(std::move(law), std::move(r));
+}
+
+/// Quadratic cells in full: a source is a quadratic function at least.
+fem::Tabulation cellOf(fem::Topology topology) {
+  switch (topology) {
+    case fem::Topology::Quad8:
+    case fem::Topology::Quad9:
+    case fem::Topology::Hex20:
+    case fem::Topology::Hex27:
+      return fem::tabulate(topology, 5);
+    case fem::Topology::Tri6:
+    case fem::Topology::Tet10:
+    case fem::Topology::Wedge15:
+      return fem::tabulate(topology, 4);
+    default:
+      return fem::tabulate(topology, 2);
+  }
+}
+
+fem::PointSet gradientPoints(const fem::Mesh& mesh, const fem::Block& block, const fem::Tabulation& cell,
+                             const std::optional<solid::PlaneSection>& plane) {
+  if (!plane) return fem::volumePoints(mesh, block, cell);
+  const bool ring = plane->kind == solid::PlaneSection::Kind::axisymmetric;
+  // A scalar has no part of its gradient around the axis.
+  fem::PointSet points =
+      solid::planePoints(mesh, block, cell, {solid::PlaneSection::Kind::strain, ring ? 1 : plane->thickness});
+  if (!ring) return points;
+  for (int p = 0; p < points.numPoints(); ++p) {
+    const double radius = points.positions[3 * static_cast<std::size_t>(p)];
+    if (!(radius > 0))
+      throw std::runtime_error("block '" + block.name + "', element " +
+                               std::to_string(p / points.pointsPerEntity + 1) +
+                               " (of the block): the radius x is not positive; the axis is x = 0");
+    points.weights[p] *= 2 * std::acos(-1.0) * radius;
+  }
+  return points;
+}
+
+}  // namespace
+
+fem::Field scalarField(const std::string& name) { return {name, {""}, fem::Role::primal, name}; }
+
+bool isFreeName(const std::string& name) {
+  return formula::isName(name) && name != "lambda" && name != "x" && name != "y" && name != "z";
+}
+
+void checkFormula(const std::string& text, const std::vector<std::string>& fields, const Constants& constants,
+                  Place place) {
+  Builder builder;
+  builder.program(
+      {formula::parse(text, symbols(fields, constants, layoutOf(fields, place), builder), builder)});
+}
+
+bool dependsOnLoadFactor(const std::string& text, const std::vector<std::string>& fields,
+                         const Constants& constants, Place place) {
+  Builder builder;
+  const Layout layout = layoutOf(fields, place);
+  const auto inputs =
+      builder.inputsOf(formula::parse(text, symbols(fields, constants, layout, builder), builder));
+  return std::find(inputs.begin(), inputs.end(), layout.loadFactor()) != inputs.end();
+}
+
+double valueAt(const std::string& text, const Constants& constants, const double* position) {
+  Builder builder;
+  const Layout layout{Place::reference, 0};
+  const auto program =
+      builder.program({formula::parse(text, symbols({}, constants, layout, builder), builder)});
+  double value = 0;
+  formula::evaluate<double>(program, nullptr, position, &value);
+  return value;
+}
+
+std::unique_ptr<fem::Term> balanceTerm(const fem::Mesh& mesh, const fem::Block& block,
+                                       const std::vector<std::string>& fields,
+                                       const std::vector<Balance>& balances, const Constants& constants,
+                                       const std::optional<solid::PlaneSection>& plane) {
+  const int count = static_cast<int>(fields.size());
+  Formulas formulas(fields, constants, Place::body, 2);
+  for (const Balance& b : balances) {
+    const int f = positionOf(b.field, fields);
+    formulas.add(2 * f, b.conductivity);
+    formulas.add(2 * f + 1, b.source);
+  }
+  bool symmetric = true;
+  for (int f = 0; f < count; ++f)
+    symmetric = symmetric && !formulas.dependsOnOthers(2 * f, -1) && !formulas.dependsOnOthers(2 * f + 1, f);
+  const formula::Program program = formulas.builder.program(formulas.results);
+  auto law = withFields(count, [&](auto n) {
+    BalanceLaw<decltype(n)::value> balance;
+    balance.symmetric = symmetric;
+    balance.program = program;
+    return fem::pointLaw(balance);
+  });
+
+  const fem::Tabulation cell = cellOf(block.topology);
+  fem::PointSet points = gradientPoints(mesh, block, cell, plane);
+  points.components = 1;
+  points.field = fields[0];
+  for (int f = 0; f < count; ++f) {
+    if (f > 0) points.more.push_back(fem::gradientsOf(scalarField(fields[f]), points, cell));
+    points.more.push_back(fem::valuesOf(scalarField(fields[f]), points, cell));
+  }
+  return fem::lawTerm(plane ? inPlane(std::move(law), count) : std::move(law), points, points.positions);
+}
+
+std::vector<std::unique_ptr<fem::Term>> inflowTerms(const fem::Mesh& mesh, const fem::SideSet& set,
+                                                    const std::vector<std::string>& fields,
+                                                    const std::vector<Inflow>& inflows,
+                                                    const Constants& constants,
+                                                    const std::optional<solid::PlaneSection>& plane) {
+  const int count = static_cast<int>(fields.size());
+  Formulas formulas(fields, constants, Place::surface, 1);
+  for (const Inflow& inflow : inflows) formulas.add(positionOf(inflow.field, fields), inflow.amount);
+  bool symmetric = true;
+  for (int f = 0; f < count; ++f) symmetric = symmetric && !formulas.dependsOnOthers(f, f);
+  const formula::Program program = formulas.builder.program(formulas.results);
+
+  constexpr int degree = 5;  // three points along an edge of degree 2
+  std::vector<std::unique_ptr<fem::Term>> terms;
+  for (fem::PointSet& points :
+       plane ? solid::planeEdgePoints(mesh, set, *plane, degree) : fem::facePoints(mesh, set, degree)) {
+    points.components = 1;
+    points.field = fields[0];
+    for (int f = 1; f < count; ++f) {
+      fem::Interpolation of = points;
+      of.field = fields[f];
+      points.more.push_back(std::move(of));
+    }
+    auto law = withFields(count, [&](auto n) {
+      InflowLaw<decltype(n)::value> inflow;
+      inflow.symmetric = symmetric;
+      inflow.program = program;
+      return fem::pointLaw(inflow);
+    });
+    terms.push_back(fem::lawTerm(std::move(law), points, points.positions));
+  }
+  return terms;
+}
+
+}  // namespace atrapos::physics
