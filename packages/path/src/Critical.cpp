@@ -91,6 +91,7 @@ void Search::search() {
                    0.5 * L));
   }
   if (left_ > 0 && search_.signChanges > 0) lookAgain();
+  if (!calls_.problem().symmetric()) followSign();
 }
 
 /// What limit points, the eigenvalues followed and the response at the step's end show.

@@ -124,6 +124,12 @@ bool refineSimple(Calls& calls, const CriticalSearch& search, double guess, cons
   constexpr double sameDirection = 0.9;
   if (!(std::abs(along[0]) > sameDirection * std::sqrt(dot(path, path, w)))) return false;
   if (along[0] < 0) scale(tangents[0], -1);
+  if (!calls.problem().symmetric()) {
+    // Inverse iterations from a vector of one's own leave the other sense to rounding.
+    auto fixed = calls.newVector();
+    fillUnsymmetric(*fixed, 1);
+    if (linear::dot(*tangents[1].u, *fixed) < 0) scale(tangents[1], -1);
+  }
 
   point.a = std::clamp(position, 0.0, search.length);
   point.state = calls.settled(state);

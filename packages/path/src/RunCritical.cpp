@@ -190,7 +190,7 @@ void Run::explainStability(StepReport& report, const EndTangent& end) {
   search.samples = samples;
   search.limits = report.limitPoints;
   search.watchedModes = options_.watchedModes;
-  if (symmetric) search.counts = counts;
+  search.counts = counts;
   search.tell = [&](int located, int wanted) { observer_.onSearch(located, wanted); };
   CriticalFound found = findCriticalPoints(calls_, search);
   outcome_.criticalFactorizations += found.factorizations;

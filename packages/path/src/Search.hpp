@@ -54,8 +54,10 @@ class Search {
   void sample(double a, std::vector<ModeSample>& samples);
   bool cluster(double guess, const RCP<Vector>& direction);
 
-  // SearchCounts.cpp: by the number of negative eigenvalues.
+  // SearchCounts.cpp: by the number of negative eigenvalues, or by the determinant's sign.
   void followCounts();
+  void followSign();
+  bool oddLeft(const CountedPlace& first, const CountedPlace& second) const;
   int owed(std::size_t i) const;
   double placeBetween(const Place& p, const Place& q, bool halve) const;
   std::vector<Zero> zerosSeenFrom(const Place& place, double from, double to) const;

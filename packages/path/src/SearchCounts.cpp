@@ -6,7 +6,9 @@
 
 #include <Tpetra_Vector.hpp>
 
+#include "Augmented.hpp"
 #include "Search.hpp"
+#include "atrapos/linear/Determinant.hpp"
 #include "atrapos/linear/Dot.hpp"
 
 namespace atrapos::path {
@@ -64,6 +66,39 @@ void Search::followCounts() {
     places_.insert(places_.begin() + static_cast<long>(i) + 1, place);
     refineFrom(place, from, to);
     if (search_.tell) search_.tell(numberFound(), search_.certain);
+  }
+}
+
+/// Whether an odd number of eigenvalues changes sign between two places and belongs to no point found.
+bool Search::oddLeft(const CountedPlace& first, const CountedPlace& second) const {
+  bool odd = oddBetween(first, second);
+  for (const auto& p : found_.points)
+    if (p.a > first.a && p.a <= second.a && p.nullity % 2 != 0) odd = !odd;
+  return odd;
+}
+
+/// A tangent that is not symmetric has no inertia, but the sign of its determinant: halves the step where
+/// that changes, until the eigenvalue that vanishes there is the one nearest to zero.
+void Search::followSign() {
+  if (places_.size() < 2) return;
+  CountedPlace from = places_.front().count, to = places_.back().count;
+  if (!oddLeft(from, to)) return;
+  auto direction = calls_.newVector(), F = calls_.newVector();
+  fillUnsymmetric(*direction, 1);
+  constexpr int most = 16;        // slices of 1.5e-5 of the step
+  constexpr double narrow = 0.1;  // of the step; before, another eigenvalue is as likely found
+  for (int i = 0; i < most; ++i) {
+    const double middle = 0.5 * (from.a + to.a);
+    ++found_.factorizations;
+    calls_.factor(search_.series.state(middle), *F);
+    factoredAt_ = middle;
+    const auto sign = linear::determinantSign(calls_.solver());
+    if (!sign) return;
+    const CountedPlace here{middle, *sign < 0 ? 1 : 0, search_.series.tangent(middle).lambda > 0};
+    (oddLeft(from, here) ? to : from) = here;
+    if (to.a - from.a > narrow * search_.length) continue;
+    simple(0.5 * (from.a + to.a), direction, Held::near, 0);
+    if (!oddLeft(from, to)) return;
   }
 }
 
