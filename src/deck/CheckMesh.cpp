@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "atrapos/fem/Mesh.hpp"
 #include "atrapos/fem/PointSet.hpp"
@@ -75,12 +76,34 @@ class MeshCheck {
           fail(path, fmt::format("block '{}' already has the material '{}'", name, previous->second));
         }
         if (std::holds_alternative<VonMises>(material.law)) plastic(material.name, found);
+        if ((!material.expansion.empty() || material.dielectric) &&
+            fem::isShell(mesh_.blocks[static_cast<std::size_t>(found)].topology)) {
+          const std::string key = material.dielectric ? "dielectric" : "expansion";
+          fail("materials/" + material.name + "/" + key,
+               fmt::format("block '{}' has shells; {} is for solids and plane bodies", name, key));
+        }
+      }
+    }
+    std::set<int> used;
+    for (const auto& entry : materialOf) {
+      used.insert(entry.first);
+    }
+    for (const auto& entry : deck_.physics) {
+      const std::string path = "physics/" + entry.name + "/blocks";
+      for (const auto& name : entry.blocks) {
+        const int found = block(path, name);
+        used.insert(found);
+        if (fem::isShell(mesh_.blocks[static_cast<std::size_t>(found)].topology)) {
+          fail(path, fmt::format("block '{}' has shells; balances are for solids and plane cells", name));
+        }
       }
     }
     const auto blocks = labels(mesh_.blocks);
     for (std::size_t i = 0; i < blocks.size(); ++i) {
-      if (materialOf.count(static_cast<int>(i)) == 0) {
-        fail("materials", fmt::format("the mesh's block '{}' has no material", blocks[i]));
+      if (used.count(static_cast<int>(i)) == 0) {
+        fail(deck_.physics.empty() ? "materials" : "physics",
+             fmt::format("the mesh's block '{}' has no material{}", blocks[i],
+                         deck_.physics.empty() ? "" : " and no physics"));
       }
     }
   }
@@ -115,7 +138,7 @@ class MeshCheck {
 
   /// A plane mesh, and what is said of it.
   void plane() const {
-    if (mesh_.dimension == 2 && !deck_.plane) {
+    if (mesh_.dimension == 2 && !deck_.plane && !deck_.materials.empty()) {
       fail("plane",
            "missing; the mesh is a plane one, so the deck says what it stands for: kind: strain, stress or "
            "axisymmetric");
@@ -225,6 +248,8 @@ class MeshCheck {
       faces(path, surface->set, surface->at);
     } else if (const auto* edge = std::get_if<EdgeLoad>(&load.load)) {
       edges(path + "/set", edge->set);
+    } else if (const auto* inflow = std::get_if<InflowLoad>(&load.load)) {
+      sides(path + "/set", inflow->set);
     } else {
       inPlane(path, std::get<VolumeLoad>(load.load).force[2] != 0);
       for (const auto& name : std::get<VolumeLoad>(load.load).blocks) {
@@ -306,6 +331,8 @@ void checkAgainstMesh(const Deck& deck, const fem::Mesh& mesh) {
     if (const auto* displacement = std::get_if<DisplacementMonitor>(&monitor.quantity)) {
       check.nodes("output/monitors/" + monitor.name + "/set", displacement->set);
       check.inPlane("output/monitors/" + monitor.name, displacement->component == Component::Z);
+    } else if (const auto* field = std::get_if<FieldMonitor>(&monitor.quantity)) {
+      check.nodes("output/monitors/" + monitor.name + "/set", field->set);
     }
   }
 }

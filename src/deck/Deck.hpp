@@ -92,6 +92,12 @@ struct VonMises {
   double recall = 0;            ///< of the backstress, >= 0; 0: Prager
 };
 
+/// A field is an electric potential in the material, an ideal dielectric.
+struct ElectricField {
+  std::string field;
+  double permittivity = 0;  ///< > 0
+};
+
 struct Material {
   /// Displacements alone, or with pressures as further unknowns.
   enum class Formulation { Displacement, Mixed };
@@ -99,6 +105,30 @@ struct Material {
   std::variant<SaintVenantKirchhoff, NeoHookean, MooneyRivlin, Yeoh, Gent, Ogden, VonMises> law;
   std::vector<std::string> blocks;  ///< names or ids
   Formulation formulation = Formulation::Displacement;
+  std::string expansion;  ///< formula: lengths without stress are 1 + it times as large; empty = 0
+  std::optional<ElectricField> dielectric;
+};
+
+// -------------------------------------------------------------------------- fields and physics of their own
+
+/// A scalar field, where it begins.
+struct ScalarField {
+  std::string name;
+  std::string initial = "0";  ///< formula of x, y, z: at load factor 0, before any correction
+};
+
+/// -div(conductivity grad field) = source: formulas of the fields that meet there, lambda, x, y, z.
+struct ScalarBalance {
+  std::string field;
+  std::string conductivity = "0";
+  std::string source = "0";
+};
+
+/// What acts in some blocks; unknowns exist where something acts on them.
+struct Physics {
+  std::string name;
+  std::variant<ScalarBalance> law;
+  std::vector<std::string> blocks;  ///< names or ids
 };
 
 /// The body that a plane mesh (x, y) stands for.
@@ -159,6 +189,8 @@ struct Support {
   std::array<std::optional<Prescribed>, 3> components{};  ///< x, y, z; empty = free
   /// x, y, z of the displacement w of the directors of shells at these nodes; empty = free
   std::array<std::optional<Prescribed>, 3> director{};
+  std::string field;                ///< a scalar one, which is held in place of displacements; empty = none
+  std::optional<Prescribed> value;  ///< of it
 };
 
 /// Whether a condition holds this component (0, 1, 2) of the displacement, or of the director's displacement.
@@ -225,10 +257,17 @@ struct VolumeLoad {
   Vector3 force{};
 };
 
+/// What flows of a scalar field into a body through the sides of a set, per area.
+struct InflowLoad {
+  std::string set;
+  std::string field;
+  std::string amount;  ///< formula of the fields there, lambda, x, y, z
+};
+
 struct Load {
   std::string name;
   bool constant = false;  ///< not multiplied by the load factor
-  std::variant<NodalLoad, SurfaceLoad, VolumeLoad, EdgeLoad> load;
+  std::variant<NodalLoad, SurfaceLoad, VolumeLoad, EdgeLoad, InflowLoad> load;
 };
 
 // ------------------------------------------------------------------------------------ tools, contact
@@ -452,6 +491,7 @@ struct Solver {
 
 enum class OutputField {
   Displacement,
+  Field,        ///< all scalar fields
   Stress,       ///< Cauchy stress, element means
   NodalStress,  ///< the same taken from the cubature points to the nodes and averaged there
   Contact,
@@ -467,6 +507,14 @@ struct DisplacementMonitor {
   std::optional<Vector3> near;   ///< only the node of the set that is nearest to it before deformation
 };
 
+/// A scalar field over the nodes of a set.
+struct FieldMonitor {
+  std::string field;
+  std::string set;  ///< node set, else side set
+  DisplacementMonitor::Reduce reduce = DisplacementMonitor::Reduce::Mean;
+  std::optional<Vector3> near;  ///< only the node of the set that is nearest to it before deformation
+};
+
 /// Total contact force on the tool's side of a contact: the sum of the normal forces, or a component of the
 /// resultant that acts on the body. With `near` the normal force (of faces: the pressure times the cubature
 /// weight) of the one point that is nearest to a place in the reference configuration; with `along` besides,
@@ -478,15 +526,15 @@ struct ContactForceMonitor {
   std::optional<Vector3> along;  ///< direction, not zero, any length
 };
 
-/// Total force with which a support holds the body.
+/// Total force with which a support holds the body; of a scalar field what flows in there.
 struct ReactionMonitor {
   std::string support;
-  Component component = Component::X;
+  std::optional<Component> component;  ///< of a support of displacements alone
 };
 
 struct Monitor {
   std::string name;
-  std::variant<DisplacementMonitor, ContactForceMonitor, ReactionMonitor> quantity;
+  std::variant<DisplacementMonitor, ContactForceMonitor, ReactionMonitor, FieldMonitor> quantity;
 };
 
 struct Output {
@@ -517,7 +565,10 @@ struct Deck {
   std::string title;
   std::optional<ModelProblem> problem;  ///< then of what follows only path, solver, output/points_per_step
   MeshInput mesh;
-  std::vector<Material> materials;  ///< all entries in the deck's order
+  std::map<std::string, double> constants;  ///< of formulas, by name
+  std::vector<Material> materials;          ///< all entries in the deck's order
+  std::vector<Physics> physics;
+  std::vector<ScalarField> fields;  ///< those of which the deck says where they begin
   std::optional<Plane> plane;
   Shells shells;
   std::vector<Support> supports;
@@ -529,6 +580,9 @@ struct Deck {
   Solver solver;
   Output output;
 };
+
+/// The names of all scalar fields, in the order in which the deck's physics and materials name them.
+std::vector<std::string> scalarFields(const Deck& deck);
 
 /// Of all materials at rest; a pressure in the deck's units.
 double largestYoungsModulus(const Deck& deck);

@@ -96,7 +96,12 @@ Deck readDeckText(const std::string& text, const std::string& file) {
   }
   read(deckTable(), root, deck);
   if (deck.output.fields.empty()) {
-    deck.output.fields = {OutputField::Displacement, OutputField::Stress, OutputField::Reaction};
+    if (!deck.materials.empty()) {
+      deck.output.fields = {OutputField::Displacement, OutputField::Stress, OutputField::Reaction};
+    }
+    if (!scalarFields(deck).empty()) {
+      deck.output.fields.push_back(OutputField::Field);
+    }
     if (!deck.contacts.empty()) {
       deck.output.fields.push_back(OutputField::Contact);
     }

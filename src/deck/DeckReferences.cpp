@@ -7,6 +7,8 @@
 #include <map>
 #include <optional>
 
+#include "atrapos/formula/Builder.hpp"
+#include "atrapos/physics/Balance.hpp"
 #include "deck/DeckTables.hpp"
 
 namespace atrapos::deck {
@@ -33,6 +35,115 @@ const Entry& find(const Value& v, const std::string& name, const std::vector<Ent
                        names.empty() ? "are none" : "are " + joined(names)));
   }
   return *found;
+}
+
+void requireField(const Value& v, const std::string& field, const Deck& deck) {
+  const auto fields = scalarFields(deck);
+  if (std::find(fields.begin(), fields.end(), field) == fields.end()) {
+    v.fail(fmt::format("no physics has a field '{}'{}; there {}", field, suggestion(field, fields),
+                       fields.empty() ? "are none" : "are " + joined(fields)));
+  }
+}
+
+/// A formula that may refer to all fields of the deck; which of them are there is checked with the mesh.
+void checkFormula(const Value& v, const std::string& text, const Deck& deck, physics::Place place) {
+  try {
+    physics::checkFormula(text, scalarFields(deck), deck.constants, place);
+  } catch (const formula::FormulaError& e) {
+    v.fail(e.what());
+  }
+}
+
+/// What the name of a field must be, at the value that says it.
+void checkFieldName(const Value& v, const std::string& field, const Deck& deck) {
+  if (!physics::isFreeName(field) || field == "displacement") {
+    v.fail(fmt::format("'{}' cannot be the name of a field; {}", field, freeNames));
+  }
+  if (deck.constants.count(field) != 0) {
+    v.fail(fmt::format("'{}' is the name of a constant already", field));
+  }
+}
+
+/// What scalar fields do to a material.
+void checkInField(const Value& root, const Material& material, const Deck& deck) {
+  if (material.expansion.empty() && !material.dielectric) {
+    return;
+  }
+  const Value at = root.at("materials").entries().at(material.name);
+  const Value v = at.at(material.dielectric ? "dielectric" : "expansion");
+  if (!std::holds_alternative<SaintVenantKirchhoff>(material.law) &&
+      !std::holds_alternative<NeoHookean>(material.law) &&
+      !std::holds_alternative<MooneyRivlin>(material.law)) {
+    v.fail("is for the laws saint_venant_kirchhoff, neo_hookean and mooney_rivlin");
+  }
+  if (material.formulation == Material::Formulation::Mixed) {
+    v.fail("is not for formulation: mixed");
+  }
+  if (!material.expansion.empty()) {
+    checkFormula(at.at("expansion"), material.expansion, deck, physics::Place::surface);
+  }
+  if (!material.dielectric) {
+    return;
+  }
+  if (!material.expansion.empty()) {
+    v.fail("stands beside expansion; expected one of them");
+  }
+  if (deck.plane && deck.plane->kind == Plane::Kind::Axisymmetric) {
+    v.fail("is not for axisymmetric bodies");
+  }
+  const std::string& field = material.dielectric->field;
+  checkFieldName(v.at("field"), field, deck);
+  for (const auto& entry : deck.physics) {
+    if (std::get<ScalarBalance>(entry.law).field == field) {
+      v.at("field").fail(
+          fmt::format("physics/{} has a balance of '{}', whose rows are no charges", entry.name, field));
+    }
+  }
+}
+
+void checkPhysics(const Value& root, const Deck& deck) {
+  for (const auto& entry : deck.physics) {
+    const Value at = root.at("physics").entries().at(entry.name);
+    checkFieldName(at.at("field"), std::get<ScalarBalance>(entry.law).field, deck);
+  }
+  for (const auto& entry : deck.physics) {
+    const Value at = root.at("physics").entries().at(entry.name);
+    const auto& balance = std::get<ScalarBalance>(entry.law);
+    if (at.has("conductivity")) {
+      checkFormula(at.at("conductivity"), balance.conductivity, deck, physics::Place::body);
+    }
+    if (at.has("source")) {
+      checkFormula(at.at("source"), balance.source, deck, physics::Place::body);
+    }
+  }
+  for (const auto& material : deck.materials) {
+    checkInField(root, material, deck);
+  }
+  for (const auto& field : deck.fields) {
+    const Value at = root.at("fields").entries().at(field.name);
+    requireField(at, field.name, deck);
+    checkFormula(at.at("initial"), field.initial, deck, physics::Place::reference);
+  }
+  for (const auto& load : deck.loads) {
+    if (const auto* inflow = std::get_if<InflowLoad>(&load.load)) {
+      const Value at = root.at("loads").entries().at(load.name);
+      requireField(at.at("field"), inflow->field, deck);
+      checkFormula(at.at("amount"), inflow->amount, deck, physics::Place::surface);
+      if (load.constant) {
+        at.at("constant").fail("has no meaning with type: inflow, whose formula says lambda itself");
+      }
+    }
+  }
+  for (const auto& support : deck.supports) {
+    if (!support.field.empty()) {
+      requireField(root.at("supports").entries().at(support.name).at("field"), support.field, deck);
+    }
+  }
+  if (!scalarFields(deck).empty() && !deck.path.imperfections.empty()) {
+    root.at("path")
+        .at("imperfections")
+        .fail("their shapes are of displacements alone; not with scalar fields");
+  }
 }
 
 void checkMaterials(const Value& materials, const Deck& deck) {
@@ -126,27 +237,42 @@ void checkMonitor(const Value& v, const Monitor& monitor, const Deck& deck) {
   }
   if (const auto* force = std::get_if<ContactForceMonitor>(&monitor.quantity)) {
     find(v.at("contact"), force->contact, deck.contacts, "contact");
+  } else if (const auto* field = std::get_if<FieldMonitor>(&monitor.quantity)) {
+    requireField(v.at("field"), field->field, deck);
   } else if (const auto* reaction = std::get_if<ReactionMonitor>(&monitor.quantity)) {
     const auto& support = find(v.at("support"), reaction->support, deck.supports, "supports");
-    if (!support.components[static_cast<std::size_t>(reaction->component)]) {
+    if (!support.field.empty()) {
+      if (v.has("component")) {
+        v.at("component")
+            .fail(fmt::format("support '{}' holds a field, whose inflow has no components", support.name));
+      }
+      return;
+    }
+    if (!v.has("component")) {
+      v.failMissing("component", "one of x, y, z");
+    }
+    if (!support.components[static_cast<std::size_t>(*reaction->component)]) {
       v.at("component")
-          .fail(fmt::format("support '{}' does not hold {}", support.name, wordOf(reaction->component)));
+          .fail(fmt::format("support '{}' does not hold {}", support.name, wordOf(*reaction->component)));
     }
   }
 }
 
 void checkStop(const Value& stop, const Deck& deck) {
   for (const auto& [name, values] : deck.path.stop.monitors) {
-    const Value v = stop.at("displacement").at(name);
+    const bool older = stop.has("displacement") && stop.at("displacement").has(name);
+    const Value v = stop.at(older ? "displacement" : "monitor").at(name);
     const auto& monitor = find(v, name, deck.output.monitors, "output/monitors");
-    if (!std::holds_alternative<DisplacementMonitor>(monitor.quantity)) {
-      v.fail(fmt::format("the monitor '{}' is not of type displacement", name));
+    if (!std::holds_alternative<DisplacementMonitor>(monitor.quantity) &&
+        (older || !std::holds_alternative<FieldMonitor>(monitor.quantity))) {
+      v.fail(fmt::format("the monitor '{}' is not of type displacement{}", name, older ? "" : " or field"));
     }
   }
 }
 
 bool isZero(const Vector3& v) { return v[0] == 0 && v[1] == 0 && v[2] == 0; }
 
+/// Of what acts in proportion to the load factor.
 bool isZero(const Load& load) {
   if (const auto* nodal = std::get_if<NodalLoad>(&load.load)) {
     return isZero(nodal->force);
@@ -162,11 +288,34 @@ bool isZero(const Load& load) {
 
 void checkSomethingIsDriven(const Value& root, const Deck& deck) {
   for (const auto& load : deck.loads) {
-    if (!load.constant && !isZero(load)) {
+    if (const auto* inflow = std::get_if<InflowLoad>(&load.load)) {
+      if (physics::dependsOnLoadFactor(inflow->amount, scalarFields(deck), deck.constants,
+                                       physics::Place::surface)) {
+        return;
+      }
+    } else if (!load.constant && !isZero(load)) {
       return;
     }
   }
+  for (const auto& material : deck.materials) {
+    if (!material.expansion.empty() &&
+        physics::dependsOnLoadFactor(material.expansion, scalarFields(deck), deck.constants,
+                                     physics::Place::surface)) {
+      return;
+    }
+  }
+  for (const auto& entry : deck.physics) {
+    const auto& balance = std::get<ScalarBalance>(entry.law);
+    for (const auto& text : {balance.conductivity, balance.source}) {
+      if (physics::dependsOnLoadFactor(text, scalarFields(deck), deck.constants, physics::Place::body)) {
+        return;
+      }
+    }
+  }
   for (const auto& support : deck.supports) {
+    if (support.value && support.value->perLoadFactor != 0) {
+      return;
+    }
     for (const auto& components : {support.components, support.director}) {
       for (const auto& component : components) {
         if (component && component->perLoadFactor != 0) {
@@ -184,7 +333,7 @@ void checkSomethingIsDriven(const Value& root, const Deck& deck) {
   }
   root.fail(
       "nothing depends on the load factor; expected a load that is neither constant nor zero, a support with "
-      "per_load_factor, or a contact with a tool that moves");
+      "per_load_factor, a contact with a tool that moves, or a formula with lambda");
 }
 
 /// A stop at points that nothing looks for would never come.
@@ -250,8 +399,11 @@ void checkSolver(const Value& root, const Deck& deck) {
 }  // namespace
 
 void checkReferences(const Value& root, const Deck& deck) {
-  checkMaterials(root.at("materials"), deck);
-  checkFormulations(root, deck);
+  if (!deck.materials.empty()) {
+    checkMaterials(root.at("materials"), deck);
+    checkFormulations(root, deck);
+  }
+  checkPhysics(root, deck);
   checkSections(root, deck);
   if (root.has("contact")) {
     for (const Value& contact : root.at("contact").entries().children()) {
@@ -281,6 +433,14 @@ void checkReferences(const Value& root, const Deck& deck) {
   if (deck.contacts.empty() &&
       std::find(fields.begin(), fields.end(), OutputField::Contact) != fields.end()) {
     root.at("output").at("fields").fail("'contact' needs the block contact");
+  }
+  for (const auto field : fields) {
+    const bool scalar = field == OutputField::Field;
+    if (scalar ? scalarFields(deck).empty() : deck.materials.empty()) {
+      root.at("output").at("fields").fail(fmt::format("'{}' needs the block {}",
+                                                      wordOf(field, outputFields()),
+                                                      scalar ? "physics, or a dielectric" : "materials"));
+    }
   }
   checkSomethingIsDriven(root, deck);
 }

@@ -86,18 +86,35 @@ Field<Deck> solverField() {
 const Table<Deck>& deckTable() {
   static const Table<Deck> table = [] {
     auto title = text("title", optional, &Deck::title, "a text", "of the result file");
+    auto materials =
+        entries("materials", required, &Deck::materials, materialVariants(), "each with law, blocks, ...",
+                "what the blocks are made of; with physics of those that deform");
+    materials.unless = "physics";
     auto supports = entries("supports", required, &Deck::supports, supportTable(),
-                            "each with set and any of condition, x, y, z, director_x, director_y, director_z",
-                            "prescribed displacements");
+                            "each with set and any of condition, x, y, z, director_x, director_y, "
+                            "director_z, or field and value",
+                            "prescribed displacements, or values of a field");
+    supports.unless = "physics";
     supports.read = [inner = supports.read](const Value& v, Deck& deck) {
       inner(v, deck);
       for (const auto& s : deck.supports) {
         const auto given = [](const auto& component) { return component.has_value(); };
-        if (std::none_of(s.components.begin(), s.components.end(), given) &&
-            std::none_of(s.director.begin(), s.director.end(), given)) {
-          v.at(s.name).fail(
+        const bool moves = std::any_of(s.components.begin(), s.components.end(), given) ||
+                           std::any_of(s.director.begin(), s.director.end(), given);
+        const Value support = v.entries().at(s.name);
+        if (!s.field.empty() && moves) {
+          support.at("field").fail("stands beside displacements; expected a support of its own");
+        }
+        if (!s.field.empty() && !s.value) {
+          support.failMissing("value", "what the field is held at");
+        }
+        if (s.field.empty() && s.value) {
+          support.failMissing("field", "the name of the field with this value");
+        }
+        if (s.field.empty() && !moves) {
+          support.fail(
               "holds nothing; expected at least one of x, y, z, condition, director_x, director_y, "
-              "director_z");
+              "director_z, or field and value");
         }
       }
     };
@@ -126,8 +143,12 @@ const Table<Deck>& deckTable() {
     return Table<Deck>{
         title,
         block("mesh", required, &Deck::mesh, meshTable(), "the body's mesh"),
-        entries("materials", required, &Deck::materials, materialVariants(), "each with law, blocks, ...",
-                "what the blocks are made of"),
+        constantsField(),
+        materials,
+        entries("physics", optional, &Deck::physics, physicsVariants(), "each with type, blocks, ...",
+                "balances of scalar fields: heat, current, reaction and diffusion"),
+        entries("fields", optional, &Deck::fields, scalarFieldTable(), "each with initial",
+                "where the fields of physics begin; 0 without an entry"),
         planeField(),
         shells,
         supports,

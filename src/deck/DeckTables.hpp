@@ -19,6 +19,18 @@ const Table<Shells>& shellsTable();
 Field<Deck> planeField();
 const Table<ShellSection>& shellSectionTable();
 const Table<ShellJoint>& shellJointTable();
+/// What names of fields and constants are like; follows "cannot be the name of a ...".
+constexpr const char* freeNames =
+    "expected letters, digits and _, no digit in front, and none of lambda, x, y, z, pi and the functions";
+/// The block `constants`, which a deck may not have.
+Field<Deck> constantsField();
+const Table<ScalarField>& scalarFieldTable();
+const Variants<Physics, decltype(Physics::law)>& physicsVariants();
+/// The keys `expansion` and `dielectric` of materials.
+Field<Material> expansionField();
+Field<Material> dielectricField();
+/// The load of type inflow.
+Alternative<decltype(Load::load)> inflowAlternative();
 const Table<Support>& supportTable();
 const Table<Coupling>& couplingTable();
 const Variants<Load, decltype(Load::load)>& loadVariants();

@@ -31,6 +31,7 @@ struct Field {
   std::string meaning;
   std::function<void(const Value&, S&)> read;
   std::function<Node(const S&)> print;
+  std::string unless = {};  ///< another key of the block, with which this one need not be there
 };
 
 /// All keys of a block, in the order in which they are read, checked and printed.
@@ -62,7 +63,7 @@ void readFields(const Table<S>& table, const Value& map, S& s) {
   for (const auto& field : table) {
     if (map.has(field.key)) {
       field.read(map.at(field.key), s);
-    } else if (field.required) {
+    } else if (field.required && (field.unless.empty() || !map.has(field.unless))) {
       map.failMissing(field.key, field.accepts);
     }
   }

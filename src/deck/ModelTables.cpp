@@ -276,7 +276,8 @@ const Variants<Material, decltype(Material::law)>& materialVariants() {
       {names("blocks", required, &Material::blocks, "blocks of the mesh that are made of it"),
        choice("formulation", optional, &Material::formulation, formulations(),
               "mixed: pressures are unknowns too, for nearly incompressible rubber in solids and plane "
-              "bodies")}};
+              "bodies"),
+       expansionField(), dielectricField()}};
   return variants;
 }
 
@@ -347,7 +348,8 @@ const Variants<Load, decltype(Load::load)>& loadVariants() {
             followerMoment},
            [](const Value& map, const EdgeLoad&) {
              requireExactlyOne(map, {"total", "force", "moment", "follower_force", "follower_moment"});
-           })},
+           }),
+       inflowAlternative()},
       {flag("constant", &Load::constant, "true: not multiplied by the load factor")}};
   return variants;
 }

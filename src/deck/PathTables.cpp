@@ -47,6 +47,18 @@ Field<ContactForceMonitor> nearestContactPoint() {
   return field;
 }
 
+Field<ReactionMonitor> reactionComponent() {
+  const std::string accepts = "one of " + joined(wordsOf(axes()));
+  return {"component",
+          false,
+          accepts,
+          "which force; a support of a field has an inflow and no components",
+          [](const Value& v, ReactionMonitor& s) { s.component = choose(v, v.text(), axes()); },
+          [](const ReactionMonitor& s) {
+            return s.component ? Node{wordOf(*s.component, axes()), {}} : Node{};
+          }};
+}
+
 Field<ContactForceMonitor> lineOfPoints() {
   return {"along",
           false,
@@ -196,15 +208,17 @@ Field<Path> ofSeries(Field<Path> field) {
   return field;
 }
 
-Table<Stop> stopKeys(Field<Stop> monitors) {
-  return {stopLoadFactor(),
-          integer("steps", optional, &Stop::steps, check::count, "largest number of steps of a branch"),
-          real("path_length", &Stop::pathLength, check::positive, "ends at this length of the path"),
-          integer("limit_point", &Stop::limitPoint, check::count,
-                  "ends with the step on which the load factor turns for this many-th time"),
-          integer("bifurcation", &Stop::bifurcation, check::count,
-                  "ends with the step that passes this many-th bifurcation point"),
-          std::move(monitors)};
+Table<Stop> stopKeys(const Table<Stop>& monitors) {
+  Table<Stop> keys{
+      stopLoadFactor(),
+      integer("steps", optional, &Stop::steps, check::count, "largest number of steps of a branch"),
+      real("path_length", &Stop::pathLength, check::positive, "ends at this length of the path"),
+      integer("limit_point", &Stop::limitPoint, check::count,
+              "ends with the step on which the load factor turns for this many-th time"),
+      integer("bifurcation", &Stop::bifurcation, check::count,
+              "ends with the step that passes this many-th bifurcation point")};
+  keys.insert(keys.end(), monitors.begin(), monitors.end());
+  return keys;
 }
 
 Table<Path> pathKeys(const Table<Stop>& stops, Need needStop, bool ofModel) {
@@ -269,6 +283,7 @@ const Choices<path::PadeUse>& padeUses() {
 
 const Choices<OutputField>& outputFields() {
   static const Choices<OutputField> choices{{"displacement", OutputField::Displacement},
+                                            {"field", OutputField::Field},
                                             {"stress", OutputField::Stress},
                                             {"nodal_stress", OutputField::NodalStress},
                                             {"contact", OutputField::Contact},
@@ -278,8 +293,14 @@ const Choices<OutputField>& outputFields() {
 std::string wordOf(Component component) { return wordOf(component, allComponents()); }
 
 const Table<Stop>& stopTable() {
-  static const Table<Stop> table = stopKeys(
-      stopMonitors("displacement", "a map of displacement monitors' names to values, or to lists of values"));
+  static const Table<Stop> table = [] {
+    auto displacement = stopMonitors(
+        "displacement", "a map of displacement monitors' names to values, or to lists of values");
+    displacement.print = [](const Stop&) { return Node{}; };  // with all others
+    return stopKeys({displacement, stopMonitors("monitor",
+                                                "a map of names of monitors of type displacement or field to "
+                                                "values, or to lists of values")});
+  }();
   return table;
 }
 
@@ -290,7 +311,7 @@ const Table<Path>& pathTable() {
 
 const Table<Path>& modelPathTable() {
   static const Table<Stop> stop =
-      stopKeys(stopMonitors("monitor", "a map of the problem's monitors to values, or to lists of values"));
+      stopKeys({stopMonitors("monitor", "a map of the problem's monitors to values, or to lists of values")});
   static const Table<Path> table = pathKeys(stop, optional, true);
   return table;
 }
@@ -356,10 +377,15 @@ const Variants<Monitor, decltype(Monitor::quantity)>& monitorVariants() {
             choice("component", optional, &ContactForceMonitor::component, allComponents(),
                    "normal: sum of the normal forces; x, y, z: of their resultant on the body"),
             nearestContactPoint(), lineOfPoints()}),
-       alternative<V, ReactionMonitor>(
-           "reaction", {name("support", required, &ReactionMonitor::support, "the name of a support",
-                             "whose force on the body"),
-                        choice("component", required, &ReactionMonitor::component, axes(), "which force")})},
+       alternative<V, ReactionMonitor>("reaction", {name("support", required, &ReactionMonitor::support,
+                                                         "the name of a support", "whose force on the body"),
+                                                    reactionComponent()}),
+       alternative<V, FieldMonitor>(
+           "field",
+           {name("field", required, &FieldMonitor::field, "the name of a field", "which field"),
+            name("set", required, &FieldMonitor::set, "a node set or side set, name or id", "its nodes"),
+            choice("reduce", optional, &FieldMonitor::reduce, reductions, "over the set's nodes"),
+            nearestPoint<FieldMonitor>("only the set's node nearest to this place of the undeformed body")})},
       {}};
   return variants;
 }

@@ -38,17 +38,46 @@ Field<Support> conditionField() {
           }};
 }
 
-/// x, y or z of the displacement or the director: a number, or a map with value and per_load_factor.
-Field<Support> component(std::size_t axis, bool director) {
+const Table<Prescribed>& prescribedTable() {
   static const Table<Prescribed> table{
-      real("value", optional, &Prescribed::value, check::any, "displacement at load factor 0"),
+      real("value", optional, &Prescribed::value, check::any, "at load factor 0"),
       real("per_load_factor", optional, &Prescribed::perLoadFactor, check::any,
            "added times the load factor")};
+  return table;
+}
+
+constexpr const char* prescribedText = "a number, or a map with value, per_load_factor";
+
+Prescribed prescribed(const Value& v) {
+  Prescribed p;
+  if (v.isMap() && !v.isEmptyMap()) {
+    read(prescribedTable(), v, p);
+  } else {
+    p.value = v.real();
+  }
+  return p;
+}
+
+Node printed(const Prescribed& p) {
+  return p.perLoadFactor == 0 ? Node{yaml(p.value), {}} : print(prescribedTable(), p);
+}
+
+Field<Support> fieldValue() {
+  return {"value",
+          false,
+          prescribedText,
+          "what the field is held at",
+          [](const Value& v, Support& s) { s.value = prescribed(v); },
+          [](const Support& s) { return s.value ? printed(*s.value) : Node{}; }};
+}
+
+/// x, y or z of the displacement or the director: a number, or a map with value and per_load_factor.
+Field<Support> component(std::size_t axis, bool director) {
   const Components components = director ? &Support::director : &Support::components;
   const std::string letter(1, "xyz"[axis]);
   return {director ? "director_" + letter : letter,
           false,
-          "a number, or a map with value, per_load_factor",
+          prescribedText,
           director
               ? "prescribed displacement along " + letter + " of the directors of shells, top against middle"
               : "prescribed displacement along " + letter,
@@ -56,20 +85,13 @@ Field<Support> component(std::size_t axis, bool director) {
             if (holds(s.condition, axis, director)) {
               v.fail(fmt::format("is held by condition: {} already", wordOf(s.condition, conditions())));
             }
-            Prescribed p;
-            if (v.isMap() && !v.isEmptyMap()) {
-              read(table, v, p);
-            } else {
-              p.value = v.real();
-            }
-            (s.*components)[axis] = p;
+            (s.*components)[axis] = prescribed(v);
           },
           [=](const Support& s) {
             if (!(s.*components)[axis] || holds(s.condition, axis, director)) {
               return Node{};
             }
-            const Prescribed p = *(s.*components)[axis];
-            return p.perLoadFactor == 0 ? Node{yaml(p.value), {}} : print(table, p);
+            return printed(*(s.*components)[axis]);
           }};
 }
 
@@ -102,7 +124,10 @@ const Table<Support>& supportTable() {
       component(2, false),
       component(0, true),
       component(1, true),
-      component(2, true)};
+      component(2, true),
+      name("field", optional, &Support::field, "the name of a field",
+           "a scalar field that is held here in place of displacements"),
+      fieldValue()};
   return table;
 }
 

@@ -113,6 +113,7 @@ nlohmann::ordered_json monitorTypes(const deck::Deck& deck) {
   auto types = nlohmann::ordered_json::object();
   for (const deck::Monitor& m : deck.output.monitors)
     types[m.name] = std::holds_alternative<deck::DisplacementMonitor>(m.quantity) ? "displacement"
+                    : std::holds_alternative<deck::FieldMonitor>(m.quantity)      ? "field"
                     : std::holds_alternative<deck::ReactionMonitor>(m.quantity)   ? "reaction"
                                                                                   : "contact_force";
   return types;

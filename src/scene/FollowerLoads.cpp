@@ -83,6 +83,7 @@ struct Maker {
     return solid::followerEdgeLoad(elements, edges, follower);
   }
 
+  Terms operator()(const deck::InflowLoad&) const { return {}; }
   Terms operator()(const deck::NodalLoad&) const { return {}; }
   Terms operator()(const deck::VolumeLoad&) const { return {}; }
 };

@@ -6,6 +6,7 @@
 
 #include "atrapos/fem/EnhancedTerm.hpp"
 #include "atrapos/fem/LawTerm.hpp"
+#include "atrapos/physics/Dielectric.hpp"
 #include "atrapos/solid/MixedBody.hpp"
 #include "atrapos/solid/MixedLaw.hpp"
 #include "atrapos/solid/SaintVenantKirchhoff.hpp"
@@ -96,6 +97,28 @@ std::unique_ptr<fem::PointLaw> lawInSpace(const deck::VonMises& entry) {
   return fem::pointLaw(solid::VonMises<false>{metal(entry)});
 }
 
+/// The materials that are compiled with scalar fields.
+template <class Entry>
+constexpr bool inFields =
+    std::is_same_v<Entry, deck::SaintVenantKirchhoff> || std::is_same_v<Entry, deck::NeoHookean> ||
+    std::is_same_v<Entry, deck::MooneyRivlin>;
+
+template <class Entry>
+std::unique_ptr<fem::PointLaw> dielectric(const Entry& entry, double permittivity) {
+  if constexpr (inFields<Entry>)
+    return fem::pointLaw(physics::Dielectric<decltype(law(entry))>{law(entry), permittivity});
+  else
+    throw std::logic_error("registry: an electric field in another material");  // decks are checked
+}
+
+template <class Entry>
+std::unique_ptr<fem::PointLaw> expanding(const Entry& entry, const physics::Expansion& expansion) {
+  if constexpr (inFields<Entry>)
+    return physics::expandingLaw(law(entry), expansion);
+  else
+    throw std::logic_error("registry: an expansion of another material");  // decks are checked
+}
+
 std::unique_ptr<fem::Term> shells(const deck::VonMises&, const solid::ShellElements&, deck::Shear) {
   throw std::invalid_argument("von_mises is not for shells");
 }
@@ -121,6 +144,27 @@ std::unique_ptr<fem::Term> materialTerm(const deck::Material& material, const fe
         return fem::lawTerm(inBody(std::move(inSpace), plane), points, data);
       },
       material.law);
+}
+
+std::unique_ptr<fem::Term> expandingTerm(const deck::Material& material, const physics::Expansion& expansion,
+                                         const fem::PointSet& points,
+                                         const std::optional<solid::PlaneSection>& plane) {
+  auto inSpace = std::visit(
+      [&](const auto& entry) -> std::unique_ptr<fem::PointLaw> { return expanding(entry, expansion); },
+      material.law);
+  return fem::lawTerm(inBody(std::move(inSpace), plane), points, points.positions);
+}
+
+std::unique_ptr<fem::Term> dielectricTerm(const deck::Material& material, const fem::PointSet& points,
+                                          const std::optional<solid::PlaneSection>& plane) {
+  constexpr int acrossThePlane = 11;  // the gradient's part along z
+  auto inSpace = std::visit(
+      [&](const auto& entry) -> std::unique_ptr<fem::PointLaw> {
+        return dielectric(entry, material.dielectric.value().permittivity);
+      },
+      material.law);
+  return fem::lawTerm(
+      plane ? solid::planeLaw(std::move(inSpace), plane->kind, acrossThePlane) : std::move(inSpace), points);
 }
 
 std::unique_ptr<fem::Term> mixedTerm(const deck::Material& material, const fem::Mesh& mesh,

@@ -5,6 +5,7 @@
 
 #include "atrapos/fem/PointSet.hpp"
 #include "atrapos/fem/Term.hpp"
+#include "atrapos/physics/Expansion.hpp"
 #include "atrapos/solid/PlaneBody.hpp"
 #include "atrapos/solid/ShellPoints.hpp"
 #include "deck/Deck.hpp"
@@ -15,6 +16,15 @@ namespace atrapos::registry {
 /// The term of a material at volume points, or at those of a plane body.
 std::unique_ptr<fem::Term> materialTerm(const deck::Material& material, const fem::PointSet& points,
                                         const std::optional<solid::PlaneSection>& plane);
+
+/// The same with an expansion (physics::expandingLaw), at points that have the values of its field.
+std::unique_ptr<fem::Term> expandingTerm(const deck::Material& material, const physics::Expansion& expansion,
+                                         const fem::PointSet& points,
+                                         const std::optional<solid::PlaneSection>& plane);
+
+/// The same in an electric field (physics::Dielectric), at points that have its gradients.
+std::unique_ptr<fem::Term> dielectricTerm(const deck::Material& material, const fem::PointSet& points,
+                                          const std::optional<solid::PlaneSection>& plane);
 
 /// The same with pressures, at points that have them.
 std::unique_ptr<fem::Term> mixedTerm(const deck::Material& material, const fem::Mesh& mesh,

@@ -6,10 +6,12 @@
 #include <Tpetra_Map.hpp>
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "atrapos/fem/ReferenceCell.hpp"
 #include "atrapos/fem/RigidBody.hpp"
 #include "atrapos/fem/ShellFaces.hpp"
+#include "atrapos/physics/Balance.hpp"
 #include "atrapos/solid/MixedBody.hpp"
 #include "atrapos/solid/ShellResults.hpp"
 #include "machine/Ranks.hpp"
@@ -39,7 +41,7 @@ Scene::Scene(const deck::Deck& deck, DeckMesh mesh)
     : deck_(deck), mesh_(std::move(mesh.mesh)), givenRanks_(std::move(mesh.ranks)) {
   deck::checkAgainstMesh(deck_, mesh_);
   shells_ = sceneShells(deck_, mesh_);
-  if (deck_.plane) plane_ = planeSection(*deck_.plane);
+  if (mesh_.dimension == 2) plane_ = deck_.plane ? planeSection(*deck_.plane) : solid::PlaneSection{};
   if (deck_.output.shells == deck::Output::Shells::Body) {
     if (shells_.empty()) fail("output/shells", "the mesh has no shells, which alone have a body to write");
     body_ = fem::shellBody(mesh_, shells_.geometry);
@@ -59,12 +61,15 @@ fem::FeModel Scene::makeModel() {
   model.dofs = fem::DofMap(mesh_.numNodes(), fields());
   model.dofs.addNodes(shells_.geometry.numDirectors(), fem::directorField());
   addMaterials(model);
+  addBalances(model);
   giveRanks(model);
   addSupports(model);
   addCouplings(model);
   if (!shells_.empty()) shells_.joints = joinShells(deck_, mesh_, shells_, model);
   addLoads(model);
   addFollowers(model);
+  addInflows(model);
+  setInitialValues(model);
   addContacts(model);
   model.dofName = [this, dofs = model.dofs](int dof) { return dofName(dofs, dof); };
   return model;
@@ -90,7 +95,7 @@ std::vector<int> Scene::nodesOf(const std::string& set) const { return atrapos::
 std::vector<int> Scene::elementRanks() const {
   std::vector<int> all;
   for (const BodyBlock& body : bodies_) {
-    const std::vector<int>& ofBlock = problem_->ranksOf(body.term);
+    const std::vector<int>& ofBlock = problem_->ranksOf(body.term >= 0 ? body.term : body.balances);
     all.insert(all.end(), ofBlock.begin(), ofBlock.end());
   }
   return all;
@@ -101,14 +106,24 @@ void Scene::giveRanks(fem::FeModel& model) const {
   model.ranks.resize(model.terms.size());
   auto first = givenRanks_.begin();
   for (const BodyBlock& body : bodies_) {
-    const auto last = first + model.terms[body.term]->numEntities();
-    model.ranks[body.term].assign(first, last);
+    const auto last = first + model.terms[body.term >= 0 ? body.term : body.balances]->numEntities();
+    for (const int term : {body.term, body.balances})
+      if (term >= 0) model.ranks[term].assign(first, last);
     first = last;
   }
 }
 
 std::vector<fem::DofMap::Located> Scene::fields() const {
-  std::vector<fem::DofMap::Located> fields{{fem::displacementField(mesh_.dimension), {}}};
+  std::vector<fem::DofMap::Located> fields;
+  const std::vector<std::string> scalars = deck::scalarFields(deck_);
+  if (scalars.empty()) {
+    fields.push_back({fem::displacementField(mesh_.dimension), {}});
+  } else if (!deck_.materials.empty()) {
+    std::vector<std::string> blocks;
+    for (const deck::Material& material : deck_.materials)
+      blocks.insert(blocks.end(), material.blocks.begin(), material.blocks.end());
+    fields.push_back({fem::displacementField(mesh_.dimension), nodesOfBlocks(blocks)});
+  }
   for (const deck::Material& material : deck_.materials)
     if (material.formulation == deck::Material::Formulation::Mixed)
       for (const std::string& name : material.blocks) {
@@ -121,7 +136,28 @@ std::vector<fem::DofMap::Located> Scene::fields() const {
                    name, fem::topologyName(block.topology)));
         fields.push_back({solid::pressureField(block), solid::pressureNodes(block)});
       }
+  for (const std::string& name : scalars) {
+    std::set<int> nodes;
+    fem::Field field = physics::scalarField(name);
+    for (std::size_t b = 0; b < mesh_.blocks.size(); ++b) {
+      const std::vector<std::string> here = scalarFieldsOf(static_cast<int>(b));
+      if (std::find(here.begin(), here.end(), name) != here.end())
+        nodes.insert(mesh_.blocks[b].nodes.begin(), mesh_.blocks[b].nodes.end());
+    }
+    for (const deck::Material& material : deck_.materials)
+      if (material.dielectric && material.dielectric->field == name) field.role = fem::Role::multiplier;
+    fields.push_back({field, {nodes.begin(), nodes.end()}});
+  }
   return fields;
+}
+
+std::vector<int> Scene::nodesOfBlocks(const std::vector<std::string>& blocks) const {
+  std::set<int> nodes;
+  for (const std::string& name : blocks) {
+    const fem::Block& block = mesh_.blocks[fem::findBlock(mesh_, name)];
+    nodes.insert(block.nodes.begin(), block.nodes.end());
+  }
+  return {nodes.begin(), nodes.end()};
 }
 
 void Scene::addMaterials(fem::FeModel& model) {
@@ -130,6 +166,8 @@ void Scene::addMaterials(fem::FeModel& model) {
     for (const std::string& name : material.blocks) {
       const int b = fem::findBlock(mesh_, name);
       const fem::Block& block = mesh_.blocks[b];
+      std::optional<physics::Expansion> expansion;
+      if (!material.expansion.empty()) expansion = expansionOf(material, b);
       try {
         if (fem::isShell(block.topology)) {
           bodies_[b] = addShell(material, shells_.find(b), model);
@@ -137,8 +175,21 @@ void Scene::addMaterials(fem::FeModel& model) {
         }
         const bool mixed = material.formulation == deck::Material::Formulation::Mixed;
         const auto cell = mixed ? solid::mixedTabulation(block.topology) : fem::tabulate(block.topology);
-        const fem::PointSet points = materialPoints(block, cell);
-        bodies_[b] = {static_cast<int>(model.terms.size()), -1, fem::extrapolation(block.topology, cell)};
+        fem::PointSet points = materialPoints(block, cell);
+        bodies_[b].term = static_cast<int>(model.terms.size());
+        bodies_[b].toNodes = fem::extrapolation(block.topology, cell);
+        if (material.dielectric) {
+          points.more.push_back(
+              fem::gradientsOf(physics::scalarField(material.dielectric->field), points, cell));
+          model.terms.push_back(registry::dielectricTerm(material, points, plane_));
+          continue;
+        }
+        if (expansion) {
+          if (!expansion->field.empty())
+            points.more.push_back(fem::valuesOf(physics::scalarField(expansion->field), points, cell));
+          model.terms.push_back(registry::expandingTerm(material, *expansion, points, plane_));
+          continue;
+        }
         model.terms.push_back(mixed ? registry::mixedTerm(material, mesh_, block,
                                                           solid::withPressures(points, block, cell), plane_)
                                     : registry::materialTerm(material, points, plane_));
@@ -153,14 +204,30 @@ fem::PointSet Scene::materialPoints(const fem::Block& block, const fem::Tabulati
 }
 
 BodyBlock Scene::addShell(const deck::Material& material, int shells, fem::FeModel& model) const {
-  BodyBlock body{static_cast<int>(model.terms.size()), shells, solid::shellPointsToNodes({})};
+  BodyBlock body{static_cast<int>(model.terms.size()), -1, shells, solid::shellPointsToNodes({})};
   model.terms.push_back(registry::shellTerm(material, shells_.elements[shells], shells_.shear[shells]));
   return body;
 }
 
 void Scene::addSupports(fem::FeModel& model) const {
-  for (const deck::Support& support : deck_.supports)
-    for (int node : nodesOf(support.set))
+  const std::string displacement = fem::displacementField().name;
+  for (const deck::Support& support : deck_.supports) {
+    const std::string& field = support.field.empty() ? displacement : support.field;
+    const int number = model.dofs.find(field);
+    for (int node : nodesOf(support.set)) {
+      if (number < 0 || model.dofs.dof(number, node, 0) < 0)
+        fail("supports/" + support.name + "/set",
+             fmt::format("node {} has no {}", mesh_.nodeNumber(node),
+                         support.field.empty() ? "displacement: its blocks have no material"
+                                               : "field '" + field + "'"));
+      try {
+        if (support.value)
+          model.prescribe(node, 0, support.value->value, support.value->perLoadFactor, field);
+      } catch (const std::invalid_argument&) {
+        fail("supports/" + support.name, fmt::format("the field '{}' of node {} is prescribed twice with "
+                                                     "different values",
+                                                     field, mesh_.nodeNumber(node)));
+      }
       for (int i = 0; i < 3; ++i) try {
           if (const auto& p = support.components[i]; p && i < mesh_.dimension)
             model.prescribe(node, i, p->value, p->perLoadFactor);
@@ -173,6 +240,8 @@ void Scene::addSupports(fem::FeModel& model) const {
                            "different values",
                            "xyz"[i], mesh_.nodeNumber(node)));
         }
+    }
+  }
 }
 
 void Scene::requireSupport(const fem::FeModel& model) const {
@@ -211,6 +280,9 @@ void Scene::requireEffect(const fem::FeModel& model) const {
     if (contact.tool->moves()) return;
   for (const deck::Load& load : deck_.loads)
     if (followers::isFollower(load) && !load.constant) return;
+  const bool expands = std::any_of(deck_.materials.begin(), deck_.materials.end(),
+                                   [](const deck::Material& m) { return !m.expansion.empty(); });
+  if (expands || !deck_.physics.empty()) return;  // formulas were looked at with the deck
   for (std::size_t dof = 0; dof < model.load.size(); ++dof)
     if (model.load[dof] != 0 && !model.supports.fixed(static_cast<int>(dof))) return;
   fail("loads", "without effect: all that depends on the load factor acts on supported displacements");

@@ -16,6 +16,7 @@
 #include "atrapos/fem/ShellBody.hpp"
 #include "atrapos/path/Monitor.hpp"
 #include "atrapos/path/Stops.hpp"
+#include "atrapos/physics/Expansion.hpp"
 #include "atrapos/solid/PlaneBody.hpp"
 #include "deck/Deck.hpp"
 #include "scene/ContactPressure.hpp"
@@ -27,8 +28,9 @@ namespace atrapos {
 
 /// The material's term of one block of the mesh.
 struct BodyBlock {
-  int term = -1;    ///< its position in the problem
-  int shells = -1;  ///< position in SceneShells; -1: solids
+  int term = -1;      ///< of its material: its position in the problem; -1: no material
+  int balances = -1;  ///< of its scalar fields; -1: none
+  int shells = -1;    ///< position in SceneShells; -1: solids
   std::vector<double>
       toNodes;  ///< [node][point] of a cell: values at points (of shells: in the plane) -> nodes
 };
@@ -106,7 +108,7 @@ class Scene {
   /// Values of the monitors, in the deck's order.
   std::vector<double> monitors(const SceneState& state) const;
 
-  /// The displacement monitors, linear functionals of the unknowns.
+  /// The monitors of displacements and fields, linear functionals of the unknowns.
   std::vector<path::Monitor> functionals() const;
 
   ContactState contactState(const ContactPoints& contact, const SceneState& state) const;
@@ -136,9 +138,18 @@ class Scene {
   std::vector<fem::PointSet> pointsOf(const deck::Contact& contact) const;
   fem::PointSet materialPoints(const fem::Block& block, const fem::Tabulation& cell) const;
   std::vector<fem::DofMap::Located> fields() const;  ///< of the nodes of the mesh
+  std::vector<int> nodesOfBlocks(const std::vector<std::string>& blocks) const;
   /// Whether a material has plastic strains to show.
   bool yields() const;
   void addMaterials(fem::FeModel& model);
+  /// The scalar fields of a block, in the order of deck::scalarFields; and those of all blocks that sides of
+  /// a set belong to.
+  std::vector<std::string> scalarFieldsOf(int block) const;
+  std::vector<std::string> scalarFieldsOf(const fem::SideSet& set) const;
+  physics::Expansion expansionOf(const deck::Material& material, int block) const;
+  void addBalances(fem::FeModel& model);
+  void addInflows(fem::FeModel& model) const;
+  void setInitialValues(fem::FeModel& model) const;
   /// Those of the mesh's parts, to the materials' terms.
   void giveRanks(fem::FeModel& model) const;
   BodyBlock addShell(const deck::Material& material, int shells, fem::FeModel& model) const;
@@ -156,6 +167,10 @@ class Scene {
   void addFollowers(fem::FeModel& model) const;
   void addContacts(fem::FeModel& model);
   void addMonitors();
+  /// Of a monitor with set, reduce and near.
+  template <class Monitor>
+  linear::RCP<path::Vector> weightsOf(const std::string& key, const Monitor& monitor,
+                                      const std::string& field, int component) const;
   void makeTools();
   BodySize bodySize() const;
   void addZones(const deck::Contact& contact, ContactPoints& entry, fem::FeModel& model) const;
@@ -184,8 +199,8 @@ class Scene {
   std::vector<std::unique_ptr<contact::RigidTool>> tools_;  ///< in the deck's order
   std::vector<BodyBlock> bodies_;                           ///< [block]
   std::vector<ContactPoints> contacts_;
-  /// [monitor] weights of a displacement monitor over the unknowns; null for the others
-  std::vector<linear::RCP<path::Vector>> displacementWeights_;
+  /// [monitor] weights of a monitor of displacements or a field over the unknowns; null for the others
+  std::vector<linear::RCP<path::Vector>> unknownWeights_;
   /// [monitor][term][point] of the contact that a monitor with `near` watches; empty for the others
   std::vector<std::vector<std::vector<double>>> contactWeights_;
 };

@@ -72,6 +72,7 @@ std::vector<std::string> Scene::nodalNames() const {
     appendVector("displ_");
     if (!shells_.empty()) append({"director_x", "director_y", "director_z", "thickness_change"}, names);
   }
+  if (writes(deck::OutputField::Field)) append(deck::scalarFields(deck_), names);
   if (writes(deck::OutputField::Reaction)) appendVector("reaction_");
   if (writes(deck::OutputField::Contact) && !contacts_.empty())
     append({"contact_gap", "contact_pressure"}, names);
@@ -125,6 +126,16 @@ std::vector<std::vector<double>> Scene::nodalValues(const SceneState& state) con
       for (auto& variable : directorFields(shells_, values))
         result.push_back(onResultNodes(std::move(variable)));
   }
+  if (writes(deck::OutputField::Field)) {
+    const fem::DofMap& dofs = problem_->model().dofs;
+    for (const std::string& name : deck::scalarFields(deck_)) {
+      const int field = dofs.find(name);
+      std::vector<double> nodes(mesh_.numNodes(), 0.0);
+      for (int n = 0; n < mesh_.numNodes(); ++n)
+        if (const int dof = dofs.dof(field, n, 0); dof >= 0) nodes[n] = state.values()[dof];
+      result.push_back(onResultNodes(std::move(nodes)));
+    }
+  }
   if (writes(deck::OutputField::Reaction)) {
     const std::vector<double>& reactions = state.reactions();
     split(body_ ? body_->forces(shells_.geometry, reactions) : reactions);
@@ -171,6 +182,7 @@ std::vector<std::vector<double>> Scene::nodalStress(const SceneState& state) con
   std::vector<NodalMeans> means(surfaces ? 3 : 1, NodalMeans(resultMesh().numNodes()));
   for (std::size_t b = 0; b < mesh_.blocks.size(); ++b) {
     const BodyBlock& body = bodies_[b];
+    if (body.term < 0) continue;  // no stress where there is no material
     const fem::Block& block = mesh_.blocks[b];
     const auto& observed = state.observed(body.term);
     const int N = fem::nodesPerElement(block.topology), Q = static_cast<int>(body.toNodes.size()) / N;
@@ -206,8 +218,12 @@ std::vector<std::vector<double>> Scene::elementValues(const SceneState& state) c
   };
   for (const BodyBlock& body : bodies_) {
     const fem::Block& block = mesh_.blocks[&body - bodies_.data()];
-    const fem::PointValues& observed = state.observed(body.term);
     const std::size_t elements = block.nodes.size() / fem::nodesPerElement(block.topology);
+    if (body.term < 0) {
+      for (auto& variable : result) variable.insert(variable.end(), elements, 0.0);
+      continue;
+    }
+    const fem::PointValues& observed = state.observed(body.term);
     if (body.shells >= 0) {
       add(0, meanSurfaceStress(observed, solid::midSurface), 6);
       add(6, meanSurfaceStress(observed, solid::topSurface), 6);

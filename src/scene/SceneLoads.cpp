@@ -47,6 +47,8 @@ struct DeadLoads {
     }
   }
 
+  void operator()(const deck::InflowLoad&) const {}  // no force (Scene::addInflows)
+
   void operator()(const deck::EdgeLoad& load) const {
     deck::Vector3 perLength = load.vector;
     if (load.kind == deck::EdgeLoad::Kind::Total)

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <Tpetra_Vector.hpp>
 #include <algorithm>
 #include <array>
@@ -63,23 +65,35 @@ std::vector<std::vector<double>> weightsNear(const ContactPoints& contact,
 
 }  // namespace
 
+template <class Monitor>
+linear::RCP<path::Vector> Scene::weightsOf(const std::string& key, const Monitor& monitor,
+                                           const std::string& field, int component) const {
+  auto weights = linear::rcp(new path::Vector(problem_->map()));
+  auto nodes = nodesOf(monitor.set);
+  if (monitor.near) nodes = {nearestNode(mesh_, nodes, *monitor.near)};
+  const bool mean = monitor.reduce == deck::DisplacementMonitor::Reduce::Mean;
+  const double each = mean ? 1.0 / static_cast<double>(nodes.size()) : 1.0;
+  const fem::DofMap& dofs = problem_->model().dofs;
+  const int number = dofs.find(field);
+  for (const int n : nodes) {
+    const linear::GlobalIndex dof = number < 0 ? -1 : dofs.dof(number, n, component);
+    if (dof < 0) fail(key + "/set", fmt::format("node {} has no {}", mesh_.nodeNumber(n), field));
+    if (problem_->map()->isNodeGlobalElement(dof)) weights->sumIntoGlobalValue(dof, each);
+  }
+  return weights;
+}
+
 void Scene::addMonitors() {
-  displacementWeights_.clear();
+  unknownWeights_.clear();
   contactWeights_.clear();
   for (const deck::Monitor& monitor : deck_.output.monitors) {
     linear::RCP<path::Vector> weights;
-    if (const auto* m = std::get_if<deck::DisplacementMonitor>(&monitor.quantity)) {
-      weights = linear::rcp(new path::Vector(problem_->map()));
-      auto nodes = nodesOf(m->set);
-      if (m->near) nodes = {nearestNode(mesh_, nodes, *m->near)};
-      const double each = m->reduce == deck::DisplacementMonitor::Reduce::Mean ? 1.0 / nodes.size() : 1.0;
-      const fem::DofMap& dofs = problem_->model().dofs;
-      for (int n : nodes) {
-        const linear::GlobalIndex dof = dofs.firstDof(n) + componentIndex(m->component);
-        if (problem_->map()->isNodeGlobalElement(dof)) weights->sumIntoGlobalValue(dof, each);
-      }
-    }
-    displacementWeights_.push_back(weights);
+    if (const auto* m = std::get_if<deck::DisplacementMonitor>(&monitor.quantity))
+      weights = weightsOf("output/monitors/" + monitor.name, *m, fem::displacementField().name,
+                          componentIndex(m->component));
+    if (const auto* m = std::get_if<deck::FieldMonitor>(&monitor.quantity))
+      weights = weightsOf("output/monitors/" + monitor.name, *m, m->field, 0);
+    unknownWeights_.push_back(weights);
     std::vector<std::vector<double>> points;
     if (const auto* m = std::get_if<deck::ContactForceMonitor>(&monitor.quantity); m && m->near)
       for (const ContactPoints& contact : contacts_)
@@ -96,9 +110,9 @@ path::Stops Scene::stops() const {
   stops.limitPoints = stop.limitPoint.value_or(0);
   stops.bifurcations = stop.bifurcation.value_or(0);
   for (const auto& [name, values] : stop.monitors)
-    for (std::size_t i = 0; i < displacementWeights_.size(); ++i)
+    for (std::size_t i = 0; i < unknownWeights_.size(); ++i)
       if (deck_.output.monitors[i].name == name)
-        for (const double value : values) stops.functionals.push_back({name, displacementWeights_[i], value});
+        for (const double value : values) stops.functionals.push_back({name, unknownWeights_[i], value});
   return stops;
 }
 
@@ -120,9 +134,8 @@ void Scene::forEachContactPoint(const ContactPoints& contact, const SceneState& 
 
 std::vector<path::Monitor> Scene::functionals() const {
   std::vector<path::Monitor> list;
-  for (std::size_t i = 0; i < displacementWeights_.size(); ++i)
-    if (!displacementWeights_[i].is_null())
-      list.push_back({deck_.output.monitors[i].name, displacementWeights_[i]});
+  for (std::size_t i = 0; i < unknownWeights_.size(); ++i)
+    if (!unknownWeights_[i].is_null()) list.push_back({deck_.output.monitors[i].name, unknownWeights_[i]});
   return list;
 }
 
@@ -164,6 +177,7 @@ std::vector<double> Scene::monitors(const SceneState& state) const {
     const path::Vector* weights;
     const std::vector<std::vector<double>>& contactWeights;
     double operator()(const deck::DisplacementMonitor&) const { return linear::dot(*weights, state.u()); }
+    double operator()(const deck::FieldMonitor&) const { return linear::dot(*weights, state.u()); }
     double operator()(const deck::ContactForceMonitor& m) const {
       for (const ContactPoints& contact : scene.contacts_)
         if (contact.name == m.contact)
@@ -174,17 +188,22 @@ std::vector<double> Scene::monitors(const SceneState& state) const {
       return 0;
     }
     double operator()(const deck::ReactionMonitor& m) const {
-      const auto& reactions = state.reactions();
       const auto& support = *std::find_if(scene.deck_.supports.begin(), scene.deck_.supports.end(),
                                           [&](const deck::Support& s) { return s.name == m.support; });
       double sum = 0;
-      if (!support.components[componentIndex(m.component)]) return 0;
-      for (int n : scene.nodesOf(support.set)) sum += reactions[3 * n + componentIndex(m.component)];
+      if (!support.field.empty()) {
+        const fem::DofMap& dofs = scene.problem_->model().dofs;
+        const int field = dofs.find(support.field);
+        for (int n : scene.nodesOf(support.set)) sum += state.supportForces()[dofs.dof(field, n, 0)];
+        return sum;
+      }
+      const int i = componentIndex(*m.component);
+      for (int n : scene.nodesOf(support.set)) sum += state.reactions()[3 * n + i];
       return sum;
     }
   };
   for (std::size_t i = 0; i < deck_.output.monitors.size(); ++i)
-    result.push_back(std::visit(Evaluator{*this, state, displacementWeights_[i].get(), contactWeights_[i]},
+    result.push_back(std::visit(Evaluator{*this, state, unknownWeights_[i].get(), contactWeights_[i]},
                                 deck_.output.monitors[i].quantity));
   return result;
 }

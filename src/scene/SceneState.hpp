@@ -18,16 +18,26 @@ class SceneState {
   const path::Vector& u() const { return *state_.u; }
   double lambda() const { return state_.lambda; }
 
+  /// FeProblem::values, and FeProblem::reactions, [dof]
+  const std::vector<double>& values() const {
+    if (!values_) values_ = fem::FeProblem::values(*state_.u);
+    return *values_;
+  }
+  const std::vector<double>& supportForces() const {
+    if (!supportForces_) supportForces_ = problem_.reactions(state_);
+    return *supportForces_;
+  }
+
   // Vectors in space of all nodes (DofMap::vectors), [3 node + component]:
 
   /// displacements, and changes of directors,
   const std::vector<double>& displacements() const {
-    if (!displacements_) displacements_ = vectors(fem::FeProblem::values(*state_.u));
+    if (!displacements_) displacements_ = vectors(values());
     return *displacements_;
   }
   /// FeProblem::reactions
   const std::vector<double>& reactions() const {
-    if (!reactions_) reactions_ = vectors(problem_.reactions(state_));
+    if (!reactions_) reactions_ = vectors(supportForces());
     return *reactions_;
   }
   /// FeProblem::observe
@@ -50,7 +60,7 @@ class SceneState {
 
   const fem::FeProblem& problem_;
   path::State state_;
-  mutable std::optional<std::vector<double>> displacements_, reactions_;
+  mutable std::optional<std::vector<double>> values_, supportForces_, displacements_, reactions_;
   mutable std::map<int, fem::PointValues> observed_;
   mutable std::map<int, std::vector<double>> forces_;
 };

@@ -510,7 +510,8 @@ TEST(BadDeck, places) {
              ":16:57: tools/roll/axis: expected a list of 3 finite numbers, got the list [0, 1]");
   expectLine(", radius: 50", "", ":16:3: tools/roll/radius: is missing; expected a number, positive");
   expectLine("path:", "ä: 1\npath:",
-             ":19:1: ä: is not a key here; allowed are title, mesh, materials, plane, shells, supports, "
+             ":19:1: ä: is not a key here; allowed are title, mesh, constants, materials, "
+             "physics, fields, plane, shells, supports, "
              "couplings, loads, "
              "tools, contact, path, solver, output");
   expectLine("{tool: roll", "{tool: # ä\n    'rol'",
@@ -1171,7 +1172,7 @@ TEST(BadDeck, pathKeys) {
   expectError("order: 15", "branch_depth: -1", "path/branch_depth:", {"at least 0"});
   expectError("order: 15", "restart: 3", "path/restart:", {"true or false"});
   expectError("load_factor: 0.25", "load_factor: [1, 0]", "path/stop/load_factor:", {"different from zero"});
-  expectError("load_factor: 0.25", "monitor: {tip_uz: 1}", "path/stop/monitor:", {"is not a key here"});
+  expectError("load_factor: 0.25", "monitors: {tip_uz: 1}", "path/stop/monitors:", {"did you mean 'monitor'?"});
   expectError("{load_factor: 0.25}", "{bifurcation: 1}\n  critical_points: off",
               "path/stop/bifurcation: ", {"needs path/critical_points: automatic or every_step"});
   expectError("order: 15\n  stop: {load_factor: 0.25}", "method: newton\n  stop: {bifurcation: 1}",

@@ -95,7 +95,7 @@ struct FeProblem::Impl {
   View<int*> columns;
   View<char*> fixed;
   detail::CoupledSystem coupled;
-  DofView value, rate, load, constantLoad;
+  DofView initial, value, rate, load, constantLoad;
   DofView shared;                // state of the last call with the values at shared nodes (several ranks)
   DofView sum;                   // work
   DofView last;                  // U of the order completed last
@@ -107,7 +107,7 @@ struct FeProblem::Impl {
   double parameterInner = 1;                  // factor of a parameter's square in inner()
   double internalInner = 0;                   // and of an internal variable's
   bool hasInternal = false;                   // on some rank
-  Sizes scaleFloor;                           // least scale of each balance
+  Sizes scaleFloor, initialForces;            // least scale of each balance
   std::vector<int> balances;                  // [own dof] number of its balance
   int numFree = 0;
   int pivots = 0;                                  // constraintPivots() of the last tangent
@@ -122,12 +122,14 @@ struct FeProblem::Impl {
     const auto comm = model.comm.is_null() ? Tpetra::getDefaultComm() : model.comm;
     const int numDofs = model.dofs.numDofs();
     if (model.supports.last() >= numDofs) throw std::logic_error("FeModel: supports of another mesh");
-    if (static_cast<int>(std::max(model.load.size(), model.constantLoad.size())) > numDofs)
-      throw std::logic_error("FeModel: loads of another mesh");
+    if (static_cast<int>(std::max({model.load.size(), model.constantLoad.size(), model.initial.size()})) >
+        numDofs)
+      throw std::logic_error("FeModel: loads or initial values of another mesh");
     model.load.resize(numDofs, 0.0);
     model.constantLoad.resize(numDofs, 0.0);
+    model.initial.resize(numDofs, 0.0);
     numParameters = static_cast<int>(model.dofs.dofsWith(Role::parameter).size());
-    numMultipliers = static_cast<int>(model.dofs.dofsWith(Role::multiplier).size());
+    for (const int d : model.dofs.dofsWith(Role::multiplier)) numMultipliers += !model.supports.fixed(d);
     std::vector<Coupling> couplings;
     if (!model.couplings.empty()) couplings = model.couplings.resolved(model.dofs, model.supports);
     ranks = std::make_unique<detail::Distribution>(model, couplings, comm);
@@ -270,15 +272,17 @@ struct FeProblem::Impl {
         throw std::invalid_argument("a force acts at node " + std::to_string(dofs.nodeOf(d) + 1) +
                                     ", which no element has");
     std::vector<char> flags(numDofs);
-    std::vector<double> values(numDofs, 0.0), rates(numDofs, 0.0);
+    std::vector<double> values(numDofs, 0.0), rates(numDofs, 0.0), free = model.initial;
     for (int d = 0; d < numDofs; ++d) {
       flags[d] = model.supports.fixed(d) || !isUsed[d];
       numFree += !flags[d];
+      if (flags[d]) free[d] = 0;
       values[d] = model.supports.value(d);
       rates[d] = model.supports.perLoadFactor(d);
     }
     for (const Coupling& c : couplings) {
       --numFree;
+      free[c.dof] = 0;
       values[c.dof] = c.value;
       rates[c.dof] = c.perLoadFactor;
       for (const CoupledDof& m : c.masters) {
@@ -289,6 +293,7 @@ struct FeProblem::Impl {
     const std::vector<int>& nodes = ranks->nodes();
     const int all = static_cast<int>(nodes.size());
     fixed = upload("fixed", ofNodes(flags, dofs, nodes, all));
+    initial = toDevice(ofNodes(free, dofs, nodes, all));
     value = toDevice(ofNodes(values, dofs, nodes, all));
     rate = toDevice(ofNodes(rates, dofs, nodes, all));
     // Dead loads act at their owners'.
@@ -319,14 +324,19 @@ struct FeProblem::Impl {
       }
     }
     Kokkos::deep_copy(sum, 0.0);
+    const DofView start("start", value.extent(0)), first = initial, held = value;
+    Kokkos::parallel_for(
+        "start", Kokkos::RangePolicy<Execution>(0, start.size()),
+        KOKKOS_LAMBDA(int d) { start(d) = first(d) + held(d); });
     const TangentSink sink{rowStart, entries, sum};
     ranks->together([&] {
       for (const auto& term : model.terms)
-        if (term->seesLoadFactor()) term->addTangent(value, 0, sink);
+        if (term->seesLoadFactor()) term->addTangent(start, 0, sink);
     });
     ranks->collect(sum);
     const Sizes driving = norms(sum);
     scaleFloor.assign(size.size(), 0.0);
+    initialForces.resize(size.size(), 0.0);
     for (std::size_t b = 0; b < size.size(); ++b) {
       if (std::isfinite(driving[b])) size[b] = std::max(size[b], driving[b]);
       scaleFloor[b] = std::max(1e-6 * size[b], 1e-300);
@@ -382,7 +392,7 @@ struct FeProblem::Impl {
     ranks->together([&] {
       for (const auto& term : model.terms) add(own, term->addResidual(u, lambda, total));
     });
-    return largest(largest(scaleFloor, external), overRanks(std::move(own)));
+    return largest(largest(largest(scaleFloor, initialForces), external), overRanks(std::move(own)));
   }
 
   /// What a path starts from.
@@ -511,6 +521,14 @@ struct FeProblem::Impl {
         Kokkos::Max<double>(largest));
     largest = ranks->max(largest);
     diagonal = largest > 0 && std::isfinite(largest) ? largest : 1.0;
+    // Where all forces vanish at first, what remains is the rounding of those that initial values have from
+    // node to node.
+    const DofView first = initial;
+    Kokkos::parallel_for(
+        "initial forces", Kokkos::RangePolicy<Execution>(0, own.size()),
+        KOKKOS_LAMBDA(int d) { own(d) *= first(d); });
+    initialForces = norms(own);
+    for (double& size : initialForces) size = std::isfinite(size) ? 1e-6 * size : 0;
   }
 
   /// Turns the rows of prescribed dofs into s u_d and carries their columns to F.
@@ -781,10 +799,10 @@ path::State FeProblem::settled(const path::State& state) {
 
 RCP<Vector> FeProblem::initialState(double lambda) const {
   auto u = rcp(new Vector(impl_->map));
-  const DofView out = writable(*u), value = impl_->value, rate = impl_->rate;
+  const DofView out = writable(*u), initial = impl_->initial, value = impl_->value, rate = impl_->rate;
   Kokkos::parallel_for(
       "initialState", Kokkos::RangePolicy<Execution>(0, out.size()),
-      KOKKOS_LAMBDA(int d) { out(d) = value(d) + lambda * rate(d); });
+      KOKKOS_LAMBDA(int d) { out(d) = initial(d) + value(d) + lambda * rate(d); });
   return u;
 }
 

@@ -18,6 +18,10 @@ void PointLaw::carry(const PointBatch&, const double*, const double*, double*, P
   throw std::logic_error("a law without internal variables was asked for them");
 }
 
+void PointLaw::sizes(const PointBatch&, const double*, double*) const {
+  throw std::logic_error("a law without sizes of its own was asked for them");
+}
+
 LawArrays::LawArrays(std::unique_ptr<PointLaw> theLaw, const PointSet& points,
                      const std::vector<double>& pointData)
     : elements(points),

@@ -103,6 +103,10 @@ class LawTermOf : public Base {
       a_.law->value(a_.batch(b, data, held.data()), s.in, s.out);
       a_.elements.addForces(b, s.out, O_, true, zero(s.force));
       a_.elements.scatter(b, s.force, f.data());
+      if (a_.shape.sizes) {
+        a_.law->sizes(a_.batch(b, data, held.data()), s.in, s.out);
+        a_.elements.addForces(b, s.out, O_, true, zero(s.force));
+      }
       a_.elements.squares(b, s.force, &squares[static_cast<std::size_t>(b) * balances]);
     });
     return sumOf(squares, balances);

@@ -145,6 +145,13 @@ class ReducedLaw final : public PointLaw {
     law_->carry(points, room.in, room.jacobian, variables, failure);
   }
 
+  void sizes(const PointBatch& points, const double* in, double* out) const override {
+    const Room room(*this, points.numPoints);
+    solve(points, in, room);
+    law_->sizes(points, room.in, room.out);
+    pickOutputs(points.numPoints, room.out, out);
+  }
+
   std::vector<std::string> observedNames() const override { return law_->observedNames(); }
   void observe(const PointBatch& points, const double* in, double* values) const override {
     const Room room(*this, points.numPoints);

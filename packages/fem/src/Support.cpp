@@ -65,8 +65,12 @@ std::vector<FreeBody> freeBodies(const Mesh& mesh, const DofMap& dofs, const Sup
       parent[root(block.nodes[i])] = root(block.nodes[i - i % N]);
   }
   for (const auto& [a, b] : joined) parent[root(a)] = root(b);
+  const std::string displacement = displacementField().name;
+  const int field = dofs.find(displacement);
+  const auto moves = [&](int n) { return field >= 0 && dofs.dof(field, n, 0) >= 0; };
   for (const Block& block : mesh.blocks)
-    for (int n : block.nodes) bodies.emplace(root(n), block.name);
+    for (int n : block.nodes)
+      if (moves(n)) bodies.emplace(root(n), block.name);
 
   // Scale by the whole mesh: bodies much smaller than it would need their own, none of 1e-6 of it is meant.
   double low[3] = {1e300, 1e300, 1e300}, high[3] = {-1e300, -1e300, -1e300}, centre[3], size = 0;
@@ -90,8 +94,8 @@ std::vector<FreeBody> freeBodies(const Mesh& mesh, const DofMap& dofs, const Sup
   };
   for (int n = 0; n < numNodes; ++n) {
     const auto motions = rigidMotions(&mesh.coordinates[3 * n], centre, size);
-    for (int i = 0; i < dofs.firstFieldSize(n); ++i)
-      if (supports.fixed(dofs.firstDof(n) + i)) hold(n, motions[i]);
+    for (int i = 0; moves(n) && i < mesh.dimension; ++i)
+      if (supports.fixed(dofs.dof(field, n, i))) hold(n, motions[i]);
     if (mesh.dimension == 2)  // no motion leaves the plane
       for (const int motion : {2, 3, 4}) {
         std::array<double, 6> row{};

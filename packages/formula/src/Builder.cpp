@@ -99,6 +99,29 @@ bool Builder::isBinary(Operation operation) {
   }
 }
 
+int Builder::magnitude(int step) {
+  const Step s = steps_[step];  // steps are added meanwhile
+  switch (s.operation) {
+    case Operation::negate:
+      return magnitude(s.a);
+    case Operation::add:
+    case Operation::subtract: {
+      const int a = magnitude(s.a);
+      return binary(Operation::add, a, magnitude(s.b));
+    }
+    case Operation::multiply: {
+      const int a = magnitude(s.a);
+      return binary(Operation::multiply, a, magnitude(s.b));
+    }
+    case Operation::divide: {
+      const int a = magnitude(s.a);
+      return binary(Operation::divide, a, unary(Operation::abs, s.b));
+    }
+    default:
+      return unary(Operation::abs, step);
+  }
+}
+
 std::vector<int> Builder::inputsOf(int step) const {
   std::vector<char> needed(step + 1, 0);
   needed[step] = 1;

@@ -110,6 +110,22 @@ TEST(Builder, SharesCommonParts) {
   EXPECT_TRUE(builder.inputsOf(parse("0*u", symbols, builder)).empty());
 }
 
+/// What a formula is the sum of does not cancel.
+TEST(Builder, Magnitudes) {
+  Builder builder;
+  const Symbols symbols{{{"u", builder.input(0)}, {"w", builder.input(1)}}, {}};
+  const auto magnitude = [&](const std::string& text) {
+    const Program program = builder.program({builder.magnitude(parse(text, symbols, builder))});
+    const double in[] = {2, 3};
+    double value = 0;
+    evaluate<double>(program, in, nullptr, &value);
+    return value;
+  };
+  EXPECT_EQ(magnitude("u - 2"), 4);
+  EXPECT_EQ(magnitude("5*(w - 3)/(-u)"), 15);
+  EXPECT_EQ(magnitude("-(u*w - 6) + sqrt(u - 2)"), 12);
+}
+
 TEST(Names, OfOnesOwn) {
   EXPECT_TRUE(isName("T_0"));
   for (const char* name : {"", "0a", "a-b", "exp", "pi", "grad"}) EXPECT_FALSE(isName(name)) << name;

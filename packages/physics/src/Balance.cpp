@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <stdexcept>
 #include <utility>
 
@@ -69,6 +68,9 @@ struct Formulas {
   void add(int result, const std::string& text) {
     results[result] = builder.binary(Operation::add, results[result], formula::parse(text, known, builder));
   }
+  formula::Program program() const { return builder.program(results); }
+  /// A result becomes the size of what it is the sum of.
+  void takeMagnitude(int result) { results[result] = builder.magnitude(results[result]); }
   /// Whether a result depends on fields other than this one; -1: on any.
   bool dependsOnOthers(int result, int field) const {
     const std::vector<int> inputs = builder.inputsOf(results[result]);
@@ -172,14 +174,16 @@ bool dependsOnLoadFactor(const std::string& text, const std::vector<std::string>
   return std::find(inputs.begin(), inputs.end(), layout.loadFactor()) != inputs.end();
 }
 
-double valueAt(const std::string& text, const Constants& constants, const double* position) {
+std::function<double(const double*)> ofPlace(const std::string& text, const Constants& constants) {
   Builder builder;
   const Layout layout{Place::reference, 0};
   const auto program =
       builder.program({formula::parse(text, symbols({}, constants, layout, builder), builder)});
-  double value = 0;
-  formula::evaluate<double>(program, nullptr, position, &value);
-  return value;
+  return [program](const double* position) {
+    double value = 0;
+    formula::evaluate<double>(program, nullptr, position, &value);
+    return value;
+  };
 }
 
 std::unique_ptr<fem::Term> balanceTerm(const fem::Mesh& mesh, const fem::Block& block,
@@ -196,11 +200,14 @@ std::unique_ptr<fem::Term> balanceTerm(const fem::Mesh& mesh, const fem::Block& 
   bool symmetric = true;
   for (int f = 0; f < count; ++f)
     symmetric = symmetric && !formulas.dependsOnOthers(2 * f, -1) && !formulas.dependsOnOthers(2 * f + 1, f);
-  const formula::Program program = formulas.builder.program(formulas.results);
+  const formula::Program program = formulas.program();
+  for (int f = 0; f < count; ++f) formulas.takeMagnitude(2 * f + 1);
+  const formula::Program magnitudes = formulas.program();
   auto law = withFields(count, [&](auto n) {
     BalanceLaw<decltype(n)::value> balance;
     balance.symmetric = symmetric;
     balance.program = program;
+    balance.magnitudes = magnitudes;
     return fem::pointLaw(balance);
   });
 
@@ -225,7 +232,9 @@ std::vector<std::unique_ptr<fem::Term>> inflowTerms(const fem::Mesh& mesh, const
   for (const Inflow& inflow : inflows) formulas.add(positionOf(inflow.field, fields), inflow.amount);
   bool symmetric = true;
   for (int f = 0; f < count; ++f) symmetric = symmetric && !formulas.dependsOnOthers(f, f);
-  const formula::Program program = formulas.builder.program(formulas.results);
+  const formula::Program program = formulas.program();
+  for (int f = 0; f < count; ++f) formulas.takeMagnitude(f);
+  const formula::Program magnitudes = formulas.program();
 
   constexpr int degree = 5;  // three points along an edge of degree 2
   std::vector<std::unique_ptr<fem::Term>> terms;
@@ -242,6 +251,7 @@ std::vector<std::unique_ptr<fem::Term>> inflowTerms(const fem::Mesh& mesh, const
       InflowLaw<decltype(n)::value> inflow;
       inflow.symmetric = symmetric;
       inflow.program = program;
+      inflow.magnitudes = magnitudes;
       return fem::pointLaw(inflow);
     });
     terms.push_back(fem::lawTerm(std::move(law), points, points.positions));

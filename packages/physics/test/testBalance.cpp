@@ -87,7 +87,7 @@ TEST(Balance, NamesAreChecked) {
   EXPECT_TRUE(dependsOnLoadFactor("k*lambda + T", {"T"}, constants, Place::surface));
   EXPECT_FALSE(dependsOnLoadFactor("k + 0*lambda", {"T"}, constants, Place::body));
   const double place[] = {1, 2, 3};
-  EXPECT_EQ(valueAt("k*x + y*z", constants, place), 8);
+  EXPECT_EQ(ofPlace("k*x + y*z", constants)(place), 8);
 }
 
 /// A linear field is a solution whatever the mesh and the constant conductivity, and what flows through a

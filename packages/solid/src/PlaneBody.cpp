@@ -158,13 +158,17 @@ std::vector<fem::LineSet> planeEdgeLines(const fem::Mesh& mesh, const fem::SideS
   return result;
 }
 
-std::unique_ptr<fem::PointLaw> planeLaw(std::unique_ptr<fem::PointLaw> material, Kind kind) {
+std::unique_ptr<fem::PointLaw> planeLaw(std::unique_ptr<fem::PointLaw> material, Kind kind, int across) {
   // H by rows: xx, xy, xz, yx, yy, yz, zx, zy, zz.
   fem::Reduction r{{0, 1, -1, 2, 3, -1, -1, -1, -1}, {0, 1, 3, 4}, 4, kind == Kind::stress ? 8 : -1};
   if (kind == Kind::axisymmetric) r = {{0, 1, -1, 3, 4, -1, -1, -1, 2}, {0, 1, 8, 3, 4, -1}, 6, -1};
   for (int more = 9; more < material->shape().inputs; ++more) {
+    if (more == across) {
+      r.inputs.push_back(-1);
+      continue;
+    }
     r.inputs.push_back(r.numInputs++);
-    r.outputs.push_back(more);
+    if (more < material->shape().outputs) r.outputs.push_back(more);  // not of the load factor
   }
   return fem::reducedLaw(std::move(material), std::move(r));
 }

@@ -28,6 +28,12 @@ ExampleFolder::ExampleFolder(const std::string& name, const Edits& edits) {
   // Model problems need no mesh.
   if (text.find("generate:") != std::string::npos)
     mustEndWell(runAtrapos({"mesh", "-q", "deck.yaml"}, path()));
+  const auto model = (std::filesystem::path(ATRAPOS_EXAMPLES) / name).replace_extension("inp");
+  if (std::filesystem::exists(model)) {
+    const std::string file = model.filename().string(), mesh = model.stem().string() + ".exo";
+    writeFile(path() / file, readFile(model));
+    mustEndWell(runAtrapos({"import", "-q", file, "-o", mesh}, path()));
+  }
 }
 
 std::vector<std::string> ExampleFolder::run(const std::vector<std::string>& more) {

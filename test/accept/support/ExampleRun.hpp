@@ -15,7 +15,8 @@ namespace atrapos::test {
 
 using Edits = std::vector<std::pair<std::string, std::string>>;
 
-/// A folder with the deck examples/<name>, some of its text edited, and its mesh. Residuals are evaluated at
+/// A folder with the deck examples/<name>, some of its text edited, and its mesh, generated or from the .inp
+/// beside the deck. Residuals are evaluated at
 /// all points (output/residuals), unless the text says something else. Throws std::runtime_error where the
 /// mesh cannot be made, std::logic_error where an edit does not fit.
 class ExampleFolder {

@@ -8,7 +8,8 @@ namespace atrapos::fem {
 /// What the unknowns of a field are to the tangent.
 enum class Role {
   primal,      ///< displacements, temperatures
-  multiplier,  ///< each owes the tangent a negative pivot: multipliers of constraints
+  multiplier,  ///< each that is free owes the tangent a negative pivot: multipliers of constraints,
+               ///< potentials
   oneSided,  ///< multipliers of conditions that are active or free (EventTerm): a negative pivot while active
   parameter  ///< parameters of local laws; a negative pivot each, and a weight of their own in the path
 };

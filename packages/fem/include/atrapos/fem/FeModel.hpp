@@ -26,6 +26,8 @@ struct FeModel {
   Couplings couplings;
   std::vector<double> constantLoad;  ///< F_0, [dof], dead
   std::vector<double> load;          ///< F_1: the dead load at load factor 1
+  /// [dof] the unknowns before any load acts, supported ones apart; empty: zero
+  std::vector<double> initial;
   /// Communicator of the problem's maps; null: Tpetra's default, all ranks of the program.
   linear::RCP<const Teuchos::Comm<int>> comm;
   /// w_t: the square of the change of the load factor that counts in the path parameter as much as a change

@@ -83,7 +83,8 @@ class FeProblem final : public path::Problem {
   /// std::invalid_argument, one line, where their number is not that of this problem.
   std::shared_ptr<const path::Memory> memoryOf(std::vector<int> conditions) const;
 
-  /// The state at load factor lambda before any load acts: prescribed displacements, zero elsewhere.
+  /// The state at load factor lambda before any load acts: prescribed values, those of FeModel::initial
+  /// elsewhere.
   linear::RCP<path::Vector> initialState(double lambda) const;
 
   /// Forces that the supports exert on the body at a state, with those of coupled dofs, zero at free dofs:

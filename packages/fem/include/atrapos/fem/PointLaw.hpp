@@ -48,6 +48,7 @@ struct LawShape {
   /// events: the output in front of the variables, dimensionless and of size 1, is not negative at a free
   /// point while it is free, and never falls along the path at an active one while it is active.
   int events = 0;
+  bool sizes = false;  ///< outputs have sizes of their own (PointLaw::sizes)
 };
 
 /// A law in batches of points: compiled once, whatever loops it stands in. Virtual once a batch.
@@ -99,6 +100,11 @@ class PointLaw {
   /// have no use for it.
   virtual void carry(const PointBatch& points, const double* from, const double* to, double* variables,
                      PointFailure& failure) const;
+
+  /// Sizes of what the outputs are sums of, in their shape: an output that cancels at the point, as source
+  /// and sink do, has one of rounding, against which no residual is small. Of laws with LawShape::sizes; of
+  /// all others the outputs themselves.
+  virtual void sizes(const PointBatch& points, const double* in, double* out) const;
 
   /// Names of the values that the law shows at its points.
   virtual std::vector<std::string> observedNames() const = 0;

@@ -12,7 +12,9 @@
 ///     void observe(const double* in, const double* data, double* observed) const;
 /// keeps internal variables as its last data and last outputs where it says `static constexpr int
 /// numVariables` (their rates by taylor::solveRate), changes at events with `static constexpr int numEvents =
-/// 1` (LawShape::events), says `static constexpr bool symmetric` when d out/d in is symmetric, and, where it
+/// 1` (LawShape::events), has sizes (PointLaw::sizes) by
+///     void sizes(const double* in, const double* data, double* out) const;
+/// says `static constexpr bool symmetric` when d out/d in is symmetric, and, where it
 /// may have nothing to act on at a point, bool exists(const double* data) const.
 ///
 /// A source with one line for each law, ATRAPOS_POINT_LAW(Law), compiles it (outside of namespaces).
@@ -34,6 +36,13 @@ template <class Law, class = void>
 struct HasNames : std::false_type {};
 template <class Law>
 struct HasNames<Law, std::void_t<decltype(Law::observedNames())>> : std::true_type {};
+
+template <class Law, class = void>
+struct HasSizes : std::false_type {};
+template <class Law>
+struct HasSizes<Law, std::void_t<decltype(std::declval<const Law&>().sizes(
+                         (const double*)nullptr, (const double*)nullptr, (double*)nullptr))>>
+    : std::true_type {};
 
 template <class Law, class = void>
 struct HasExists : std::false_type {};
@@ -58,7 +67,8 @@ class PointLawOf final : public PointLaw {
             law_.symmetric,
             detail::NumObserved<Law>::value,
             detail::NumVariables<Law>::value,
-            detail::NumEvents<Law>::value};
+            detail::NumEvents<Law>::value,
+            detail::HasSizes<Law>::value};
   }
   std::size_t seriesDoubles(const SeriesOrder& order) const override {
     const bool scratch = order.maxOrder == 0 && detail::NumVariables<Law>::value > 0;
@@ -89,6 +99,18 @@ class PointLawOf final : public PointLaw {
     kernels_.carry(&law_, histories_, points, from, to, variables, failure);
   }
 
+  void sizes(const PointBatch& points, const double* in, double* out) const override {
+    constexpr int O = Law::numOutputs;
+    if constexpr (detail::HasSizes<Law>::value)
+      forEachPoint(points, in, [&](int q, int lane, const double* x, const double* data) {
+        double size[O];
+        law_.sizes(x, data, size);
+        for (int m = 0; m < O; ++m) out[(q * O + m) * kLanes + lane] = size[m];
+      });
+    else
+      PointLaw::sizes(points, in, out);
+  }
+
   std::vector<std::string> observedNames() const override {
     if constexpr (detail::HasNames<Law>::value)
       return Law::observedNames();
@@ -97,16 +119,13 @@ class PointLawOf final : public PointLaw {
   }
   void observe([[maybe_unused]] const PointBatch& points, [[maybe_unused]] const double* in,
                [[maybe_unused]] double* values) const override {
-    constexpr int I = Law::numInputs, D = Law::numData, V = detail::NumObserved<Law>::value;
+    constexpr int V = detail::NumObserved<Law>::value;
     if constexpr (V > 0)
-      for (int q = 0; q < points.numPoints; ++q)
-        for (int lane = 0; lane < points.lanes; ++lane) {
-          double x[I], data[D + 1] = {}, shown[V];
-          for (int m = 0; m < I; ++m) x[m] = in[(q * I + m) * kLanes + lane];
-          for (int d = 0; d < D; ++d) data[d] = points.data[(q * D + d) * kLanes + lane];
-          law_.observe(x, data, shown);
-          for (int v = 0; v < V; ++v) values[(q * V + v) * kLanes + lane] = shown[v];
-        }
+      forEachPoint(points, in, [&](int q, int lane, const double* x, const double* data) {
+        double shown[V];
+        law_.observe(x, data, shown);
+        for (int v = 0; v < V; ++v) values[(q * V + v) * kLanes + lane] = shown[v];
+      });
   }
   bool exists([[maybe_unused]] const double* data) const override {
     if constexpr (detail::HasExists<Law>::value)
@@ -116,6 +135,19 @@ class PointLawOf final : public PointLaw {
   }
 
  private:
+  /// f(point, lane, inputs, data) one point after the other.
+  template <class F>
+  static void forEachPoint(const PointBatch& points, const double* in, const F& f) {
+    constexpr int I = Law::numInputs, D = Law::numData;
+    for (int q = 0; q < points.numPoints; ++q)
+      for (int lane = 0; lane < points.lanes; ++lane) {
+        double x[I], data[D + 1] = {};
+        for (int m = 0; m < I; ++m) x[m] = in[(q * I + m) * kLanes + lane];
+        for (int d = 0; d < D; ++d) data[d] = points.data[(q * D + d) * kLanes + lane];
+        f(q, lane, x, data);
+      }
+  }
+
   Law law_;
   taylor::HistoryShape histories_;
   detail::PointKernels kernels_;

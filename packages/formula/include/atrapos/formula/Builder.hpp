@@ -26,6 +26,10 @@ class Builder {
   int unary(Operation operation, int a);
   int binary(Operation operation, int a, int b);
 
+  /// The size of what a step is the sum of: |a| + |b| for a + b and a - b, through products and quotients; it
+  /// is of the order of the step's rounding over epsilon. For the values of doubles.
+  int magnitude(int step);
+
   /// The inputs that a step depends on, ascending.
   std::vector<int> inputsOf(int step) const;
 

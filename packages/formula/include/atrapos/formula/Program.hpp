@@ -20,6 +20,7 @@ enum class Operation : int {
   multiply,
   divide,
   negate,
+  abs,
   power,    ///< a to the constant Step::number
   powerOf,  ///< a to the power b
   exp,
@@ -77,8 +78,8 @@ class Values {
 template <class T>
 ATRAPOS_NOINLINE KOKKOS_FUNCTION void execute(const Program& program, const T* in,
                                               const taylor::Passive<T>* data, Values<T>& v) {
-  using std::acos, std::asin, std::atan, std::cos, std::cosh, std::erf, std::exp, std::log, std::log10,
-      std::pow, std::sin, std::sinh, std::sqrt, std::tan, std::tanh;
+  using std::acos, std::asin, std::atan, std::cos, std::cosh, std::erf, std::exp, std::fabs, std::log,
+      std::log10, std::pow, std::sin, std::sinh, std::sqrt, std::tan, std::tanh;
   using taylor::erf;
   for (int n = 0; n < program.numSteps; ++n) {
     const Step& s = program.steps[n];
@@ -106,6 +107,9 @@ ATRAPOS_NOINLINE KOKKOS_FUNCTION void execute(const Program& program, const T* i
         break;
       case Operation::negate:
         v.set(n, T(-v[s.a]));
+        break;
+      case Operation::abs:
+        v.set(n, T(fabs(v[s.a])));
         break;
       case Operation::power:
         v.set(n, T(pow(v[s.a], s.number)));

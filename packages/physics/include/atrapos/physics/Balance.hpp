@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -48,8 +49,8 @@ enum class Place { body, surface, reference };
 void checkFormula(const std::string& text, const std::vector<std::string>& fields, const Constants& constants,
                   Place place);
 
-/// The value of a formula of the place and constants.
-double valueAt(const std::string& text, const Constants& constants, const double* position);
+/// The values of a formula of the place and constants, by position.
+std::function<double(const double*)> ofPlace(const std::string& text, const Constants& constants);
 
 /// Whether a formula depends on the load factor.
 bool dependsOnLoadFactor(const std::string& text, const std::vector<std::string>& fields,

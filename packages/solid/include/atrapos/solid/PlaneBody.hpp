@@ -42,7 +42,10 @@ std::vector<fem::PointSet> planeEdgePoints(const fem::Mesh& mesh, const fem::Sid
 std::vector<fem::LineSet> planeEdgeLines(const fem::Mesh& mesh, const fem::SideSet& set,
                                          const PlaneSection& section, int degree);
 
-/// A material of solids (H to P, 9 each; what comes behind them, in and out, stays) at planePoints.
-std::unique_ptr<fem::PointLaw> planeLaw(std::unique_ptr<fem::PointLaw> material, PlaneSection::Kind kind);
+/// A material of solids (H to P, 9 each; what comes behind them, in and out, stays, a load factor too) at
+/// planePoints.
+/// `across`: one of those behind that vanishes in the plane, a gradient's along z; -1: none.
+std::unique_ptr<fem::PointLaw> planeLaw(std::unique_ptr<fem::PointLaw> material, PlaneSection::Kind kind,
+                                        int across = -1);
 
 }  // namespace atrapos::solid

@@ -1,0 +1,129 @@
+// Keys of scalar fields and what acts on them: constants, fields, physics, inflow.
+#include "atrapos/formula/Builder.hpp"
+#include "atrapos/physics/Balance.hpp"
+#include "deck/DeckTables.hpp"
+#include "deck/Entries.hpp"
+
+namespace atrapos::deck {
+namespace {
+
+constexpr const char* formulaText = "a number or a formula";
+
+template <class S>
+Field<S> formula(std::string key, Need need, std::string S::*member, std::string meaning) {
+  return {std::move(key),
+          need == required,
+          formulaText,
+          std::move(meaning),
+          [=](const Value& v, S& s) { s.*member = v.isText() ? v.text() : yaml(v.real()); },
+          [=](const S& s) {
+            return (s.*member).empty() ? Node{} : Node{yaml(s.*member), {}};
+          }};
+}
+
+}  // namespace
+
+Field<Deck> constantsField() {
+  return {"constants",
+          false,
+          "a map of names to numbers",
+          "constants that formulas may refer to",
+          [](const Value& v, Deck& deck) {
+            if (!v.isMap() || v.isEmptyMap()) {
+              v.fail("expected a map of names to numbers, got " + v.shown());
+            }
+            for (const Value& constant : v.children()) {
+              if (!physics::isFreeName(constant.key())) {
+                constant.failKey("cannot be the name of a constant; " + std::string(freeNames));
+              }
+              deck.constants[constant.key()] = constant.real();
+            }
+          },
+          [](const Deck& deck) {
+            Node node;
+            for (const auto& [name, value] : deck.constants) {
+              node.children.emplace_back(name, Node{yaml(value), {}});
+            }
+            return node;
+          }};
+}
+
+const Table<ScalarField>& scalarFieldTable() {
+  static const Table<ScalarField> table{
+      formula("initial", required, &ScalarField::initial, "values at load factor 0, of x, y, z")};
+  return table;
+}
+
+const Variants<Physics, decltype(Physics::law)>& physicsVariants() {
+  using V = decltype(Physics::law);
+  static const Variants<Physics, V> variants{
+      "type",
+      &Physics::law,
+      {alternative<V, ScalarBalance>(
+          "balance",
+          {name("field", required, &ScalarBalance::field, "a name", "the field whose balance it is"),
+           formula("conductivity", optional, &ScalarBalance::conductivity,
+                   "flux by negative gradient: of the fields, lambda, x, y, z"),
+           formula("source", optional, &ScalarBalance::source,
+                   "amount per volume that comes up: of the same, and of gradients")},
+          [](const Value& map, const ScalarBalance&) {
+            if (!map.has("conductivity") && !map.has("source")) {
+              map.fail("says nothing; expected conductivity, source or both");
+            }
+          })},
+      {names("blocks", required, &Physics::blocks, "where it acts")}};
+  return variants;
+}
+
+Field<Material> expansionField() {
+  return formula("expansion", optional, &Material::expansion,
+                 "growth of lengths without stress: of one field, lambda, x, y, z; for "
+                 "saint_venant_kirchhoff, neo_hookean and mooney_rivlin in solids and plane bodies");
+}
+
+Field<Material> dielectricField() {
+  static const Table<ElectricField> table{
+      name("field", required, &ElectricField::field, "a name", "the electric potential"),
+      real("permittivity", required, &ElectricField::permittivity, check::positive,
+           "eps, of the deformed material")};
+  return {"dielectric",
+          false,
+          "a map with field, permittivity",
+          "an electric field acts in the material; for saint_venant_kirchhoff, neo_hookean and mooney_rivlin "
+          "in solids and plane bodies",
+          [](const Value& v, Material& m) {
+            ElectricField field;
+            read(table, v, field);
+            m.dielectric = field;
+          },
+          [](const Material& m) { return m.dielectric ? print(table, *m.dielectric) : Node{}; }};
+}
+
+Alternative<decltype(Load::load)> inflowAlternative() {
+  return alternative<decltype(Load::load), InflowLoad>(
+      "inflow", {name("set", required, &InflowLoad::set, "a side set, name or id", "where it flows in"),
+                 name("field", required, &InflowLoad::field, "the name of a field", "of what"),
+                 formula("amount", required, &InflowLoad::amount,
+                         "per area: of the fields there, lambda, x, y, z; the load factor counts where it "
+                         "says lambda")});
+}
+
+std::vector<std::string> scalarFields(const Deck& deck) {
+  std::vector<std::string> fields;
+  const auto add = [&](const std::string& field) {
+    if (std::find(fields.begin(), fields.end(), field) == fields.end()) {
+      fields.push_back(field);
+    }
+  };
+  for (const auto& entry : deck.physics) {
+    add(std::get<ScalarBalance>(entry.law).field);
+  }
+  for (const auto& material : deck.materials) {
+    if (material.dielectric) {
+      add(material.dielectric->field);
+    }
+  }
+  return fields;
+}
+
+}  // namespace atrapos::deck

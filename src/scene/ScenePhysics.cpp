@@ -1,0 +1,124 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "atrapos/formula/Builder.hpp"
+#include "atrapos/physics/Balance.hpp"
+#include "atrapos/physics/BalanceLaw.hpp"
+#include "scene/Scene.hpp"
+
+// Scalar fields of a scene: their balances, what flows in, where they begin.
+namespace atrapos {
+
+std::vector<std::string> Scene::scalarFieldsOf(int block) const {
+  const auto isIn = [&](const std::vector<std::string>& blocks) {
+    return std::any_of(blocks.begin(), blocks.end(),
+                       [&](const std::string& name) { return fem::findBlock(mesh_, name) == block; });
+  };
+  std::set<std::string> here;
+  for (const deck::Physics& entry : deck_.physics)
+    if (isIn(entry.blocks)) here.insert(std::get<deck::ScalarBalance>(entry.law).field);
+  for (const deck::Material& material : deck_.materials)
+    if (material.dielectric && isIn(material.blocks)) here.insert(material.dielectric->field);
+  std::vector<std::string> fields;
+  for (const std::string& name : deck::scalarFields(deck_))
+    if (here.count(name) > 0) fields.push_back(name);
+  return fields;
+}
+
+std::vector<std::string> Scene::scalarFieldsOf(const fem::SideSet& set) const {
+  std::set<int> blocks;
+  for (const fem::Side& side : set.sides) blocks.insert(fem::addressOf(mesh_, side.element).block);
+  std::vector<std::string> fields = deck::scalarFields(deck_);
+  for (const int block : blocks) {
+    const std::vector<std::string> here = scalarFieldsOf(block);
+    fields.erase(std::remove_if(fields.begin(), fields.end(),
+                                [&](const std::string& name) {
+                                  return std::find(here.begin(), here.end(), name) == here.end();
+                                }),
+                 fields.end());
+  }
+  return fields;
+}
+
+physics::Expansion Scene::expansionOf(const deck::Material& material, int block) const {
+  try {
+    return physics::expansionOf(material.expansion, scalarFieldsOf(block), deck_.constants);
+  } catch (const formula::FormulaError& e) {
+    fail("materials/" + material.name + "/expansion",
+         fmt::format("in block '{}' {}", mesh_.blocks[block].name, e.what()));
+  }
+}
+
+void Scene::addBalances(fem::FeModel& model) {
+  for (std::size_t b = 0; b < mesh_.blocks.size(); ++b) {
+    const fem::Block& block = mesh_.blocks[b];
+    const std::vector<std::string> fields = scalarFieldsOf(static_cast<int>(b));
+    if (fields.empty()) continue;
+    std::vector<physics::Balance> balances;
+    const deck::Physics* last = nullptr;
+    for (const deck::Physics& entry : deck_.physics) {
+      const bool here = std::any_of(entry.blocks.begin(), entry.blocks.end(), [&](const std::string& name) {
+        return fem::findBlock(mesh_, name) == static_cast<int>(b);
+      });
+      if (!here) continue;
+      const auto& law = std::get<deck::ScalarBalance>(entry.law);
+      for (const auto& text : {law.conductivity, law.source}) try {
+          physics::checkFormula(text, fields, deck_.constants, physics::Place::body);
+        } catch (const formula::FormulaError& e) {
+          fail("physics/" + entry.name, fmt::format("in block '{}' a formula {}", block.name, e.what()));
+        }
+      balances.push_back({law.field, law.conductivity, law.source});
+      last = &entry;
+    }
+    if (balances.empty()) continue;
+    if (fields.size() > physics::mostFields)
+      fail("physics/" + last->name + "/blocks",
+           fmt::format("block '{}' has {} scalar fields; expected at most {}", block.name, fields.size(),
+                       physics::mostFields));
+    try {
+      bodies_[b].balances = static_cast<int>(model.terms.size());
+      model.terms.push_back(physics::balanceTerm(mesh_, block, fields, balances, deck_.constants, plane_));
+    } catch (const formula::FormulaError& e) {
+      fail("physics/" + last->name, fmt::format("with all that acts in block '{}' {}", block.name, e.what()));
+    } catch (const std::runtime_error& e) {
+      fail("mesh/file", e.what());
+    }
+  }
+}
+
+void Scene::addInflows(fem::FeModel& model) const {
+  for (const deck::Load& load : deck_.loads) {
+    const auto* inflow = std::get_if<deck::InflowLoad>(&load.load);
+    if (inflow == nullptr) continue;
+    const fem::SideSet& set = mesh_.sideSets.at(fem::findSideSet(mesh_, inflow->set));
+    const std::vector<std::string> fields = scalarFieldsOf(set);
+    if (std::find(fields.begin(), fields.end(), inflow->field) == fields.end())
+      fail("loads/" + load.name + "/field",
+           fmt::format("a side of '{}' belongs to a block without the field '{}'", inflow->set,
+                       inflow->field));
+    try {
+      for (auto& term : physics::inflowTerms(mesh_, set, fields, {{inflow->field, inflow->amount}},
+                                             deck_.constants, plane_))
+        model.terms.push_back(std::move(term));
+    } catch (const formula::FormulaError& e) {
+      fail("loads/" + load.name + "/amount", e.what());
+    } catch (const std::runtime_error& e) {
+      fail("loads/" + load.name, e.what());
+    }
+  }
+}
+
+void Scene::setInitialValues(fem::FeModel& model) const {
+  for (const deck::ScalarField& field : deck_.fields) {
+    const int number = model.dofs.find(field.name);
+    model.initial.resize(model.dofs.numDofs(), 0.0);
+    const auto value = physics::ofPlace(field.initial, deck_.constants);
+    for (int n = 0; n < mesh_.numNodes(); ++n)
+      if (const int dof = model.dofs.dof(number, n, 0); dof >= 0)
+        model.initial[dof] = value(&mesh_.coordinates[3 * static_cast<std::size_t>(n)]);
+  }
+}
+
+}  // namespace atrapos

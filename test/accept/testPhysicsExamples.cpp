@@ -1,0 +1,195 @@
+// examples/reaction/*.yaml and examples/heat/*.yaml against closed forms and published numbers
+// (docs/physics.md).
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "support/ExampleRun.hpp"
+
+namespace atrapos::test {
+namespace {
+
+struct Point {
+  double loadFactor = 0;
+  std::map<std::string, double> monitors;
+};
+
+/// Entries of a list of the summary, "load_limits" or "points".
+std::vector<Point> pointsIn(const ExampleRun& run, const std::string& list) {
+  std::vector<Point> found;
+  for (const auto& entry : run.summary.at(list))
+    found.push_back({entry.at("load_factor"), entry.at("monitors").get<std::map<std::string, double>>()});
+  return found;
+}
+
+/// `number` to a relative accuracy.
+void expectClose(double value, double number, double accuracy) {
+  EXPECT_NEAR(value, number, accuracy * std::abs(number));
+}
+
+const double pi = std::acos(-1.0);
+
+}  // namespace
+
+/// 6.80812442258 and 1.39166120598 (shared with the table of Chebyshev collocation in the model problems);
+/// the mesh's error is 1.4e-6, and falls by 16 when it is halved: a functional of a quadratic cell.
+TEST(Bratu, FoldOnTheSquare) {
+  double error[2];
+  for (int i = 0; i < 2; ++i) {
+    const std::string n = i == 0 ? "8" : "16";
+    const ExampleRun run("reaction/bratu_square.yaml", {{"[16, 16]", "[" + n + ", " + n + "]"}});
+    const auto folds = pointsIn(run, "load_limits");
+    ASSERT_EQ(folds.size(), 1u);
+    error[i] = folds[0].loadFactor - 6.80812442258;
+    expectClose(folds[0].monitors.at("centre"), 1.39166120598, 1e-4);
+    EXPECT_LE(run.summary.at("worst_residual"), 1e-6);
+    EXPECT_LE(run.summary.at("steps"), 4);
+    // What comes up flows out through four equal sides.
+    EXPECT_LT(folds[0].monitors.at("inflow"), 0);
+  }
+  EXPECT_LT(std::abs(error[1]), 1.5e-5);
+  EXPECT_NEAR(std::log2(error[0] / error[1]), 4, 0.2);
+}
+
+/// Folds of the ball (published to six digits and more); the third one sees the centre's boundary layer, of
+/// width exp(-u/2), by the mesh.
+TEST(Bratu, FoldsOfTheBall) {
+  const ExampleRun run("reaction/bratu_ball.yaml");
+  const auto folds = pointsIn(run, "load_limits");
+  ASSERT_EQ(folds.size(), 3u);
+  expectClose(folds[0].loadFactor, 3.321992, 3e-7);
+  expectClose(folds[1].loadFactor, 1.664156, 2e-6);
+  expectClose(folds[2].loadFactor, 2.10854, 6e-4);
+  EXPECT_LE(run.summary.at("steps"), 9);
+}
+
+TEST(Bratu, FoldOfTheCube) {
+  const ExampleRun run("reaction/bratu_cube.yaml");
+  const auto folds = pointsIn(run, "load_limits");
+  ASSERT_EQ(folds.size(), 1u);
+  expectClose(folds[0].loadFactor, 9.900138, 1e-5);
+  expectClose(folds[0].monitors.at("centre"), 1.62098, 2e-4);
+}
+
+/// Two folds below e = 0.24578, where they meet at lambda = 1.3074, none above.
+TEST(Explosion, FoldsMeetInACusp) {
+  const auto folds = [](const std::string& e) {
+    return pointsIn(ExampleRun("reaction/explosion.yaml", {{"{e: 0.2}", "{e: " + e + "}"}}), "load_limits");
+  };
+  EXPECT_EQ(folds("0.2").size(), 2u);
+  const auto near = folds("0.2455");
+  ASSERT_EQ(near.size(), 2u);
+  // Near the cusp: with its distance d = 0.24578 - e the folds are apart by some d^(3/2).
+  expectClose((near[0].loadFactor + near[1].loadFactor) / 2, 1.3074, 2e-3);
+  EXPECT_TRUE(folds("0.246").empty());
+}
+
+/// The uniform state loses its stability at p = sqrt(60) sqrt(3 - sqrt 8), p = 3.5 - lambda, with a wave of
+/// two halves on this length: found on a tangent that is not symmetric, and both branches are followed.
+TEST(Schnakenberg, TuringsBifurcation) {
+  const ExampleRun run("reaction/schnakenberg.yaml");
+  const auto points = pointsIn(run, "points");
+  ASSERT_EQ(points.size(), 1u);
+  expectClose(3.5 - points[0].loadFactor, std::sqrt(60) * std::sqrt(3 - std::sqrt(8)), 1e-8);
+  EXPECT_EQ(run.summary.at("branches").size(), 3u);
+  EXPECT_EQ(run.summary.at("points")[0].at("kind"), "pitchfork");
+  EXPECT_TRUE(run.summary.at("branches_complete"));
+  EXPECT_EQ(run.summary.at("unexplained_sign_changes"), 0);
+}
+
+/// Uniform temperature: the voltage is largest at T = B/2 (1 - sqrt(1 - 4 T0/B)), whatever the other numbers
+/// are, and the current is what the load says.
+TEST(Thermistor, LargestVoltage) {
+  const ExampleRun run("heat/thermistor.yaml");
+  const Table points((run.folder.results("points.csv")).string());
+  ASSERT_EQ(points.column("voltage").size(), 1u);
+  const double T = 2000 * (1 - std::sqrt(1 - 4 * 300 / 4000.0));
+  expectClose(points.column("temperature")[0], T, 1e-8);
+  const double sigma = 2 * std::exp(-4000 * (1 / T - 1 / 300.0)), loss = 5e5 * (T - 300);
+  expectClose(points.column("voltage")[0], 0.01 * std::sqrt(loss / sigma), 1e-8);
+  const auto load = run.column("load_factor"), ground = run.column("ground");
+  for (std::size_t i = 0; i < load.size(); ++i)
+    EXPECT_NEAR(ground[i], -load[i] * 1e4 * 0.002 * 0.002, 8e-8);  // the residual's bound times the current
+}
+
+/// alpha dT = pi^2/(6 (1 + nu)) (h/a)^2 of thin plates; the solid is softer by its shear, 0.2 % here.
+TEST(HeatedPlate, Buckles) {
+  const ExampleRun run("heat/plate.yaml");
+  const auto points = pointsIn(run, "points");
+  ASSERT_EQ(points.size(), 1u);
+  expectClose(points[0].loadFactor * 1e-4, pi * pi / (6 * 1.3) * 1e-4, 5e-3);
+  EXPECT_EQ(run.summary.at("branches").size(), 3u);
+}
+
+/// Three fields, a tangent that is not symmetric, numbers of six orders of magnitude: the mean temperature
+/// V^2 sigma/(12 k) with V = 10 lambda buckles the beam at alpha T = pi^2 h^2/(3 L^2). Shear and the cells
+/// make 0.04 % of the load factor.
+TEST(JouleBeam, BucklesByItsCurrent) {
+  const ExampleRun run("heat/joule_beam.yaml");
+  const auto points = pointsIn(run, "points");
+  ASSERT_EQ(points.size(), 1u);
+  const double T = pi * pi / (3 * 100 * 100) / 1e-5;
+  expectClose(points[0].loadFactor, std::sqrt(12 * T / 2) / 10, 1e-3);
+  expectClose(points[0].monitors.at("middle_T"), 1.5 * T, 2e-3);
+  expectClose(points[0].monitors.at("current"), 2 * points[0].loadFactor * 10 / 100, 1e-6);
+  EXPECT_EQ(run.summary.at("branches").size(), 3u);
+  EXPECT_EQ(run.summary.at("unexplained_sign_changes"), 0);
+  EXPECT_TRUE(run.summary.at("branches_complete"));
+}
+
+/// Growth by exp(k lambda y) is a conformal map: the strip is an arc of curvature k lambda without stress.
+/// The error of the tip falls like that of quadratic cells.
+TEST(GrowingStrip, IsAnArcWithoutStress) {
+  double error[2];
+  for (int i = 0; i < 2; ++i) {
+    const std::string cells = i == 0 ? "[20, 2]" : "[40, 4]";
+    const ExampleRun run("heat/strip.yaml", {{"[40, 2]", cells}});
+    const auto load = run.column("load_factor"), x = run.column("tip_x"), y = run.column("tip_y");
+    error[i] = 0;
+    for (std::size_t n = 1; n < load.size(); ++n) {
+      const double k = pi / 5 * load[n], angle = 10 * k;
+      const double exact[2] = {std::sin(angle) / k - 10, (1 - std::cos(angle)) / k};
+      error[i] = std::max({error[i], std::abs(x[n] - exact[0]), std::abs(std::abs(y[n]) - exact[1])});
+    }
+  }
+  EXPECT_LT(error[1], 0.02);
+  EXPECT_GT(std::log2(error[0] / error[1]), 3);
+}
+
+/// V^2 = 8 k g^3/(27 eps A) at a third of the gap. The spring is a block of length 1000, whose strain of a
+/// third of a thousandth makes 2.5e-4 of the voltage.
+TEST(PullIn, AtAThirdOfTheGap) {
+  const ExampleRun run("electric/pull_in.yaml");
+  const auto limits = pointsIn(run, "load_limits");
+  ASSERT_EQ(limits.size(), 1u);
+  expectClose(limits[0].loadFactor, std::sqrt(8.0 / 27), 3e-4);
+  expectClose(limits[0].monitors.at("gap"), -1.0 / 3, 4e-4);
+  // Charge by voltage: the plates' distance.
+  expectClose(limits[0].monitors.at("charge"), -limits[0].loadFactor / (1 + limits[0].monitors.at("gap")),
+              1e-6);
+  EXPECT_LE(run.summary.at("steps"), 6);
+  // Stable at given voltages up to the limit point: the potentials' own negative pivots do not count.
+  const auto negative = run.column("negative_eigenvalues");
+  EXPECT_EQ(negative.front(), 0);
+  EXPECT_EQ(negative.back(), 1);
+}
+
+/// eps E^2/mu = l^-2 - l^-8, largest at l = 2^(1/3): E sqrt(eps/mu) = 0.687365, all along the path. The bulk
+/// modulus, ten thousand times the shear modulus, makes 1e-5.
+TEST(Elastomer, LimitOfTheVoltage) {
+  const ExampleRun run("electric/elastomer.yaml");
+  const auto limits = pointsIn(run, "load_limits");
+  ASSERT_EQ(limits.size(), 1u);
+  expectClose(limits[0].loadFactor, std::sqrt(std::pow(2, -2.0 / 3) - std::pow(2, -8.0 / 3)), 2e-6);
+  expectClose(1 + limits[0].monitors.at("growth"), std::cbrt(2), 1e-5);
+  const auto E = run.column("load_factor"), growth = run.column("growth");
+  for (std::size_t i = 0; i < E.size(); ++i) {
+    const double l = 1 + growth[i];
+    EXPECT_NEAR(E[i] * E[i], std::pow(l, -2) - std::pow(l, -8), 5e-5) << l;
+  }
+}
+
+}  // namespace atrapos::test
