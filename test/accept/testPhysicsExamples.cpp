@@ -140,6 +140,14 @@ TEST(JouleBeam, BucklesByItsCurrent) {
   EXPECT_TRUE(run.summary.at("branches_complete"));
 }
 
+/// Timoshenko's curvature 3/2 (alpha2 - alpha1) dT/t of two layers of equal thickness and modulus, as an arc;
+/// his strains are small, these are 2e-3 at lambda = 1.
+TEST(Bimetal, BendsToTimoshenkosCurvature) {
+  const ExampleRun run("heat/bimetal.yaml", {{"load_factor: 10", "load_factor: 1"}});
+  const double curvature = 1.5 * 1.8e-5 * 100;
+  expectClose(run.column("tip").back(), (1 - std::cos(20 * curvature)) / curvature, 3e-4);
+}
+
 /// Growth by exp(k lambda y) is a conformal map: the strip is an arc of curvature k lambda without stress.
 /// The error of the tip falls like that of quadratic cells.
 TEST(GrowingStrip, IsAnArcWithoutStress) {
@@ -175,6 +183,20 @@ TEST(PullIn, AtAThirdOfTheGap) {
   const auto negative = run.column("negative_eigenvalues");
   EXPECT_EQ(negative.front(), 0);
   EXPECT_EQ(negative.back(), 1);
+}
+
+/// A thin clamped beam over an electrode, E I w^(4) = eps V^2/(2 (g - w)^2): eps V^2 L^4/(2 E I g^3)
+/// = 70.0946 with 0.39676 of the gap in the middle (collocation with 40 and 80 points, extrapolated). Being
+/// stretched makes a gap of a tenth of the thickness 2e-4 stiffer.
+TEST(PullIn, OfAClampedBeam) {
+  const ExampleRun run("electric/electrode.yaml");
+  const auto limits = pointsIn(run, "load_limits");
+  ASSERT_EQ(limits.size(), 1u);
+  const double EI = 1e5 / 12, g = 0.1, eps = 1e-5, L = 100;
+  expectClose(limits[0].loadFactor, std::sqrt(70.0946 * 2 * EI * g * g * g / (eps * std::pow(L, 4))), 5e-4);
+  expectClose(limits[0].monitors.at("middle"), -0.39676 * g, 3e-3);
+  EXPECT_EQ(run.summary.at("bifurcation_points"), 0);
+  EXPECT_LE(run.summary.at("steps"), 15);
 }
 
 /// eps E^2/mu = l^-2 - l^-8, largest at l = 2^(1/3): E sqrt(eps/mu) = 0.687365, all along the path. The bulk
