@@ -250,52 +250,89 @@ double ElementArrays::shapeAt(const Part& part, int b, int q, int n, int c, int 
   return sum;
 }
 
-// Blocks between two fields, any numbers of components: few of all, so that no kernels are compiled for them.
+const double* ElementArrays::shapesAt(const Part& part, int b, std::vector<double>& room) const {
+  const ElementView& v = part.view;
+  const std::size_t C = part.shapeComponents, each = static_cast<std::size_t>(v.N) * C * kLanes;
+  if (!v.shared) return v.shape + static_cast<std::size_t>(b) * v.Q * each;
+  if (room.size() < v.Q * each) room.resize(v.Q * each);
+  double* to = room.data();
+  for (int q = 0; q < v.Q; ++q)
+    for (int n = 0; n < v.N; ++n)
+      for (std::size_t c = 0; c < C; ++c)
+        for (int lane = 0; lane < kLanes; ++lane) *to++ = shapeAt(part, b, q, n, static_cast<int>(c), lane);
+  return room.data();
+}
+
+bool ElementArrays::vanishes(const Part& row, const Part& column, const double* jacobian, int outputs,
+                             int inputs) const {
+  for (int q = 0; q < Q_; ++q)
+    for (int m = 0; m < row.inputs(); ++m) {
+      const double* from = jacobian + ((static_cast<std::size_t>(q) * outputs + row.firstInput + m) * inputs +
+                                       column.firstInput) *
+                                          kLanes;
+      for (int i = 0; i < column.inputs() * kLanes; ++i)
+        if (from[i] != 0) return false;
+    }
+  return true;
+}
+
+// Blocks between two fields, or between values and gradients of one; any numbers of components: no kernels
+// are compiled for all the pairs, so the lanes are what the compiler finds to vectorise.
 void ElementArrays::addMixedBlocks(int b, const Part& row, const Part& column, const double* jacobian,
                                    int outputs, int inputs, bool transposed, const TangentSink& sink) const {
+  // As between a flux and the value beside a constant conductivity.
+  if (vanishes(row, column, jacobian, outputs, inputs)) return;
   const int Dr = row.components, Dc = column.components, Cr = row.shapeComponents,
             Cc = column.shapeComponents, Ir = row.inputs();
-  std::array<double, kMaxPoints * 9 * 3> products;  // weight jacobian times the shape of a column's node
   if (Ir > 9 || Dc > 3)
     throw std::logic_error("ElementArrays: a field with too many components beside others");
+  static thread_local std::vector<double> rowRoom, columnRoom, products;
+  const double *rows = shapesAt(row, b, rowRoom), *columns = shapesAt(column, b, columnRoom), *w = weights(b);
+  products.resize(static_cast<std::size_t>(Q_) * Ir * Dc * kLanes);
   const std::size_t stride = stride_;
-  for (int lane = 0; lane < lanesIn(b); ++lane) {
-    const std::size_t entity = static_cast<std::size_t>(b) * kLanes + lane;
-    for (int nc = 0; nc < column.view.N; ++nc) {
-      for (int q = 0; q < Q_; ++q) {
-        const double w = weights(b)[q * kLanes + lane];
-        for (int m = 0; m < Ir; ++m)
-          for (int j = 0; j < Dc; ++j) {
-            const double* from = jacobian +
-                                 ((static_cast<std::size_t>(q) * outputs + row.firstInput + m) * inputs +
-                                  column.firstInput + j * Cc) *
-                                     kLanes +
-                                 lane;
-            double sum = 0;
-            for (int c = 0; c < Cc; ++c) sum += from[c * kLanes] * shapeAt(column, b, q, nc, c, lane);
-            products[(q * Ir + m) * Dc + j] = w * sum;
+  const int lanes = lanesIn(b);
+  for (int nc = 0; nc < column.view.N; ++nc) {
+    // weight jacobian times the shape of a column's node
+    for (int q = 0; q < Q_; ++q)
+      for (int m = 0; m < Ir; ++m)
+        for (int j = 0; j < Dc; ++j) {
+          const double* from =
+              jacobian + ((static_cast<std::size_t>(q) * outputs + row.firstInput + m) * inputs +
+                          column.firstInput + j * Cc) *
+                             kLanes;
+          const double* shape = columns + (static_cast<std::size_t>(q) * column.view.N + nc) * Cc * kLanes;
+          double sum[kLanes] = {};
+          for (int c = 0; c < Cc; ++c)
+            for (int lane = 0; lane < kLanes; ++lane)
+              sum[lane] += from[c * kLanes + lane] * shape[c * kLanes + lane];
+          double* to = &products[((static_cast<std::size_t>(q) * Ir + m) * Dc + j) * kLanes];
+          for (int lane = 0; lane < kLanes; ++lane) to[lane] = w[q * kLanes + lane] * sum[lane];
+        }
+    for (int nr = 0; nr < row.view.N; ++nr)
+      for (int i = 0; i < Dr; ++i)
+        for (int j = 0; j < Dc; ++j) {
+          double sum[kLanes] = {};
+          for (int q = 0; q < Q_; ++q) {
+            const double* shape = rows + (static_cast<std::size_t>(q) * row.view.N + nr) * Cr * kLanes;
+            for (int k = 0; k < Cr; ++k) {
+              const double* by =
+                  &products[((static_cast<std::size_t>(q) * Ir + i * Cr + k) * Dc + j) * kLanes];
+              for (int lane = 0; lane < kLanes; ++lane) sum[lane] += shape[k * kLanes + lane] * by[lane];
+            }
           }
-      }
-      const int columnDof = column.dofs(entity * column.view.N + nc);
-      for (int nr = 0; nr < row.view.N; ++nr) {
-        const int rowDof = row.dofs(entity * row.view.N + nr);
-        const std::size_t a = row.firstNode + nr, c = column.firstNode + nc;
-        const std::size_t position =
-            positions_((entity * stride + (transposed ? c : a)) * stride + (transposed ? a : c)) +
-            (transposed ? row.columnOffset(entity, nr) : column.columnOffset(entity, nc));
-        for (int i = 0; i < Dr; ++i)
-          for (int j = 0; j < Dc; ++j) {
-            double sum = 0;
-            for (int q = 0; q < Q_; ++q)
-              for (int k = 0; k < Cr; ++k)
-                sum += shapeAt(row, b, q, nr, k, lane) * products[(q * Ir + i * Cr + k) * Dc + j];
+          for (int lane = 0; lane < lanes; ++lane) {
+            const std::size_t entity = static_cast<std::size_t>(b) * kLanes + lane;
+            const std::size_t a = row.firstNode + nr, c = column.firstNode + nc;
+            const std::size_t position =
+                positions_((entity * stride + (transposed ? c : a)) * stride + (transposed ? a : c)) +
+                (transposed ? row.columnOffset(entity, nr) : column.columnOffset(entity, nc));
             if (transposed)
-              sink.values(sink.rowStart(columnDof + j) + position + i) += sum;
+              sink.values(sink.rowStart(column.dofs(entity * column.view.N + nc) + j) + position + i) +=
+                  sum[lane];
             else
-              sink.values(sink.rowStart(rowDof + i) + position + j) += sum;
+              sink.values(sink.rowStart(row.dofs(entity * row.view.N + nr) + i) + position + j) += sum[lane];
           }
-      }
-    }
+        }
   }
 }
 

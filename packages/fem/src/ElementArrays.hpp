@@ -95,6 +95,10 @@ class ElementArrays {
   int fieldAt(const Part& part, const DofMap& dofs, int node) const;
   int balanceAt(const Part& part, const DofMap& dofs, int node) const;
   double shapeAt(const Part& part, int b, int q, int n, int c, int lane) const;
+  /// [q][node][component][lane] of a batch, in `room` where they are not kept so.
+  const double* shapesAt(const Part& part, int b, std::vector<double>& room) const;
+  /// Whether a law's jacobian has nothing between two parts, at any point.
+  bool vanishes(const Part& row, const Part& column, const double* jacobian, int outputs, int inputs) const;
   void addMixedBlocks(int b, const Part& row, const Part& column, const double* jacobian, int outputs,
                       int inputs, bool transposed, const TangentSink& sink) const;
   std::vector<int> padded(const std::vector<int>& of, int count) const;
