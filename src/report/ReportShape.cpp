@@ -128,7 +128,10 @@ Room roomFor(std::size_t states, std::size_t fields, std::size_t displacementByt
 class Shape {
  public:
   Shape(const Results& first, std::size_t bytes, std::size_t allStates)
-      : mesh_(first.mesh()), surface_(surfaceOf(mesh_)), fields_(fieldsOf(first)) {
+      : mesh_(first.mesh()),
+        surface_(surfaceOf(mesh_)),
+        fields_(fieldsOf(first)),
+        moves_(hasDisplacements(first)) {
     const std::size_t largest = 4 * std::max<std::size_t>(surface_.nodes.size(), mesh_.numElements());
     room_ = roomFor(allStates, fields_.size(), 12 * surface_.nodes.size(), largest, bytes);
   }
@@ -141,6 +144,7 @@ class Shape {
     for (const int node : surface_.nodes)
       for (int c = 0; c < 3; ++c) rest.push_back(static_cast<float>(mesh_.coordinates[3 * node + c]));
     nlohmann::json json{{"dimension", mesh_.dimension},
+                        {"moves", moves_},
                         {"positions", atrapos::base64(rest)},
                         {"triangles", base64(surface_.triangles)},
                         {"triangle_elements", base64(surface_.triangleElements)},
@@ -176,7 +180,7 @@ class Shape {
     std::vector<float> u(3 * surface_.nodes.size());
     const auto& theirs = results.mesh().coordinates;
     for (int c = 0; c < 3; ++c) {
-      const bool flat = c == 2 && mesh_.dimension == 2;
+      const bool flat = !moves_ || (c == 2 && mesh_.dimension == 2);
       const auto all =
           flat ? std::vector<double>(mesh_.numNodes(), 0.0) : results.nodal(step, kDisplacements[c]);
       for (std::size_t n = 0; n < surface_.nodes.size(); ++n) {
@@ -190,6 +194,7 @@ class Shape {
   const fem::Mesh& mesh_;
   Surface surface_;
   std::vector<Field> fields_;
+  bool moves_;  ///< whether there are displacements
   Room room_;
 };
 
@@ -221,7 +226,7 @@ nlohmann::json shapeOf(const std::vector<ShapeFile>& files, std::size_t bytes,
   for (const ShapeFile& file : files) {
     if (!Results::isThere(file.file)) continue;
     Results results(file.file);
-    if (results.numSteps() == 0 || !hasDisplacements(results)) continue;
+    if (results.numSteps() == 0 || (!hasDisplacements(results) && fieldsOf(results).empty())) continue;
     if (!all.empty() && !isLike(all.front().second, results)) {
       notes.push_back(fmt::format("{} is not shown in space: its results are on another mesh", file.name));
       continue;

@@ -304,7 +304,7 @@ function deckSection() {
 document.head.append(element("style", {}, style));
 head();
 pathSection();
-if (data.shape) showShape(section("Deformed shape"));
+if (data.shape) showShape(section(data.shape.moves ? "Deformed shape" : "Body"));
 pointsSection();
 branchesSection();
 stepsSection();

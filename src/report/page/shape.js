@@ -116,7 +116,8 @@ export function showShape(parent) {
   branches.forEach((b, i) => branchChoice.append(element("option", { value: i }, b.name)));
   const slider = element("input", { type: "range", id: "shape-state", min: 0, value: 0, step: 1, "aria-label": "state along the path" });
   const field = element("select", { id: "shape-field" });
-  for (const name of [kSize, ...shape.fields.map((f) => f.name), kNone]) field.append(element("option", { value: name }, name));
+  const names = shape.fields.map((f) => f.name);
+  for (const name of [...(shape.moves ? [kSize] : []), ...names, kNone]) field.append(element("option", { value: name }, name));
   const scale = element("input", { id: "shape-scale", type: "number", value: 1, step: "any", min: 0 });
   const edges = element("input", { type: "checkbox", checked: "" });
   const undeformed = element("input", { type: "checkbox" });
@@ -129,9 +130,9 @@ export function showShape(parent) {
       element("label", {}, "path ", branchChoice),
       element("label", { class: "wide" }, "state ", slider),
       element("label", {}, "colour ", field),
-      element("label", {}, "displacements times ", scale),
+      ...(shape.moves ? [element("label", {}, "displacements times ", scale)] : []),
       element("label", {}, edges, " edges"),
-      element("label", {}, undeformed, " undeformed"),
+      ...(shape.moves ? [element("label", {}, undeformed, " undeformed")] : []),
     ),
     says,
     canvas,

@@ -141,7 +141,8 @@ TEST(Evenly, WithBothEnds) {
 }
 
 /// A folder of results with so many states of a box, x displaced by the state's number.
-void writeResults(const std::filesystem::path& folder, int states, const fem::Mesh& mesh) {
+/// With moves = false without displacements, in their place fields of these values.
+void writeResults(const std::filesystem::path& folder, int states, const fem::Mesh& mesh, bool moves = true) {
   writeFile(folder / "points.csv", pointHeader({"u"}) + "\n");
   std::string rows = pathHeader({"u"}) + "\n";
   for (int s = 0; s < states; ++s) {
@@ -156,6 +157,7 @@ void writeResults(const std::filesystem::path& folder, int states, const fem::Me
   writeFile(folder / "path.csv", rows);
   exodus::ResultNames names;
   names.nodal = {"displ_x", "displ_y", "displ_z", "heat"};
+  if (!moves) names.nodal = {"u", "v", "w", "heat"};
   names.element = {"stress_xx"};
   names.global = {"load_factor"};
   exodus::ResultWriter writer((folder / "results.exo").string(), mesh, names);
@@ -176,6 +178,7 @@ TEST(ReportData, StatesOfTheBody) {
   const nlohmann::json data = reportData(folder.path().string());
   const auto& shape = data.at("shape");
   EXPECT_EQ(shape.at("dimension"), 3);
+  EXPECT_TRUE(shape.at("moves"));
   ASSERT_EQ(shape.at("fields").size(), 2u);
   EXPECT_EQ(shape.at("fields")[0], (nlohmann::json{{"name", "heat"}, {"of", "node"}}));
   EXPECT_EQ(shape.at("fields")[1], (nlohmann::json{{"name", "stress_xx"}, {"of", "element"}}));
@@ -189,6 +192,21 @@ TEST(ReportData, StatesOfTheBody) {
   EXPECT_EQ(states[0].at("fields")[1], base64(std::vector<float>(8, 7)));
   EXPECT_TRUE(data.at("notes").empty());
   EXPECT_FALSE(data.contains("summary"));  // as of a run that was killed
+}
+
+/// What does not move is shown at rest, by its fields.
+TEST(ReportData, BodiesWithoutDisplacements) {
+  const TemporaryFolder folder;
+  fem::BoxOptions options;
+  options.divisions = {2, 2, 2};
+  writeResults(folder.path(), 3, fem::boxMesh(options), false);
+  const nlohmann::json data = reportData(folder.path().string());
+  const auto& shape = data.at("shape");
+  EXPECT_FALSE(shape.at("moves"));
+  EXPECT_EQ(shape.at("fields").size(), 5u);
+  const auto& state = shape.at("branches").at(0).at("states").at(2);
+  EXPECT_EQ(state.at("displacement"), base64(std::vector<float>(3 * 26, 0)));
+  EXPECT_EQ(state.at("fields")[0], base64(std::vector<float>(26, 2)));
 }
 
 TEST(ReportData, WhatIsThinnedIsSaid) {
