@@ -2,7 +2,9 @@
 
 #include "Inputs.hpp"
 #include "Laws.hpp"
+#include "OperationCount.hpp"
 #include "atrapos/contact/ContactLaw.hpp"
+#include "atrapos/formula/Parse.hpp"
 #include "atrapos/solid/Gent.hpp"
 #include "atrapos/solid/MooneyRivlin.hpp"
 #include "atrapos/solid/NeoHookean.hpp"
@@ -17,9 +19,48 @@ inline Domain gradients() {
   return {std::vector<double>(9, 0.0), std::vector<double>(9, 0.1), std::vector<double>(9, 0.1), 0.0};
 }
 
-/// Calls f(name, law, domain) for the solids' laws of rubber, which peers do not run.
+/// Bratu's balance, -div grad u = lambda exp(u), as a template and as a formula that is read when the program
+/// runs. in: grad u (3), u, lambda; out: grad u, minus the source.
+struct BratuTemplate {
+  static constexpr int numInputs = 5, numOutputs = 4, numData = 0;
+
+  template <class T>
+  KOKKOS_INLINE_FUNCTION void operator()(const T* in, const taylor::Passive<T>*, T* out) const {
+    using std::exp;
+    for (int i = 0; i < 3; ++i) out[i] = in[i];
+    out[3] = T(-(in[4] * exp(in[3])));
+  }
+};
+struct BratuFormula {
+  static constexpr int numInputs = 5, numOutputs = 4, numData = 0;
+  formula::Program program;
+
+  BratuFormula() {
+    formula::Builder builder;
+    const formula::Symbols symbols{{{"u", builder.input(3)}, {"lambda", builder.input(4)}}, {}};
+    program = builder.program(
+        {formula::parse("1", symbols, builder), formula::parse("lambda*exp(u)", symbols, builder)});
+  }
+  template <class T>
+  KOKKOS_INLINE_FUNCTION void operator()(const T* in, const taylor::Passive<T>* data, T* out) const {
+    T result[2];
+    formula::evaluate(program, in, data, result);
+    for (int i = 0; i < 3; ++i) out[i] = T(result[0] * in[i]);
+    out[3] = T(-result[1]);
+  }
+  /// What is useful of it is what the template does.
+  void operator()(const Counted* in, const double* data, Counted* out) const {
+    BratuTemplate{}(in, data, out);
+  }
+};
+
+/// Calls f(name, law, domain) for laws that peers do not run: the solids' of rubber, formulas.
 template <class F>
-void forEachRubber(const F& f) {
+void forEachAlone(const F& f) {
+  const Domain balance{std::vector<double>(5, 0.5), std::vector<double>(5, 0.1), std::vector<double>(5, 0.1),
+                       0.0};
+  f("template_bratu", BratuTemplate{}, balance);
+  f("formula_bratu", BratuFormula{}, balance);
   f("rubber_neo_hookean", solid::NeoHookean::fromModuli(0.8, 1.7), gradients());
   f("rubber_yeoh", solid::Yeoh::fromModuli(0.4, -0.02, 0.01, 1.7), gradients());
   f("rubber_gent", solid::Gent::fromModuli(0.8, 20, 1.7), gradients());

@@ -156,7 +156,7 @@ std::vector<std::string> methodNames() {
 std::vector<std::string> lawNames() {
   std::vector<std::string> names;
   forEachCase([&](const char* name, const auto&, const auto&, const Domain&) { names.push_back(name); });
-  forEachRubber([&](const char* name, const auto&, const Domain&) { names.push_back(name); });
+  forEachAlone([&](const char* name, const auto&, const Domain&) { names.push_back(name); });
   return names;
 }
 
@@ -164,7 +164,7 @@ std::vector<Job> makeJobs(const Selection& selection) {
   std::vector<Job> jobs;
   const Factory factory(selection, jobs);
   forEachCase(factory);
-  forEachRubber(factory);
+  forEachAlone(factory);
   return jobs;
 }
 
