@@ -2,7 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
 #include <string>
+#include <vector>
 
 #include "atrapos/formula/Parse.hpp"
 
@@ -97,6 +99,59 @@ TEST(Parse, LongFormulasAreRefusedAndDeepOnesRead) {
   for (int i = 2; i < 120; ++i) sum += "+u^" + std::to_string(i);
   EXPECT_EQ(refusalOf(sum), "is too long: formulas that act together may have 96 operations");
   EXPECT_EQ(valueOf(std::string(900, '(') + "u" + std::string(900, ')')), u);
+}
+
+/// Whatever stands in a deck: a formula, or one line that says why not.
+TEST(Parse, StrangeTextsAreRefusedInOneLine) {
+  const std::vector<std::string> pieces{"u",
+                                        "lambda",
+                                        "(",
+                                        ")",
+                                        "+",
+                                        "-",
+                                        "*",
+                                        "/",
+                                        "^",
+                                        "**",
+                                        ",",
+                                        "exp(",
+                                        "dot(",
+                                        "grad(",
+                                        "pow(",
+                                        "1",
+                                        "2.5e3",
+                                        ".",
+                                        "e",
+                                        " ",
+                                        "\n",
+                                        "\t",
+                                        "x",
+                                        "`",
+                                        "$(",
+                                        "\"",
+                                        "\\",
+                                        "\xc3\xa4",
+                                        std::string(1, '\0'),
+                                        "pi",
+                                        "1e400",
+                                        "[",
+                                        "}"};
+  std::mt19937 random(7);
+  int read = 0;
+  for (int trial = 0; trial < 20000; ++trial) {
+    std::string text;
+    for (std::size_t i = random() % 12 + 1; i > 0; --i) text += pieces[random() % pieces.size()];
+    try {
+      valueOf(text);
+      ++read;
+    } catch (const FormulaError& e) {
+      // A line end of the text's own is refused before, where decks are read.
+      if (text.find('\n') == std::string::npos) {
+        EXPECT_EQ(std::string(e.what()).find('\n'), std::string::npos) << e.what();
+      }
+    }
+  }
+  EXPECT_GT(read, 100);
 }
 
 TEST(Builder, SharesCommonParts) {
