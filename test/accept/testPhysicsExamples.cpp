@@ -55,15 +55,14 @@ TEST(Bratu, FoldOnTheSquare) {
   EXPECT_NEAR(std::log2(error[0] / error[1]), 4, 0.2);
 }
 
-/// Folds of the ball (published to six digits and more); the third one sees the centre's boundary layer, of
-/// width exp(-u/2), by the mesh.
+/// Folds of the ball, published to six digits. The mesh's error grows with the load's rise in the centre.
 TEST(Bratu, FoldsOfTheBall) {
   const ExampleRun run("reaction/bratu_ball.yaml");
   const auto folds = pointsIn(run, "load_limits");
   ASSERT_EQ(folds.size(), 3u);
   expectClose(folds[0].loadFactor, 3.321992, 3e-7);
   expectClose(folds[1].loadFactor, 1.664156, 2e-6);
-  expectClose(folds[2].loadFactor, 2.10854, 6e-4);
+  expectClose(folds[2].loadFactor, 2.10854, 5e-6);
   EXPECT_LE(run.summary.at("steps"), 9);
 }
 
