@@ -145,7 +145,7 @@ export class Chart {
       .join((enter) => {
         const g = enter.append("g").attr("class", "mark");
         g.append("path");
-        g.append("text").attr("dx", 9).attr("dy", -7);
+        g.append("text").attr("dx", 9);
         return g;
       });
     marks.attr("transform", (m) => `translate(${x(m.x)},${y(m.y)})`);
@@ -155,7 +155,12 @@ export class Chart {
       .attr("fill", (m) => (m.square ? "#111" : "#fff"))
       .attr("stroke", "#111")
       .attr("stroke-width", 1.6);
-    marks.select("text").text((m) => m.text);
+    // Above the mark, below it where the frame would cut it off.
+    const top = Math.min(...y.range());
+    marks
+      .select("text")
+      .attr("dy", (m) => (y(m.y) - top < 18 ? 17 : -7))
+      .text((m) => m.text);
     this.show(this.chosen, this.choice);
   }
 
