@@ -324,10 +324,8 @@ struct FeProblem::Impl {
       }
     }
     Kokkos::deep_copy(sum, 0.0);
-    const DofView start("start", value.extent(0)), first = initial, held = value;
-    Kokkos::parallel_for(
-        "start", Kokkos::RangePolicy<Execution>(0, start.size()),
-        KOKKOS_LAMBDA(int d) { start(d) = first(d) + held(d); });
+    const DofView start("start", value.extent(0));
+    setStart(0, start);
     const TangentSink sink{rowStart, entries, sum};
     ranks->together([&] {
       for (const auto& term : model.terms)
@@ -346,6 +344,14 @@ struct FeProblem::Impl {
     const Sizes rounding = forcesOfRounding();
     for (std::size_t b = 0; b < size.size(); ++b)
       if (size[b] == 0 && std::isfinite(rounding[b])) scaleFloor[b] = std::max(scaleFloor[b], rounding[b]);
+  }
+
+  /// The unknowns before any load acts, the first out.size() of this rank's.
+  void setStart(double lambda, const DofView& out) const {
+    const DofView first = initial, held = value, per = rate;
+    Kokkos::parallel_for(
+        "start", Kokkos::RangePolicy<Execution>(0, out.size()),
+        KOKKOS_LAMBDA(int d) { out(d) = first(d) + held(d) + lambda * per(d); });
   }
 
   /// Sizes of the forces of terms that do not see lambda where places are off by their rounding, from node to
@@ -799,10 +805,7 @@ path::State FeProblem::settled(const path::State& state) {
 
 RCP<Vector> FeProblem::initialState(double lambda) const {
   auto u = rcp(new Vector(impl_->map));
-  const DofView out = writable(*u), initial = impl_->initial, value = impl_->value, rate = impl_->rate;
-  Kokkos::parallel_for(
-      "initialState", Kokkos::RangePolicy<Execution>(0, out.size()),
-      KOKKOS_LAMBDA(int d) { out(d) = initial(d) + value(d) + lambda * rate(d); });
+  impl_->setStart(lambda, writable(*u));
   return u;
 }
 

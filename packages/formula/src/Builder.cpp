@@ -122,24 +122,7 @@ int Builder::magnitude(int step) {
   }
 }
 
-std::vector<int> Builder::inputsOf(int step) const {
-  std::vector<char> needed(step + 1, 0);
-  needed[step] = 1;
-  std::vector<int> inputs;
-  for (int n = step; n >= 0; --n) {
-    const Step& s = steps_[n];
-    if (!needed[n]) continue;
-    if (s.operation == Operation::input) inputs.push_back(s.a);
-    if (s.operation <= Operation::datum) continue;
-    needed[s.a] = 1;
-    if (isBinary(s.operation)) needed[s.b] = 1;
-  }
-  std::sort(inputs.begin(), inputs.end());
-  return inputs;
-}
-
-Program Builder::program(const std::vector<int>& results) const {
-  if (results.size() > Program::maxResults) throw std::logic_error("formula: too many results");
+std::vector<char> Builder::neededFor(const std::vector<int>& results) const {
   std::vector<char> needed(steps_.size(), 0);
   for (const int r : results) needed[r] = 1;
   for (std::size_t n = steps_.size(); n-- > 0;) {
@@ -148,6 +131,21 @@ Program Builder::program(const std::vector<int>& results) const {
     needed[s.a] = 1;
     if (isBinary(s.operation)) needed[s.b] = 1;
   }
+  return needed;
+}
+
+std::vector<int> Builder::inputsOf(int step) const {
+  const std::vector<char> needed = neededFor({step});
+  std::vector<int> inputs;
+  for (std::size_t n = 0; n < steps_.size(); ++n)
+    if (needed[n] && steps_[n].operation == Operation::input) inputs.push_back(steps_[n].a);
+  std::sort(inputs.begin(), inputs.end());
+  return inputs;
+}
+
+Program Builder::program(const std::vector<int>& results) const {
+  if (results.size() > Program::maxResults) throw std::logic_error("formula: too many results");
+  const std::vector<char> needed = neededFor(results);
   Program program;
   std::vector<int> place(steps_.size(), 0);
   for (std::size_t n = 0; n < steps_.size(); ++n) {

@@ -85,9 +85,11 @@ Teuchos::ReaderTablesPtr readerTables() {
   return made;
 }
 
-std::string joined(const std::vector<std::string>& words) {
+/// "a, b, c", the keys of a map.
+template <class Map>
+std::string namesIn(const Map& map) {
   std::string all;
-  for (const std::string& w : words) all += (all.empty() ? "" : ", ") + w;
+  for (const auto& entry : map) all += (all.empty() ? "" : ", ") + entry.first;
   return all;
 }
 
@@ -178,18 +180,14 @@ class FormulaReader final : public Teuchos::Reader {
   int scalar(const Operand& operand) const {
     if (operand.gradient != nullptr)
       throw FormulaError("has a gradient where a number must be; expected dot(grad(a), grad(b))");
-    if (operand.step < 0) throw FormulaError("has the name of a field that is known by its gradient alone");
     return operand.step;
   }
 
-  /// A name; one that only has a gradient is an operand without a step.
   int variable(const std::string& text) {
     if (const auto known = symbols_.scalars.find(text); known != symbols_.scalars.end())
       return put(known->second);
     if (text == "pi") return put(builder_.number(std::acos(-1.0)));
-    std::vector<std::string> names;
-    for (const auto& entry : symbols_.scalars) names.push_back(entry.first);
-    throw FormulaError("does not know '" + text + "'; known are " + joined(names) + ", pi");
+    throw FormulaError("does not know '" + text + "'; known are " + namesIn(symbols_.scalars) + ", pi");
   }
 
   int call(const std::string& function, const std::vector<int>& arguments) {
@@ -211,11 +209,9 @@ class FormulaReader final : public Teuchos::Reader {
           operands_.push_back({-1, &gradient});
           return static_cast<int>(operands_.size()) - 1;
         }
-      std::vector<std::string> fields;
-      for (const auto& entry : symbols_.gradients) fields.push_back(entry.first);
-      throw FormulaError(fields.empty()
-                             ? "has grad where no field has a gradient"
-                             : "has grad of something that is no field; expected " + joined(fields));
+      throw FormulaError(symbols_.gradients.empty() ? "has grad where no field has a gradient"
+                                                    : "has grad of something that is no field; expected " +
+                                                          namesIn(symbols_.gradients));
     }
     if (function == "dot") {
       require(2);
@@ -228,12 +224,9 @@ class FormulaReader final : public Teuchos::Reader {
       return put(sum);
     }
     const auto known = functions().find(function);
-    if (known == functions().end()) {
-      std::vector<std::string> names;
-      for (const auto& entry : functions()) names.push_back(entry.first);
-      throw FormulaError("does not know the function '" + function + "'; known are " + joined(names) +
+    if (known == functions().end())
+      throw FormulaError("does not know the function '" + function + "'; known are " + namesIn(functions()) +
                          ", pow, dot, grad");
-    }
     require(1);
     return put(builder_.unary(known->second, scalar(operands_[arguments[0]])));
   }

@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "FormulaInputs.hpp"
 #include "atrapos/fem/LawTerm.hpp"
 #include "atrapos/fem/ReducedLaw.hpp"
 #include "atrapos/fem/ReferenceCell.hpp"
@@ -14,41 +15,10 @@
 namespace atrapos::physics {
 namespace {
 
+using detail::Layout, detail::layoutOf, detail::symbols;
 using formula::Builder;
 using formula::Operation;
 using formula::Symbols;
-
-/// Where the inputs of the laws are.
-struct Layout {
-  Place place;
-  int fields;
-  int value(int f) const { return place == Place::body ? 4 * f + 3 : f; }
-  int gradient(int f, int i) const { return 4 * f + i; }
-  int loadFactor() const { return place == Place::body ? 4 * fields : fields; }
-  /// The field that an input belongs to; -1: the load factor.
-  int fieldOf(int input) const {
-    return input == loadFactor() ? -1 : place == Place::body ? input / 4 : input;
-  }
-};
-
-Symbols symbols(const std::vector<std::string>& fields, const Constants& constants, const Layout& layout,
-                Builder& builder) {
-  Symbols s;
-  for (int i = 0; i < 3; ++i) s.scalars[std::string(1, "xyz"[i])] = builder.datum(i);
-  for (const auto& [name, value] : constants) s.scalars[name] = builder.number(value);
-  if (layout.place == Place::reference) return s;
-  s.scalars["lambda"] = builder.input(layout.loadFactor());
-  for (int f = 0; f < layout.fields; ++f) {
-    s.scalars[fields[f]] = builder.input(layout.value(f));
-    if (layout.place == Place::body)
-      for (int i = 0; i < 3; ++i) s.gradients[fields[f]].push_back(builder.input(layout.gradient(f, i)));
-  }
-  return s;
-}
-
-Layout layoutOf(const std::vector<std::string>& fields, Place place) {
-  return {place, static_cast<int>(fields.size())};
-}
 
 /// The formulas of a law together: for each field the sums of what is said of it.
 struct Formulas {
@@ -69,8 +39,12 @@ struct Formulas {
     results[result] = builder.binary(Operation::add, results[result], formula::parse(text, known, builder));
   }
   formula::Program program() const { return builder.program(results); }
-  /// A result becomes the size of what it is the sum of.
-  void takeMagnitude(int result) { results[result] = builder.magnitude(results[result]); }
+  /// The same with the size of what they are the sums of in place of these results.
+  formula::Program magnitudes(const std::vector<int>& of) {
+    std::vector<int> sizes = results;
+    for (const int r : of) sizes[r] = builder.magnitude(results[r]);
+    return builder.program(sizes);
+  }
   /// Whether a result depends on fields other than this one; -1: on any.
   bool dependsOnOthers(int result, int field) const {
     const std::vector<int> inputs = builder.inputsOf(results[result]);
@@ -87,19 +61,27 @@ int positionOf(const std::string& field, const std::vector<std::string>& fields)
   return static_cast<int>(at - fields.begin());
 }
 
-/// make(std::integral_constant<int, count>) for 1 <= count <= mostFields.
-template <class Make>
-std::unique_ptr<fem::PointLaw> withFields(int count, const Make& make) {
-  switch (count) {
-    case 1:
-      return make(std::integral_constant<int, 1>{});
-    case 2:
-      return make(std::integral_constant<int, 2>{});
-    case 3:
-      return make(std::integral_constant<int, 3>{});
-    default:
-      return make(std::integral_constant<int, 4>{});
-  }
+/// The programs of a law, and whether its tangent is symmetric.
+struct Programs {
+  formula::Program values, magnitudes;
+  bool symmetric = true;
+};
+
+template <class Law>
+std::unique_ptr<fem::PointLaw> lawOf(const Programs& programs) {
+  Law law;
+  law.symmetric = programs.symmetric;
+  law.program = programs.values;
+  law.magnitudes = programs.magnitudes;
+  return fem::pointLaw(law);
+}
+template <template <int> class Law>
+std::unique_ptr<fem::PointLaw> lawOf(int fields, const Programs& programs) {
+  static_assert(mostFields == 4);
+  return fields == 1   ? lawOf<Law<1>>(programs)
+         : fields == 2 ? lawOf<Law<2>>(programs)
+         : fields == 3 ? lawOf<Law<3>>(programs)
+                       : lawOf<Law<4>>(programs);
 }
 
 /// A law in space at points of a plane.
@@ -197,19 +179,16 @@ std::unique_ptr<fem::Term> balanceTerm(const fem::Mesh& mesh, const fem::Block& 
     formulas.add(2 * f, b.conductivity);
     formulas.add(2 * f + 1, b.source);
   }
-  bool symmetric = true;
-  for (int f = 0; f < count; ++f)
-    symmetric = symmetric && !formulas.dependsOnOthers(2 * f, -1) && !formulas.dependsOnOthers(2 * f + 1, f);
-  const formula::Program program = formulas.program();
-  for (int f = 0; f < count; ++f) formulas.takeMagnitude(2 * f + 1);
-  const formula::Program magnitudes = formulas.program();
-  auto law = withFields(count, [&](auto n) {
-    BalanceLaw<decltype(n)::value> balance;
-    balance.symmetric = symmetric;
-    balance.program = program;
-    balance.magnitudes = magnitudes;
-    return fem::pointLaw(balance);
-  });
+  Programs programs;
+  std::vector<int> sources;
+  for (int f = 0; f < count; ++f) {
+    programs.symmetric =
+        programs.symmetric && !formulas.dependsOnOthers(2 * f, -1) && !formulas.dependsOnOthers(2 * f + 1, f);
+    sources.push_back(2 * f + 1);
+  }
+  programs.values = formulas.program();
+  programs.magnitudes = formulas.magnitudes(sources);
+  auto law = lawOf<BalanceLaw>(count, programs);
 
   const fem::Tabulation cell = cellOf(block.topology);
   fem::PointSet points = gradientPoints(mesh, block, cell, plane);
@@ -230,11 +209,14 @@ std::vector<std::unique_ptr<fem::Term>> inflowTerms(const fem::Mesh& mesh, const
   const int count = static_cast<int>(fields.size());
   Formulas formulas(fields, constants, Place::surface, 1);
   for (const Inflow& inflow : inflows) formulas.add(positionOf(inflow.field, fields), inflow.amount);
-  bool symmetric = true;
-  for (int f = 0; f < count; ++f) symmetric = symmetric && !formulas.dependsOnOthers(f, f);
-  const formula::Program program = formulas.program();
-  for (int f = 0; f < count; ++f) formulas.takeMagnitude(f);
-  const formula::Program magnitudes = formulas.program();
+  Programs programs;
+  std::vector<int> all;
+  for (int f = 0; f < count; ++f) {
+    programs.symmetric = programs.symmetric && !formulas.dependsOnOthers(f, f);
+    all.push_back(f);
+  }
+  programs.values = formulas.program();
+  programs.magnitudes = formulas.magnitudes(all);
 
   constexpr int degree = 5;  // three points along an edge of degree 2
   std::vector<std::unique_ptr<fem::Term>> terms;
@@ -247,14 +229,7 @@ std::vector<std::unique_ptr<fem::Term>> inflowTerms(const fem::Mesh& mesh, const
       of.field = fields[f];
       points.more.push_back(std::move(of));
     }
-    auto law = withFields(count, [&](auto n) {
-      InflowLaw<decltype(n)::value> inflow;
-      inflow.symmetric = symmetric;
-      inflow.program = program;
-      inflow.magnitudes = magnitudes;
-      return fem::pointLaw(inflow);
-    });
-    terms.push_back(fem::lawTerm(std::move(law), points, points.positions));
+    terms.push_back(fem::lawTerm(lawOf<InflowLaw>(count, programs), points, points.positions));
   }
   return terms;
 }

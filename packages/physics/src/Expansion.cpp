@@ -1,19 +1,16 @@
 #include "atrapos/physics/Expansion.hpp"
 
-#include "atrapos/formula/Parse.hpp"
+#include "FormulaInputs.hpp"
 
 namespace atrapos::physics {
 
 Expansion expansionOf(const std::string& text, const std::vector<std::string>& fields,
                       const Constants& constants) {
   formula::Builder builder;
-  const int lambda = static_cast<int>(fields.size());
-  formula::Symbols symbols;
-  for (int i = 0; i < 3; ++i) symbols.scalars[std::string(1, "xyz"[i])] = builder.datum(i);
-  for (const auto& [name, value] : constants) symbols.scalars[name] = builder.number(value);
-  for (int f = 0; f < lambda; ++f) symbols.scalars[fields[f]] = builder.input(f);
-  symbols.scalars["lambda"] = builder.input(lambda);
-  const int result = formula::parse(text, symbols, builder);
+  // Values and no gradients, as on a surface.
+  const detail::Layout layout = detail::layoutOf(fields, Place::surface);
+  const int lambda = layout.loadFactor();
+  const int result = formula::parse(text, detail::symbols(fields, constants, layout, builder), builder);
 
   Expansion expansion;
   for (const int input : builder.inputsOf(result)) {

@@ -41,6 +41,8 @@ class Builder {
   bool isNumber(int step) const { return steps_[step].operation == Operation::number; }
   bool isNumber(int step, double value) const { return isNumber(step) && steps_[step].number == value; }
   int add(const Step& step);
+  /// [step] 1 where the results need it.
+  std::vector<char> neededFor(const std::vector<int>& results) const;
 
   std::vector<Step> steps_;
 };
