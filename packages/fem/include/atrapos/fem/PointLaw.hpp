@@ -102,8 +102,8 @@ class PointLaw {
                      PointFailure& failure) const;
 
   /// Sizes of what the outputs are sums of, in their shape: an output that cancels at the point, as source
-  /// and sink do, has one of rounding, against which no residual is small. Of laws with LawShape::sizes; of
-  /// all others the outputs themselves.
+  /// and sink do, has one of rounding, against which no residual is small. Of laws with LawShape::sizes; all
+  /// others throw std::logic_error, for their outputs are their sizes.
   virtual void sizes(const PointBatch& points, const double* in, double* out) const;
 
   /// Names of the values that the law shows at its points.
