@@ -119,9 +119,9 @@ std::vector<fem::DofMap::Located> Scene::fields() const {
   if (scalars.empty()) {
     fields.push_back({fem::displacementField(mesh_.dimension), {}});
   } else if (!deck_.materials.empty()) {
-    std::vector<std::string> blocks;
+    std::vector<int> blocks;
     for (const deck::Material& material : deck_.materials)
-      blocks.insert(blocks.end(), material.blocks.begin(), material.blocks.end());
+      for (const std::string& name : material.blocks) blocks.push_back(fem::findBlock(mesh_, name));
     fields.push_back({fem::displacementField(mesh_.dimension), nodesOfBlocks(blocks)});
   }
   for (const deck::Material& material : deck_.materials)
@@ -137,26 +137,22 @@ std::vector<fem::DofMap::Located> Scene::fields() const {
         fields.push_back({solid::pressureField(block), solid::pressureNodes(block)});
       }
   for (const std::string& name : scalars) {
-    std::set<int> nodes;
+    std::vector<int> blocks;
     fem::Field field = physics::scalarField(name);
-    for (std::size_t b = 0; b < mesh_.blocks.size(); ++b) {
-      const std::vector<std::string> here = scalarFieldsOf(static_cast<int>(b));
-      if (std::find(here.begin(), here.end(), name) != here.end())
-        nodes.insert(mesh_.blocks[b].nodes.begin(), mesh_.blocks[b].nodes.end());
+    for (int b = 0; b < static_cast<int>(mesh_.blocks.size()); ++b) {
+      const std::vector<std::string> here = scalarFieldsOf(b);
+      if (std::find(here.begin(), here.end(), name) != here.end()) blocks.push_back(b);
     }
     for (const deck::Material& material : deck_.materials)
       if (material.dielectric && material.dielectric->field == name) field.role = fem::Role::multiplier;
-    fields.push_back({field, {nodes.begin(), nodes.end()}});
+    fields.push_back({field, nodesOfBlocks(blocks)});
   }
   return fields;
 }
 
-std::vector<int> Scene::nodesOfBlocks(const std::vector<std::string>& blocks) const {
+std::vector<int> Scene::nodesOfBlocks(const std::vector<int>& blocks) const {
   std::set<int> nodes;
-  for (const std::string& name : blocks) {
-    const fem::Block& block = mesh_.blocks[fem::findBlock(mesh_, name)];
-    nodes.insert(block.nodes.begin(), block.nodes.end());
-  }
+  for (const int b : blocks) nodes.insert(mesh_.blocks[b].nodes.begin(), mesh_.blocks[b].nodes.end());
   return {nodes.begin(), nodes.end()};
 }
 

@@ -137,8 +137,8 @@ class Scene {
   std::vector<int> nodesOf(const std::string& set) const;
   std::vector<fem::PointSet> pointsOf(const deck::Contact& contact) const;
   fem::PointSet materialPoints(const fem::Block& block, const fem::Tabulation& cell) const;
-  std::vector<fem::DofMap::Located> fields() const;  ///< of the nodes of the mesh
-  std::vector<int> nodesOfBlocks(const std::vector<std::string>& blocks) const;
+  std::vector<fem::DofMap::Located> fields() const;                      ///< of the nodes of the mesh
+  std::vector<int> nodesOfBlocks(const std::vector<int>& blocks) const;  ///< ascending
   /// Whether a material has plastic strains to show.
   bool yields() const;
   void addMaterials(fem::FeModel& model);
