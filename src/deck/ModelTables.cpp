@@ -359,9 +359,9 @@ const Table<Contact>& contactTable() {
                                                {"quadrature", Contact::Points::Quadrature},
                                                {"zones", Contact::Points::Zones}};
   static const Table<Contact> table = [] {
-    auto where =
-        choice("points", optional, &Contact::points, points,
-               "where the law acts; zones: where edges are in the tool, integrated between their limits");
+    auto where = choice("points", optional, &Contact::points, points,
+                        "where the law acts; zones: where lines of the surface are in the tool, integrated "
+                        "between their limits");
     where.read = [inner = where.read](const Value& v, Contact& s) {
       inner(v, s);
       if (s.points == Contact::Points::Zones) {

@@ -173,6 +173,7 @@ class Scene {
                                       const std::string& field, int component) const;
   void makeTools();
   BodySize bodySize() const;
+  void makeLines(const deck::Contact& contact, ContactPoints& entry) const;
   void addZones(const deck::Contact& contact, ContactPoints& entry, fem::FeModel& model) const;
   void measureGaps(const deck::Contact& contact, ContactPoints& entry) const;
   void choosePressure(const deck::Contact& contact, BodySize body, ContactPoints& entry) const;

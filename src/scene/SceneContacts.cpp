@@ -55,7 +55,11 @@ void Scene::addContacts(fem::FeModel& model) {
     ContactPoints entry;
     entry.name = contact.name;
     entry.tool = tools_[position - deck_.tools.begin()].get();
-    entry.points = pointsOf(contact);
+    const bool zones = contact.points == deck::Contact::Points::Zones;
+    if (zones && !plane_)
+      makeLines(contact, entry);
+    else
+      entry.points = pointsOf(contact);
     // A tool that moves may be all that drives the body; the steps of branches and imperfect paths are not
     // made again.
     const bool all = contact.carried == deck::Contact::Carried::All || heldByContacts ||
@@ -64,7 +68,7 @@ void Scene::addContacts(fem::FeModel& model) {
     measureGaps(contact, entry);
     choosePressure(contact, body, entry);
     entry.hardFaces = entry.pressure.hard && contact.points == deck::Contact::Points::Quadrature;
-    if (contact.points == deck::Contact::Points::Zones) {
+    if (zones) {
       addZones(contact, entry, model);
       contacts_.push_back(std::move(entry));
       continue;
@@ -95,11 +99,30 @@ void Scene::addContacts(fem::FeModel& model) {
   }
 }
 
+/// Lines across faces, and the points that show them.
+void Scene::makeLines(const deck::Contact& contact, ContactPoints& entry) const {
+  const auto gap = [&](const double* x) {
+    const double place[4] = {x[0], x[1], x[2], 0};
+    return entry.tool->project(place).gap;
+  };
+  const auto& set = mesh_.sideSets.at(fem::findSideSet(mesh_, contact.set));
+  try {
+    for (auto& faces :
+         fem::faceLines(mesh_, shells_.geometry, set, zetaOf(contact.at), contact.quadratureDegree, gap)) {
+      entry.points.push_back(std::move(faces.points));
+      entry.lines.push_back(std::move(faces.lines));
+    }
+  } catch (const std::runtime_error& e) {
+    fail("contact/" + contact.name + "/set", e.what());
+  }
+}
+
 void Scene::addZones(const deck::Contact& contact, ContactPoints& entry, fem::FeModel& model) const {
   const std::string key = "contact/" + contact.name + "/points";
-  if (!plane_) fail(key, "zones are those of the edges of plane bodies; expected nodes or quadrature");
-  const auto& set = mesh_.sideSets.at(fem::findSideSet(mesh_, contact.set));
-  entry.lines = solid::planeEdgeLines(mesh_, set, *plane_, contact.quadratureDegree);
+  if (plane_) {
+    const auto& set = mesh_.sideSets.at(fem::findSideSet(mesh_, contact.set));
+    entry.lines = solid::planeEdgeLines(mesh_, set, *plane_, contact.quadratureDegree);
+  }
   fem::ZoneOptions options;
   options.events = deck_.path.series();
   for (const fem::LineSet& lines : entry.lines) try {

@@ -10,6 +10,7 @@
 #include "atrapos/contact/Plane.hpp"
 #include "support/ContactModel.hpp"
 #include "support/Derivatives.hpp"
+#include "support/LineOnCircle.hpp"
 #include "support/PlaneContact.hpp"
 
 using namespace atrapos;
@@ -48,24 +49,6 @@ struct Row {
     return sum;
   }
 };
-
-/// The line y = 0 pressed by `depth` into a circle of radius r, p = alpha (-h)^m with h = sqrt(x^2 + (r -
-/// depth)^2) - r: what it pushes up per thickness, the integral of p (r - depth)/(h + r), by Simpson's rule
-/// on 2000 pieces of the angle (error 1e-13).
-double lineOnCircle(double depth, double r, double alpha, int m) {
-  const double d = r - depth, last = std::acos(d / r);
-  const auto at = [&](double angle) {  // x = d tan(angle), dx = d/cos^2
-    const double rho = d / std::cos(angle);
-    return alpha * std::pow(r - rho, m) * d / rho * d / (std::cos(angle) * std::cos(angle));
-  };
-  constexpr int n = 1000;
-  double sum = 0;
-  for (int i = 0; i < n; ++i) {
-    const double a = last * i / n, b = last * (i + 1) / n;
-    sum += (b - a) / 6 * (at(a) + 4 * at(0.5 * (a + b)) + at(b));
-  }
-  return 2 * sum;
-}
 
 }  // namespace
 
@@ -150,12 +133,14 @@ struct Pressed {
   }
   double gap(const Numbers& u, int line, double xi, double lambda) const {
     double x[4] = {0, 0, 0, lambda};
-    const int N = lines.nodesPerLine();
+    const int N = lines.nodesPerLine;
     const double s[3] = {N == 2 ? (1 - xi) / 2 : xi * (xi - 1) / 2, N == 2 ? (1 + xi) / 2 : xi * (xi + 1) / 2,
                          1 - xi * xi};
     for (int n = 0; n < N; ++n)
-      for (int i = 0; i < 2; ++i)
-        x[i] += s[n] * (lines.coordinates[(line * N + n) * 2 + i] + u[2 * lines.nodes[line * N + n] + i]);
+      for (int i = 0; i < 2; ++i) {
+        const int node = lines.nodes[line * N + n];
+        x[i] += s[n] * (mesh.coordinates[3 * node + i] + u[2 * node + i]);
+      }
     return tool->project(x).gap;
   }
   /// The least gap of a line and where it is, by ternary search in [-1.25, 1.25].
@@ -349,10 +334,13 @@ TEST(Zones, TangentIsThatOfFadTypesWithLimitsThatMove) {
     for (int n = 0; n < 3; ++n)
       for (int i = 0; i < 2; ++i) u[2 * line.nodes[n] + i] = own[2 * n + i] = moves[2 * n + i];
     const double start[2] = {-0.9, 0.7};
-    forceOfLine<double>(line.coordinates, center, 7, m, start, own, F);
+    std::vector<double> X;
+    for (const int node : line.nodes)
+      X.insert(X.end(), {mesh.coordinates[3 * node], mesh.coordinates[3 * node + 1]});
+    forceOfLine<double>(X, center, 7, m, start, own, F);
     Fad x[6], y[6];
     for (int i = 0; i < 6; ++i) x[i] = Fad(6, i, own[i]);
-    forceOfLine<Fad>(line.coordinates, center, 7, m, start, x, y);
+    forceOfLine<Fad>(X, center, 7, m, start, x, y);
     const Numbers f = problem.forces(problem.term(0), {fem::test::vectorOf(problem, u), 0});
     const auto K = fem::test::tangent(problem, u, 0);
     double largest = 0, stiffest = 0;

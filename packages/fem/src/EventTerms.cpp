@@ -161,6 +161,30 @@ std::optional<EventTerm::Gradient> EventTerms::gradient(int index, const ConstDo
   return EventTerm::Gradient{sums[0], sums[1], sums[2]};
 }
 
+std::vector<int> EventTerms::beside(const std::vector<int>& indices, const ConstDofView& u,
+                                    double lambda) const {
+  std::vector<int> all;
+  for (const Entry& entry : entries_) {
+    if (!entry.term->renews()) continue;
+    const int end = entry.first + entry.term->eventCount();
+    for (const bool active : {false, true}) {
+      const bool due = std::any_of(indices.begin(), indices.end(), [&](int i) {
+        return i >= entry.first && i < end && (conditions_[i] == 1) == active;
+      });
+      if (!due) continue;
+      std::vector<double> at(count(), 0.0);
+      ranks_.together([&] { put(entry, entry.term->nearChange(u, lambda), at); });
+      ranks_.sum(at);
+      const bool sized = std::any_of(indices.begin(), indices.end(), [&](int i) {
+        return i >= entry.first && i < end && (conditions_[i] == 1) == active && at[i] > 0;
+      });
+      for (int c = entry.first; sized && c < end; ++c)
+        if (at[c] > 0 && (conditions_[c] == 1) == active) all.push_back(c);
+    }
+  }
+  return all;
+}
+
 std::vector<int> EventTerms::growing(const std::vector<int>& conditions) const {
   std::vector<int> all;
   for (const Entry& entry : entries_) {

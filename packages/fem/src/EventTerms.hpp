@@ -37,6 +37,8 @@ class EventTerms {
   /// path::Problem::growingAt with these conditions.
   std::vector<int> growing(const std::vector<int>& conditions) const;
   int constraintPivots() const;
+  /// path::Problem::eventsBeside.
+  std::vector<int> beside(const std::vector<int>& indices, const ConstDofView& u, double lambda) const;
   /// path::Problem::eventGradient, this rank's part of byU; nothing where there is none.
   std::optional<EventTerm::Gradient> gradient(int index, const ConstDofView& u, double lambda,
                                               const DofView& byU) const;

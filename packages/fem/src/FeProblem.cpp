@@ -715,6 +715,10 @@ std::vector<int> FeProblem::growingAt(const path::State& state) const {
   return impl_->events->growing(impl_->conditionsOf(state.memory.get()));
 }
 
+std::vector<int> FeProblem::eventsBeside(const std::vector<int>& indices, const path::State& state) {
+  return impl_->events->beside(indices, onRank(state), state.lambda);
+}
+
 bool FeProblem::eventGradient(int index, const path::State& state, double& value, Vector& byU,
                               double& byLambda) {
   const ConstDofView u = onRank(state);

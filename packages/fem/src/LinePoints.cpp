@@ -39,17 +39,17 @@ LineLaws::LineLaws(int lineDegree, ZoneLaws laws)
 LineProbe probe(const LineLaws& laws, int Q, const double* xi, const double* c, double lambda) {
   const int J = laws.placeInputs(), P = laws.degree;
   LineProbe r;
-  r.along.resize(2 * Q * L);
-  std::vector<double> in(Q * J * L, 0.0), bend(2 * Q * L, 0.0);
+  r.along.resize(3 * Q * L);
+  std::vector<double> in(Q * J * L, 0.0), bend(3 * Q * L, 0.0);
   for (int q = 0; q < Q; ++q)
     for (int lane = 0; lane < L; ++lane) {
       const double s = xi[q * L + lane];
-      for (int i = 0; i < 2; ++i) {
-        const double c0 = c[i * L + lane], c1 = c[(2 + i) * L + lane],
-                     c2 = P == 2 ? c[(4 + i) * L + lane] : 0;
+      for (int i = 0; i < 3; ++i) {
+        const double c0 = c[i * L + lane], c1 = c[(3 + i) * L + lane],
+                     c2 = P == 2 ? c[(6 + i) * L + lane] : 0;
         in[(q * J + i) * L + lane] = c0 + s * (c1 + s * c2);
-        r.along[(2 * q + i) * L + lane] = c1 + 2 * c2 * s;
-        bend[(2 * q + i) * L + lane] = 2 * c2;
+        r.along[(3 * q + i) * L + lane] = c1 + 2 * c2 * s;
+        bend[(3 * q + i) * L + lane] = 2 * c2;
       }
       if (J == 4) in[(q * J + 3) * L + lane] = lambda;
     }
@@ -59,24 +59,21 @@ LineProbe probe(const LineLaws& laws, int Q, const double* xi, const double* c, 
   r.slope.assign(Q * L, 0.0);
   r.bend.assign(Q * L, 0.0);
   r.gradient.assign(4 * Q * L, 0.0);
-  r.normal.resize(2 * Q * L);
-  r.turn.assign(6 * Q * L, 0.0);
+  r.normal.resize(3 * Q * L);
+  r.turn.assign(12 * Q * L, 0.0);
   for (int q = 0; q < Q; ++q)
     for (int lane = 0; lane < L; ++lane) {
       const std::size_t m = static_cast<std::size_t>(q) * L + lane;
       const auto by = [&](int o, int j) { return jacobian[((q * 4 + o) * J + j) * L + lane]; };
       r.gap[m] = out[(4 * q) * L + lane];
       for (int j = 0; j < J; ++j) r.gradient[(4 * q + j) * L + lane] = by(0, j);
-      for (int i = 0; i < 2; ++i) {
-        const double n = out[(4 * q + 1 + i) * L + lane], x1 = r.along[(2 * q + i) * L + lane];
-        r.normal[(2 * q + i) * L + lane] = n;
+      for (int i = 0; i < 3; ++i) {
+        const double n = out[(4 * q + 1 + i) * L + lane], x1 = r.along[(3 * q + i) * L + lane];
+        r.normal[(3 * q + i) * L + lane] = n;
         r.slope[m] += n * x1;
-        r.bend[m] += n * bend[(2 * q + i) * L + lane];
-        for (int j = 0; j < 2; ++j) {
-          r.turn[((2 * q + i) * 3 + j) * L + lane] = by(1 + i, j);
-          r.bend[m] += x1 * by(1 + i, j) * r.along[(2 * q + j) * L + lane];
-        }
-        r.turn[((2 * q + i) * 3 + 2) * L + lane] = J == 4 ? by(1 + i, 3) : 0.0;
+        r.bend[m] += n * bend[(3 * q + i) * L + lane];
+        for (int j = 0; j < J; ++j) r.turn[((3 * q + i) * 4 + j) * L + lane] = by(1 + i, j);
+        for (int j = 0; j < 3; ++j) r.bend[m] += x1 * by(1 + i, j) * r.along[(3 * q + j) * L + lane];
       }
     }
   return r;
@@ -101,8 +98,8 @@ std::size_t LinePoints::bytes(int batches, int maxOrder) const {
 void LinePoints::start(int b, const double* xi, const Hold* hold, const double* c, double lambda, double* gap,
                        PointFailure& failure) {
   const int C = laws_.coefficients(), J = laws_.placeInputs();
-  std::vector<double> in(P_ * (1 + C) * L), x(4 * P_ * L), place(P_ * J * L, 0.0), hn(4 * P_ * L),
-      onSlope(4 * P_ * L), slope(P_ * L);
+  std::vector<double> in(P_ * (1 + C) * L), x(6 * P_ * L), place(P_ * J * L, 0.0), hn(4 * P_ * L),
+      onSlope(6 * P_ * L), slope(P_ * L);
   for (int p = 0; p < P_; ++p) {
     std::copy_n(xi + p * L, L, &in[p * (1 + C) * L]);
     std::copy_n(c, C * L, &in[(p * (1 + C) + 1) * L]);
@@ -110,13 +107,13 @@ void LinePoints::start(int b, const double* xi, const Hold* hold, const double* 
   double* own = memory(b);
   laws_.curve->start({P_, L, nullptr, own}, start_, in.data(), x.data(), failure);
   for (int p = 0; p < P_; ++p) {
-    std::copy_n(&x[4 * p * L], 2 * L, &place[p * J * L]);
+    std::copy_n(&x[6 * p * L], 3 * L, &place[p * J * L]);
     if (J == 4) std::fill_n(&place[(p * J + 3) * L], L, lambda);
   }
   laws_.projection->start({P_, L, nullptr, own + curveDoubles_}, start_, place.data(), hn.data(), failure);
   for (int p = 0; p < P_; ++p) {
-    std::copy_n(&hn[(4 * p + 1) * L], 2 * L, &onSlope[4 * p * L]);
-    std::copy_n(&x[(4 * p + 2) * L], 2 * L, &onSlope[(4 * p + 2) * L]);
+    std::copy_n(&hn[(4 * p + 1) * L], 3 * L, &onSlope[6 * p * L]);
+    std::copy_n(&x[(6 * p + 3) * L], 3 * L, &onSlope[(6 * p + 3) * L]);
     std::copy_n(&hn[4 * p * L], L, gap + p * L);
   }
   laws_.slope->start({P_, L, nullptr, own + curveDoubles_ + projectionDoubles_}, start_, onSlope.data(),
@@ -130,21 +127,19 @@ void LinePoints::start(int b, const double* xi, const Hold* hold, const double* 
       point.xi = point.pending = xi[m];
       if (hold[m] == Hold::root) point.byGap = -1 / at.slope[m];
       if (hold[m] == Hold::extremum) point.bySlope = -1 / at.bend[m];
-      for (int i = 0; i < 2; ++i) {
-        point.gradient[i] = at.gradient[(4 * p + i) * L + lane];
-        point.normal[i] = at.normal[(2 * p + i) * L + lane];
-        const double along = at.along[(2 * p + i) * L + lane];
-        for (int j = 0; j < 2; ++j) point.slopeBy[j] += along * at.turn[((2 * p + i) * 3 + j) * L + lane];
-        point.slopeLambda += along * at.turn[((2 * p + i) * 3 + 2) * L + lane];
+      for (int j = 0; j < 4; ++j) point.gradient[j] = at.gradient[(4 * p + j) * L + lane];
+      for (int i = 0; i < 3; ++i) {
+        point.normal[i] = at.normal[(3 * p + i) * L + lane];
+        const double along = at.along[(3 * p + i) * L + lane];
+        for (int j = 0; j < 4; ++j) point.slopeBy[j] += along * at.turn[((3 * p + i) * 4 + j) * L + lane];
       }
-      point.gradientLambda = at.gradient[(4 * p + 3) * L + lane];
     }
 }
 
 void LinePoints::motion(const Point& point, const double* c, int lane, double* x, double* along) const {
   const double s = point.xi;
-  for (int i = 0; i < 2; ++i) {
-    const double c1 = c[(2 + i) * L + lane], c2 = laws_.degree == 2 ? c[(4 + i) * L + lane] : 0;
+  for (int i = 0; i < 3; ++i) {
+    const double c1 = c[(3 + i) * L + lane], c2 = laws_.degree == 2 ? c[(6 + i) * L + lane] : 0;
     x[i] = c[i * L + lane] + s * (c1 + s * c2);
     along[i] = c1 + 2 * c2 * s;
   }
@@ -152,18 +147,19 @@ void LinePoints::motion(const Point& point, const double* c, int lane, double* x
 
 double LinePoints::gapBy(int b, int p, int lane, const double* c, double lambda) const {
   const Point& point = at(b, p, lane);
-  double x[2], along[2];
+  double x[3], along[3], sum = point.gradient[3] * lambda;
   motion(point, c, lane, x, along);
-  return point.gradient[0] * x[0] + point.gradient[1] * x[1] + point.gradientLambda * lambda;
+  for (int i = 0; i < 3; ++i) sum += point.gradient[i] * x[i];
+  return sum;
 }
 
 double LinePoints::placeBy(int b, int p, int lane, const double* c, double lambda) const {
   const Point& point = at(b, p, lane);
   if (point.byGap != 0) return point.byGap * gapBy(b, p, lane, c, lambda);
   if (point.bySlope == 0) return 0;
-  double x[2], along[2], slope = point.slopeLambda * lambda;
+  double x[3], along[3], slope = point.slopeBy[3] * lambda;
   motion(point, c, lane, x, along);
-  for (int i = 0; i < 2; ++i) slope += point.normal[i] * along[i] + point.slopeBy[i] * x[i];
+  for (int i = 0; i < 3; ++i) slope += point.normal[i] * along[i] + point.slopeBy[i] * x[i];
   return point.bySlope * slope;
 }
 
@@ -174,8 +170,8 @@ void LinePoints::advance(int b, const SeriesOrder& order, const double* last, do
   out.last.assign(P * L, 0.0);
   out.current.assign(P * L, 0.0);
   out.gap.assign(P * L, 0.0);
-  std::vector<double> lastIn(P * (1 + C) * L), lastX(4 * P * L), x(4 * P * L), lastPlace(P * J * L, 0.0),
-      place(P * J * L, 0.0), lastHn(4 * P * L), hn(4 * P * L), lastSlopeIn(4 * P * L), slopeIn(4 * P * L),
+  std::vector<double> lastIn(P * (1 + C) * L), lastX(6 * P * L), x(6 * P * L), lastPlace(P * J * L, 0.0),
+      place(P * J * L, 0.0), lastHn(4 * P * L), hn(4 * P * L), lastSlopeIn(6 * P * L), slopeIn(6 * P * L),
       lastSlope(P * L), slope(P * L);
   if (completes)
     for (int p = 0; p < P; ++p) {
@@ -189,17 +185,17 @@ void LinePoints::advance(int b, const SeriesOrder& order, const double* last, do
   double* own = memory(b);
   laws_.curve->advance({P, L, nullptr, own}, order, {lastIn.data(), nullptr}, {lastX.data(), x.data()});
   for (int p = 0; p < P; ++p) {
-    std::copy_n(&x[4 * p * L], 2 * L, &place[p * J * L]);
-    std::copy_n(&lastX[4 * p * L], 2 * L, &lastPlace[p * J * L]);
+    std::copy_n(&x[6 * p * L], 3 * L, &place[p * J * L]);
+    std::copy_n(&lastX[6 * p * L], 3 * L, &lastPlace[p * J * L]);
     if (J == 4) std::fill_n(&lastPlace[(p * J + 3) * L], L, lastLambda);
   }
   laws_.projection->advance({P, L, nullptr, own + curveDoubles_}, order, {lastPlace.data(), place.data()},
                             {lastHn.data(), hn.data()});
   for (int p = 0; p < P; ++p) {
-    std::copy_n(&hn[(4 * p + 1) * L], 2 * L, &slopeIn[4 * p * L]);
-    std::copy_n(&lastHn[(4 * p + 1) * L], 2 * L, &lastSlopeIn[4 * p * L]);
-    std::copy_n(&x[(4 * p + 2) * L], 2 * L, &slopeIn[(4 * p + 2) * L]);
-    std::copy_n(&lastX[(4 * p + 2) * L], 2 * L, &lastSlopeIn[(4 * p + 2) * L]);
+    std::copy_n(&hn[(4 * p + 1) * L], 3 * L, &slopeIn[6 * p * L]);
+    std::copy_n(&lastHn[(4 * p + 1) * L], 3 * L, &lastSlopeIn[6 * p * L]);
+    std::copy_n(&x[(6 * p + 3) * L], 3 * L, &slopeIn[(6 * p + 3) * L]);
+    std::copy_n(&lastX[(6 * p + 3) * L], 3 * L, &lastSlopeIn[(6 * p + 3) * L]);
   }
   laws_.slope->advance({P, L, nullptr, own + curveDoubles_ + projectionDoubles_}, order,
                        {lastSlopeIn.data(), slopeIn.data()}, {lastSlope.data(), slope.data()});

@@ -15,7 +15,7 @@ struct LineLaws {
   int degree;
   std::unique_ptr<PointLaw> curve, slope, cubature, force, projection, pressure;
 
-  int coefficients() const { return 2 * (degree + 1); }  ///< of a line, [k][component]
+  int coefficients() const { return 3 * (degree + 1); }  ///< of a line, [k][component]
   int placeInputs() const { return projection->shape().inputs; }
   bool moves() const { return placeInputs() == 4; }
 };
@@ -31,9 +31,9 @@ enum class Hold {
 struct LineProbe {
   std::vector<double> gap, slope, bend;  ///< h, dh/dxi, d2h/dxi2 along the line
   std::vector<double> gradient;          ///< [4] dh/dx, dh/dlambda at the point
-  std::vector<double> normal;            ///< [2]
-  std::vector<double> turn;              ///< [2][3] dn_i/d(x, y, lambda)
-  std::vector<double> along;             ///< [2] dx/dxi
+  std::vector<double> normal;            ///< [3]
+  std::vector<double> turn;              ///< [3][4] dn/dx, dn/dlambda
+  std::vector<double> along;             ///< [3] dx/dxi
 };
 LineProbe probe(const LineLaws& laws, int numPoints, const double* xi, const double* c, double lambda);
 
@@ -69,10 +69,10 @@ class LinePoints {
 
  private:
   struct Point {
-    double xi = 0, pending = 0;     ///< place of order 0; xi_k with c_k = 0
-    double byGap = 0, bySlope = 0;  ///< -1/(dr/dxi) of r = h or dh/dxi
-    double gradient[2] = {0, 0}, gradientLambda = 0;
-    double normal[2] = {0, 0}, slopeBy[2] = {0, 0}, slopeLambda = 0;  ///< d(dh/dxi) by dx/dxi, x, lambda
+    double xi = 0, pending = 0;                               ///< place of order 0; xi_k with c_k = 0
+    double byGap = 0, bySlope = 0;                            ///< -1/(dr/dxi) of r = h or dh/dxi
+    double gradient[4] = {0, 0, 0, 0};                        ///< dh/dx, dh/dlambda
+    double normal[3] = {0, 0, 0}, slopeBy[4] = {0, 0, 0, 0};  ///< d(dh/dxi) by dx/dxi; by x, lambda
   };
   const Point& at(int b, int p, int lane) const {
     return points_[(static_cast<std::size_t>(b) * P_ + p) * kLanes + lane];

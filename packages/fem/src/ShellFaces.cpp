@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "Labels.hpp"
+#include "SurfaceFaces.hpp"
 #include "Vec3.hpp"
 #include "atrapos/fem/ReferenceCell.hpp"
 
@@ -18,24 +19,8 @@ constexpr int kEdgeDegree = 4;
 
 [[noreturn]] void wrongSide(const Mesh& mesh, const SideSet& set, const Side& side, const char* needed) {
   const auto [b, e] = addressOf(mesh, side.element);
-  throw std::runtime_error(fmt::format("side set '{}': side {} of {} is no {} of a shell", set.name,
-                                       side.side + 1, elementLabel(mesh, b, e), needed));
-}
-
-/// Appends one entity's points at positions x_a of its nodes: positions, weights and normals of a surface.
-void appendSurface(const Tabulation& t, const std::vector<Vec3>& x, PointSet& p) {
-  for (int q = 0; q < t.numPoints; ++q) {
-    Vec3 position{}, g[2]{};
-    for (int n = 0; n < t.numNodes; ++n) {
-      add(t.values[q * t.numNodes + n], x[n], position);
-      for (int d = 0; d < 2; ++d) add(t.gradients[(q * t.numNodes + n) * 2 + d], x[n], g[d]);
-    }
-    const Vec3 normal = cross(g[0], g[1]);
-    const double area = norm(normal);
-    p.weights.push_back(t.weights[q] * area);
-    p.positions.insert(p.positions.end(), position.begin(), position.end());
-    for (int i = 0; i < 3; ++i) p.normals.push_back(normal[i] / area);
-  }
+  throw std::runtime_error(fmt::format("side set '{}': side {} of {} is no {}", set.name, side.side + 1,
+                                       elementLabel(mesh, b, e), needed));
 }
 
 Vec3 at(const std::vector<double>& vectors, std::size_t i) {
@@ -44,39 +29,69 @@ Vec3 at(const std::vector<double>& vectors, std::size_t i) {
 
 }  // namespace
 
-std::vector<PointSet> shellFacePoints(const Mesh& mesh, const ShellGeometry& shells, const SideSet& set,
-                                      double zeta, int degree) {
-  std::map<Face, PointSet> byShape;
-  std::map<Face, Tabulation> tables;
+std::vector<SurfaceFace> surfaceFaces(const Mesh& mesh, const ShellGeometry& shells, const SideSet& set,
+                                      double zeta) {
+  std::vector<SurfaceFace> faces;
   for (const Side& side : set.sides) {
     const auto [b, e] = addressOf(mesh, side.element);
     const Topology topology = mesh.blocks[b].topology;
-    const ShellBlock* block = shells.find(b);
-    if (block == nullptr || side.side > 1) wrongSide(mesh, set, side, "face");
-    const Face face = sideFace(topology, side.side);
-    if (!tables.count(face)) tables[face] = tabulateFace(face, degree);
-    const Tabulation& t = tables.at(face);
+    const bool onShell = isShell(topology);
+    SurfaceFace own{side, sideFace(topology, side.side), {}, {}, {}};
+    if (onShell ? side.side > 1 : zeta != 0) wrongSide(mesh, set, side, "face of a shell");
+    if (isLine(own.face)) wrongSide(mesh, set, side, "face");
     const std::vector<int> local = sideNodes(topology, side.side);
-    const int N = t.numNodes, halves = zeta == 0 ? 1 : 2;
-    PointSet& p = byShape[face];
-    p.nodesPerEntity = halves * N;
-    p.pointsPerEntity = t.numPoints;
-    p.shapeComponents = 1;
-    ++p.numEntities;
-    std::vector<Vec3> x(N);
-    std::vector<double> scale(N);
-    for (int n = 0; n < N; ++n) {
-      const std::size_t corner = static_cast<std::size_t>(e) * N + local[n];
-      x[n] = at(mesh.coordinates, block->nodes[2 * static_cast<std::size_t>(e) * N + local[n]]);
-      add(zeta, at(block->directors, corner), x[n]);
-      scale[n] = zeta * block->directorScale[corner];
+    const std::size_t first = static_cast<std::size_t>(e) * nodesPerElement(topology);
+    for (const int n : local) {
+      own.nodes.push_back(mesh.blocks[b].nodes[first + n]);
+      own.places.push_back(at(mesh.coordinates, own.nodes.back()));
     }
-    for (int half = 0; half < halves; ++half)
-      for (int n : local) p.nodes.push_back(block->nodes[(2 * static_cast<std::size_t>(e) + half) * N + n]);
-    appendSurface(t, x, p);
-    for (int q = 0; q < t.numPoints; ++q)
-      for (int half = 0; half < halves; ++half)
-        for (int n = 0; n < N; ++n) p.shape.push_back((half == 0 ? 1 : scale[n]) * t.values[q * N + n]);
+    own.factors.assign(local.size(), 1.0);
+    if (zeta != 0) {
+      const ShellBlock* block = shells.find(b);
+      for (std::size_t n = 0; n < local.size(); ++n) {
+        const std::size_t corner = first + local[n];
+        add(zeta, at(block->directors, corner), own.places[n]);
+        own.nodes.push_back(block->nodes[first + corner + block->nodesPerElement]);
+        own.factors.push_back(zeta * block->directorScale[corner]);
+      }
+    }
+    faces.push_back(std::move(own));
+  }
+  return faces;
+}
+
+void appendFace(const Tabulation& t, const SurfaceFace& face, PointSet& p) {
+  p.nodesPerEntity = static_cast<int>(face.nodes.size());
+  p.pointsPerEntity = t.numPoints;
+  p.shapeComponents = 1;
+  ++p.numEntities;
+  p.nodes.insert(p.nodes.end(), face.nodes.begin(), face.nodes.end());
+  for (int q = 0; q < t.numPoints; ++q) {
+    Vec3 position{}, g[2]{};
+    for (int n = 0; n < t.numNodes; ++n) {
+      add(t.values[q * t.numNodes + n], face.places[n], position);
+      for (int d = 0; d < 2; ++d) add(t.gradients[(q * t.numNodes + n) * 2 + d], face.places[n], g[d]);
+    }
+    const Vec3 normal = cross(g[0], g[1]);
+    const double area = norm(normal);
+    p.weights.push_back(t.weights[q] * area);
+    p.positions.insert(p.positions.end(), position.begin(), position.end());
+    for (int i = 0; i < 3; ++i) p.normals.push_back(normal[i] / area);
+    for (std::size_t n = 0; n < face.nodes.size(); ++n)
+      p.shape.push_back(face.factors[n] * t.values[q * t.numNodes + n % t.numNodes]);
+  }
+}
+
+std::vector<PointSet> shellFacePoints(const Mesh& mesh, const ShellGeometry& shells, const SideSet& set,
+                                      double zeta, int degree) {
+  for (const Side& side : set.sides)
+    if (!isShell(mesh.blocks[addressOf(mesh, side.element).block].topology))
+      wrongSide(mesh, set, side, "face of a shell");
+  std::map<Face, PointSet> byShape;
+  std::map<Face, Tabulation> tables;
+  for (const SurfaceFace& face : surfaceFaces(mesh, shells, set, zeta)) {
+    if (!tables.count(face.face)) tables[face.face] = tabulateFace(face.face, degree);
+    appendFace(tables.at(face.face), face, byShape[face.face]);
   }
   std::vector<PointSet> result;
   for (auto& entry : byShape) result.push_back(std::move(entry.second));
@@ -111,7 +126,7 @@ std::vector<PointSet> shellEdgePoints(const Mesh& mesh, const SideSet& set, int 
   for (const Side& side : set.sides) {
     const auto [b, e] = addressOf(mesh, side.element);
     const Block& block = mesh.blocks[b];
-    if (!isShell(block.topology) || side.side < 2) wrongSide(mesh, set, side, "edge");
+    if (!isShell(block.topology) || side.side < 2) wrongSide(mesh, set, side, "edge of a shell");
     const Face face = sideFace(block.topology, side.side);
     if (!tables.count(face)) tables[face] = tabulateFace(face, degree);
     const Tabulation& t = tables.at(face);

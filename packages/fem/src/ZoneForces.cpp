@@ -19,8 +19,7 @@ void put(int count, const std::vector<double>& from, int start, int fromWidth, i
 
 }  // namespace
 
-ZoneForces::ZoneForces(const LineLaws& laws, double depth, double depthPerX)
-    : laws_(laws), depth_(depth), depthPerX_(depthPerX), limits_(laws, 2) {
+ZoneForces::ZoneForces(const LineLaws& laws) : laws_(laws), limits_(laws, 2) {
   const Tabulation gauss = tabulateFace(Face::Line2, 2 * Q - 1);
   for (int q = 0; q < Q; ++q) {
     abscissae_.push_back(0.5 * (1 + gauss.points[q]));
@@ -41,12 +40,12 @@ std::vector<double> ZoneForces::inputs(const double* limits, const double* c) co
 
 std::vector<double> ZoneForces::dataOf(const ZoneBatch& zones) const {
   const int C = laws_.coefficients();
-  std::vector<double> data(Q * (4 + C) * L);
+  std::vector<double> data(Q * (2 + 2 * C) * L);
   for (int q = 0; q < Q; ++q) {
-    double* own = &data[q * (4 + C) * L];
-    for (const double number : {abscissae_[q], weights_[q], depth_, depthPerX_})
-      own = std::fill_n(own, L, number);
-    std::copy_n(zones.reference.data(), C * L, own);
+    double* own = &data[q * (2 + 2 * C) * L];
+    for (const double number : {abscissae_[q], weights_[q]}) own = std::fill_n(own, L, number);
+    own = std::copy_n(zones.reference.data(), C * L, own);
+    std::copy_n(zones.across.data(), C * L, own);
   }
   return data;
 }
@@ -57,10 +56,10 @@ ZoneForces::Points ZoneForces::pointsOf(const ZoneBatch& zones, double lambda) c
   std::vector<double> scratch(
       std::max({laws_.cubature->historyDoubles(0), laws_.projection->historyDoubles(0),
                 laws_.pressure->historyDoubles(0)}));
-  std::vector<double> x(4 * Q * L), place(Q * J * L, 0.0), h(Q * L);
+  std::vector<double> x(5 * Q * L), place(Q * J * L, 0.0), h(Q * L);
   Points points;
   laws_.cubature->value({Q, L, data.data(), scratch.data()}, in.data(), x.data());
-  put(2, x, 0, 4, 0, J, place);
+  put(3, x, 0, 5, 0, J, place);
   if (J == 4)
     for (int q = 0; q < Q; ++q) std::fill_n(&place[(q * J + 3) * L], L, lambda);
   points.hn.resize(4 * Q * L);
@@ -70,8 +69,8 @@ ZoneForces::Points ZoneForces::pointsOf(const ZoneBatch& zones, double lambda) c
   laws_.projection->value({Q, L, nullptr, scratch.data()}, place.data(), points.hn.data());
   put(1, points.hn, 0, 4, 0, 1, h);
   laws_.pressure->value({Q, L, nullptr, scratch.data()}, h.data(), points.pressure.data());
-  put(1, x, 2, 4, 0, 1, points.places);
-  put(1, x, 3, 4, 0, 1, points.weights);
+  put(1, x, 3, 5, 0, 1, points.places);
+  put(1, x, 4, 5, 0, 1, points.weights);
   return points;
 }
 
@@ -82,8 +81,8 @@ void ZoneForces::value(const ZoneBatch& zones, double lambda, double* forces) co
     for (int lane = 0; lane < L; ++lane) {
       double share = -points.pressure[q * L + lane] * points.weights[q * L + lane];
       for (int k = 0; k <= laws_.degree; ++k, share *= points.places[q * L + lane])
-        for (int i = 0; i < 2; ++i)
-          forces[(2 * k + i) * L + lane] += share * points.hn[(4 * q + 1 + i) * L + lane];
+        for (int i = 0; i < 3; ++i)
+          forces[(3 * k + i) * L + lane] += share * points.hn[(4 * q + 1 + i) * L + lane];
     }
 }
 
@@ -119,21 +118,20 @@ void ZoneForces::tangent(const ZoneBatch& zones, double lambda, double* forces, 
   for (int q = 0; q < Q; ++q)
     for (int lane = 0; lane < L; ++lane) {
       const double s = points.places[q * L + lane], weight = points.weights[q * L + lane];
-      const double gradient[3] = {at.gradient[(4 * q) * L + lane], at.gradient[(4 * q + 1) * L + lane],
-                                  at.gradient[(4 * q + 3) * L + lane]};
-      for (int i = 0; i < 2; ++i)
-        for (int j = 0; j < 3; ++j) {  // by x, y, lambda
-          const double a = -weight * (rate[q * L + lane] * gradient[j] * at.normal[(2 * q + i) * L + lane] +
-                                      p[q * L + lane] * at.turn[((2 * q + i) * 3 + j) * L + lane]);
+      for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 4; ++j) {  // by x, y, z, lambda
+          const double a = -weight * (rate[q * L + lane] * at.gradient[(4 * q + j) * L + lane] *
+                                          at.normal[(3 * q + i) * L + lane] +
+                                      p[q * L + lane] * at.turn[((3 * q + i) * 4 + j) * L + lane]);
           double power = a;
           for (int k = 0; k <= P; ++k, power *= s) {
-            double* row = jacobian + (2 * k + i) * (C + 1) * L + lane;
-            if (j == 2) {
+            double* row = jacobian + (3 * k + i) * (C + 1) * L + lane;
+            if (j == 3) {
               row[C * L] += power;
               continue;
             }
             double entry = power;
-            for (int l = 0; l <= P; ++l, entry *= s) row[(2 * l + j) * L] += entry;
+            for (int l = 0; l <= P; ++l, entry *= s) row[(3 * l + j) * L] += entry;
           }
         }
     }
@@ -167,10 +165,10 @@ void ZoneForces::start(int b, const ZoneBatch& zones, double lambda, PointFailur
   double* data = std::copy(own.begin(), own.end(), &data_[b * own.size()]) - own.size();
   double* memory = &history_[b * perBatch_];
   const auto in = inputs(zones.limits.data(), zones.c.data());
-  std::vector<double> x(4 * Q * L), place(Q * J * L, 0.0), hn(4 * Q * L), h(Q * L), p(Q * L),
-      onForce(5 * Q * L), out(Q * laws_.coefficients() * L);
+  std::vector<double> x(5 * Q * L), place(Q * J * L, 0.0), hn(4 * Q * L), h(Q * L), p(Q * L),
+      onForce(6 * Q * L), out(Q * laws_.coefficients() * L);
   laws_.cubature->start({Q, L, data, memory}, start_, in.data(), x.data(), failure);
-  put(2, x, 0, 4, 0, J, place);
+  put(3, x, 0, 5, 0, J, place);
   if (J == 4)
     for (int q = 0; q < Q; ++q) std::fill_n(&place[(q * J + 3) * L], L, lambda);
   memory += cubatureDoubles_;
@@ -178,9 +176,9 @@ void ZoneForces::start(int b, const ZoneBatch& zones, double lambda, PointFailur
   put(1, hn, 0, 4, 0, 1, h);
   memory += projectionDoubles_;
   laws_.pressure->start({Q, L, nullptr, memory}, start_, h.data(), p.data(), failure);
-  put(1, p, 0, 1, 0, 5, onForce);
-  put(2, hn, 1, 4, 1, 5, onForce);
-  put(2, x, 2, 4, 3, 5, onForce);
+  put(1, p, 0, 1, 0, 6, onForce);
+  put(3, hn, 1, 4, 1, 6, onForce);
+  put(2, x, 3, 5, 4, 6, onForce);
   memory += pressureDoubles_;
   laws_.force->start({Q, L, nullptr, memory}, start_, onForce.data(), out.data(), failure);
 }
@@ -194,14 +192,14 @@ void ZoneForces::advance(int b, const SeriesOrder& order, const double* last, do
   const std::vector<double> none(C * L, 0.0);
   const auto lastIn = inputs(limits.last.data(), order.k > 1 ? last : none.data()),
              in = inputs(limits.current.data(), none.data());
-  std::vector<double> lastX(4 * Q * L), x(4 * Q * L), lastPlace(Q * J * L, 0.0), place(Q * J * L, 0.0),
-      lastHn(4 * Q * L), hn(4 * Q * L), lastH(Q * L), h(Q * L), lastP(Q * L), p(Q * L), lastOn(5 * Q * L),
-      on(5 * Q * L), out(Q * C * L);
+  std::vector<double> lastX(5 * Q * L), x(5 * Q * L), lastPlace(Q * J * L, 0.0), place(Q * J * L, 0.0),
+      lastHn(4 * Q * L), hn(4 * Q * L), lastH(Q * L), h(Q * L), lastP(Q * L), p(Q * L), lastOn(6 * Q * L),
+      on(6 * Q * L), out(Q * C * L);
   const double* data = &data_[static_cast<std::size_t>(b) * Q * laws_.cubature->shape().data * L];
   double* memory = &history_[b * perBatch_];
   laws_.cubature->advance({Q, L, data, memory}, order, {lastIn.data(), in.data()}, {lastX.data(), x.data()});
-  put(2, x, 0, 4, 0, J, place);
-  put(2, lastX, 0, 4, 0, J, lastPlace);
+  put(3, x, 0, 5, 0, J, place);
+  put(3, lastX, 0, 5, 0, J, lastPlace);
   if (J == 4)
     for (int q = 0; q < Q; ++q) std::fill_n(&lastPlace[(q * J + 3) * L], L, lastLambda);
   memory += cubatureDoubles_;
@@ -211,12 +209,12 @@ void ZoneForces::advance(int b, const SeriesOrder& order, const double* last, do
   put(1, lastHn, 0, 4, 0, 1, lastH);
   memory += projectionDoubles_;
   laws_.pressure->advance({Q, L, nullptr, memory}, order, {lastH.data(), h.data()}, {lastP.data(), p.data()});
-  put(1, p, 0, 1, 0, 5, on);
-  put(2, hn, 1, 4, 1, 5, on);
-  put(2, x, 2, 4, 3, 5, on);
-  put(1, lastP, 0, 1, 0, 5, lastOn);
-  put(2, lastHn, 1, 4, 1, 5, lastOn);
-  put(2, lastX, 2, 4, 3, 5, lastOn);
+  put(1, p, 0, 1, 0, 6, on);
+  put(3, hn, 1, 4, 1, 6, on);
+  put(2, x, 3, 5, 4, 6, on);
+  put(1, lastP, 0, 1, 0, 6, lastOn);
+  put(3, lastHn, 1, 4, 1, 6, lastOn);
+  put(2, lastX, 3, 5, 4, 6, lastOn);
   memory += pressureDoubles_;
   laws_.force->advance({Q, L, nullptr, memory}, order, {lastOn.data(), on.data()}, {nullptr, out.data()});
   std::fill_n(forces, C * L, 0.0);

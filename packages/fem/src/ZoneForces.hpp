@@ -14,6 +14,7 @@ struct ZoneBatch {
   std::vector<bool> grows;        ///< [lane] whether its width is what changes most where it is narrow
   std::vector<double> c;          ///< [coefficient][lane] of the places
   std::vector<double> reference;  ///< [coefficient][lane] of the undeformed lines
+  std::vector<double> across;     ///< [coefficient][lane]: dA = |dX/dxi x across| dxi
 };
 
 /// What the pressure on zones does on the lines' coefficients: F_k = integral from xi_1 to xi_2 of -p n xi^k
@@ -24,7 +25,7 @@ class ZoneForces {
   /// rounding, and the tangent needs no part of the limits.
   static constexpr int kPoints = 10;
 
-  ZoneForces(const LineLaws& laws, double depth, double depthPerX);
+  explicit ZoneForces(const LineLaws& laws);
 
   /// forces [coefficient][lane].
   void value(const ZoneBatch& zones, double lambda, double* forces) const;
@@ -54,7 +55,6 @@ class ZoneForces {
   std::vector<double> dataOf(const ZoneBatch& zones) const;
 
   const LineLaws& laws_;
-  double depth_, depthPerX_;
   std::vector<double> abscissae_, weights_;  ///< of Gauss' rule on [0, 1]
   LinePoints limits_;
   SeriesOrder start_;

@@ -78,7 +78,7 @@ std::vector<GapShape> gapShapes(const LineLaws& laws, const double* c, double la
     double steepest = 0;
     for (int q = 0; q < Q; ++q) steepest = std::max(steepest, std::abs(p.slope[q * L + lane]));
     // A line that follows the tool has extrema by rounding only.
-    if (!(steepest > 1e-9 * std::hypot(own[2], own[3]))) continue;
+    if (!(steepest > 1e-9 * std::hypot(own[3], own[4], own[5]))) continue;
     const OneLine line(laws, own.data(), lambda);
     const auto slope = [&](double at) {
       const auto f = line(at);

@@ -3,10 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <numeric>
 #include <optional>
-#include <set>
 #include <stdexcept>
 #include <utility>
 
@@ -25,39 +23,30 @@ constexpr int kSlots = 3;  ///< extrema of a line that events know: two minima, 
 
 class ZoneTerm final : public EventTerm {
   static constexpr int kPlaces = 2 + kSlots;
-  static constexpr int kMostCoefficients = 6;
+  static constexpr int kMostCoefficients = 9;
 
  public:
   ZoneTerm(ZoneLaws laws, const LineSet& lines, ZoneOptions options)
       : laws_(lines.degree, std::move(laws)),
         lines_(lines),
         options_(options),
-        forces_(laws_, lines.depth, lines.depthPerX),
+        forces_(laws_),
         eventPoints_(laws_, kPlaces) {
-    const int N = lines_.nodesPerLine(), E = lines_.numLines();
-    std::map<int, int> vertices;
-    for (int e = 0; e < E; ++e)
-      for (int end = 0; end < 2; ++end) vertices.try_emplace(lines_.nodes[e * N + end], 0);
-    for (auto& [node, number] : vertices) {
-      number = static_cast<int>(firstLine_.size());
-      firstLine_.push_back(E);
-    }
-    for (int e = 0; e < E; ++e)
+    numLines_ = lines_.numLines();
+    firstLine_.assign(lines_.numEnds(), numLines_);
+    for (int e = 0; e < numLines_; ++e)
       for (int end = 0; end < 2; ++end) {
-        const int v = vertices.at(lines_.nodes[e * N + end]);
-        vertexOf_.push_back(v);
-        firstLine_[v] = std::min(firstLine_[v], e);
+        int& first = firstLine_[lines_.ends[2 * e + end]];
+        first = std::min(first, e);
       }
-    numVertices_ = static_cast<int>(vertices.size());
-    numLines_ = E;
-    lineNumbers_.resize(E);
+    lineNumbers_.resize(numLines_);
     std::iota(lineNumbers_.begin(), lineNumbers_.end(), 0);
-    for (const double x : lines_.coordinates) extent_ = std::max(extent_, std::abs(x));
+    for (const double x : lines_.coefficients) extent_ = std::max(extent_, std::abs(x));
     makeArrays();
   }
 
   int numEntities() const override { return lines_.numLines(); }
-  int nodesPerEntity() const override { return lines_.nodesPerLine(); }
+  int nodesPerEntity() const override { return lines_.nodesPerLine; }
   const std::vector<int>& nodes() const override { return lines_.nodes; }
   bool symmetric() const override { return true; }
   bool seesLoadFactor() const override { return laws_.moves(); }
@@ -65,24 +54,27 @@ class ZoneTerm final : public EventTerm {
     return forces_.bytes(1, maxOrder) + eventPoints_.bytes(batches(), maxOrder);
   }
 
-  int eventCount() const override { return options_.events ? numVertices_ + kSlots * numLines_ : 0; }
+  int eventCount() const override { return options_.events ? numEnds() + kSlots * numLines_ : 0; }
   const std::vector<int>& eventNumbers() const override { return numbers_; }
   std::string eventText(int number) const override {
-    if (number < numVertices_)
-      return "end " + std::to_string(number + 1) + " (of " + std::to_string(numVertices_) +
-             ") of contact edges is";
-    return "contact edge " + std::to_string((number - numVertices_) / kSlots + 1) + " (of " +
+    if (number < numEnds())
+      return "end " + std::to_string(number + 1) + " (of " + std::to_string(numEnds()) +
+             ") of contact lines is";
+    return "contact line " + std::to_string((number - numEnds()) / kSlots + 1) + " (of " +
            std::to_string(numLines_) + ") is";
   }
   bool owesPivots() const override { return false; }
   bool renews() const override { return true; }
 
   void keep(const TermPart& part) override {
-    const std::size_t N = lines_.nodesPerLine();
-    lines_.coordinates = rowsOf(lines_.coordinates, part.entities, 2 * N);
+    const std::size_t N = lines_.nodesPerLine, C = laws_.coefficients(), K = laws_.degree + 1;
+    lines_.shape = rowsOf(lines_.shape, part.entities, N * K);
+    lines_.coefficients = rowsOf(lines_.coefficients, part.entities, C);
+    lines_.across = rowsOf(lines_.across, part.entities, C);
     lines_.weights = rowsOf(lines_.weights, part.entities, lines_.shown.size());
+    lines_.ends = rowsOf(lines_.ends, part.entities, 2);
+    lines_.middleNodes = rowsOf(lines_.middleNodes, part.entities, 1);
     lines_.nodes = part.nodes;
-    vertexOf_ = rowsOf(vertexOf_, part.entities, 2);
     lineNumbers_ = part.entities;
     makeArrays();
   }
@@ -90,9 +82,8 @@ class ZoneTerm final : public EventTerm {
   void connect(const DofMap& dofs, const std::vector<int>& positions) override {
     dofs_.clear();
     for (const int node : lines_.nodes) {
-      if (dofs.firstFieldSize(node) < 2)
-        throw std::logic_error("zoneTerm: node " + std::to_string(node + 1) +
-                               " has no displacement in a plane");
+      if (dofs.firstFieldSize(node) < lines_.components)
+        throw std::logic_error("zoneTerm: node " + std::to_string(node + 1) + " has no displacement");
       dofs_.push_back(dofs.firstDof(node));
       balance_ = dofs.balanceOf(dofs.addressOf(dofs_.back()).field);
     }
@@ -112,7 +103,7 @@ class ZoneTerm final : public EventTerm {
   }
 
   void addTangent(const ConstDofView& u, double lambda, const TangentSink& sink) const override {
-    const int C = laws_.coefficients(), N = lines_.nodesPerLine();
+    const int C = laws_.coefficients(), N = lines_.nodesPerLine, K = laws_.degree + 1, D = lines_.components;
     std::vector<double> forces(C * L), jacobian(C * (C + 1) * L);
     forEachBatch(u, lambda, [&](const ZoneBatch& batch, const int* lines) {
       forces_.tangent(batch, lambda, forces.data(), jacobian.data());
@@ -120,15 +111,16 @@ class ZoneTerm final : public EventTerm {
         const int e = lines[lane];
         const auto entry = [&](int row, int column) { return jacobian[(row * (C + 1) + column) * L + lane]; };
         for (int a = 0; a < N; ++a)
-          for (int i = 0; i < 2; ++i) {
+          for (int i = 0; i < D; ++i) {
             const int dof = dofs_[e * N + a] + i;
-            for (int k = 0; k < N; ++k)
-              if (laws_.moves()) sink.loadDirection(dof) -= nodal(a, k) * entry(2 * k + i, C);
+            double byNode[kMostCoefficients + 1] = {};  // by a coefficient, by the load factor
+            for (int k = 0; k < K; ++k)
+              for (int j = 0; j <= C; ++j) byNode[j] += nodal(e, a, k) * entry(3 * k + i, j);
+            if (laws_.moves()) sink.loadDirection(dof) -= byNode[C];
             for (int b = 0; b < N; ++b)
-              for (int j = 0; j < 2; ++j) {
+              for (int j = 0; j < D; ++j) {
                 double sum = 0;
-                for (int k = 0; k < N; ++k)
-                  for (int l = 0; l < N; ++l) sum += nodal(a, k) * entry(2 * k + i, 2 * l + j) * nodal(b, l);
+                for (int l = 0; l < K; ++l) sum += byNode[3 * l + j] * nodal(e, b, l);
                 sink.values(sink.rowStart(dof) + positions_[(e * N + a) * N + b] + j) += sum;
               }
           }
@@ -242,11 +234,11 @@ class ZoneTerm final : public EventTerm {
     }
     const std::vector<double> xi(L, place.xi);
     const LineProbe there = probe(laws_, 1, xi.data(), c.data(), lambda);
-    const int N = lines_.nodesPerLine();
+    const int N = lines_.nodesPerLine;
     for (int n = 0; n < N; ++n) {
       double value = 0, power = 1;
-      for (int k = 0; k < N; ++k, power *= place.xi) value += nodal(n, k) * power;
-      for (int i = 0; i < 2; ++i) byU(dofs_[e * N + n] + i) += value * there.gradient[i * L];
+      for (int k = 0; k <= laws_.degree; ++k, power *= place.xi) value += nodal(e, n, k) * power;
+      for (int i = 0; i < lines_.components; ++i) byU(dofs_[e * N + n] + i) += value * there.gradient[i * L];
     }
     return {1, place.gap + least(e), there.gradient[3 * L]};
   }
@@ -278,7 +270,7 @@ class ZoneTerm final : public EventTerm {
   double touching(const ConstDofView& u) const override {
     double size = extent_;
     for (const int dof : dofs_)
-      for (int i = 0; i < 2; ++i) size = std::max(size, std::abs(u(dof + i)));
+      for (int i = 0; i < lines_.components; ++i) size = std::max(size, std::abs(u(dof + i)));
     return 1e-11 * size;
   }
   std::vector<double> moved(const ConstDofView&, double) const override {
@@ -315,6 +307,29 @@ class ZoneTerm final : public EventTerm {
         all[own] = on;
       }
     });
+    return all;
+  }
+
+  /// Depths of zones that symmetry lets begin together differ by what the residual's bound leaves of a state.
+  std::vector<double> nearChange(const ConstDofView& u, double lambda) const override {
+    constexpr double part = 0.1;
+    std::vector<double> all(numbers_.size(), 0.0);
+    if (!options_.events) return all;
+    forEachShape(
+        u, lambda,
+        [&](int e, const double*, const GapShape& shape) {
+          const Slots slots = slotsOf(shape);
+          const auto near = [&](double gap) { return std::abs(gap + least(e)) < part * least(e); };
+          for (int p = 0; p < kPlaces; ++p) {
+            if (!tells(e, p)) continue;
+            double& own = all[conditionOf_[e * kPlaces + p]];
+            if (p < 2)
+              own = near(shape.ends[p]) && bottoms(e, p, shape);
+            else if (const Extremum* x = slots.of[p - 2])
+              own = x->least && std::abs(x->xi) < 1 && endAt(e, *x, shape) < 0 && near(x->gap);
+          }
+        },
+        true);
     return all;
   }
 
@@ -471,6 +486,7 @@ class ZoneTerm final : public EventTerm {
       batch.grows.resize(L);
       batch.c.resize(C * L);
       batch.reference.resize(C * L);
+      batch.across.resize(C * L);
       int lines[L];
       for (int lane = 0; lane < L; ++lane) {
         const Zone& zone = zones[first + (lane < batch.lanes ? lane : 0)];
@@ -480,7 +496,10 @@ class ZoneTerm final : public EventTerm {
           batch.limits[r * L + lane] = zone.limits[r];
           batch.hold[r * L + lane] = zone.hold[r];
         }
-        for (int m = 0; m < C; ++m) batch.reference[m * L + lane] = reference_[zone.line * C + m];
+        for (int m = 0; m < C; ++m) {
+          batch.reference[m * L + lane] = lines_.coefficients[zone.line * C + m];
+          batch.across[m * L + lane] = lines_.across[zone.line * C + m];
+        }
       }
       gather(lines, L, u, 1, batch.c.data());
       f(batch, lines);
@@ -513,7 +532,7 @@ class ZoneTerm final : public EventTerm {
     for (int lane = 0; lane < L; ++lane) {
       double reach = 0;
       for (int k = 1; k <= laws_.degree; ++k)
-        reach += std::hypot(c[2 * k * L + lane], c[(2 * k + 1) * L + lane]);
+        reach += std::hypot(c[3 * k * L + lane], c[(3 * k + 1) * L + lane], c[(3 * k + 2) * L + lane]);
       if (!(at.gap[lane] > reach)) return true;
     }
     return false;
@@ -562,45 +581,45 @@ class ZoneTerm final : public EventTerm {
 
   [[noreturn]] void fail(const PointFailure& failure, int line) const {
     throw taylor::DomainError(failure.operation, failure.value,
-                              "contact edge " + std::to_string(lineNumbers_[line] + 1));
+                              "contact line " + std::to_string(lineNumbers_[line] + 1));
   }
 
   /// c [coefficient][lane] of displacements, with the undeformed places times `places`; lanes beyond the last
   /// line repeat the first.
   void gather(const int* lines, int count, const ConstDofView& u, double places, double* c) const {
-    const int C = laws_.coefficients(), N = lines_.nodesPerLine();
+    const int C = laws_.coefficients(), N = lines_.nodesPerLine;
     for (int lane = 0; lane < L; ++lane) {
       const int e = lines[lane < count ? lane : 0];
-      for (int k = 0; k < N; ++k)
-        for (int i = 0; i < 2; ++i) {
-          double sum = places == 0 ? 0 : places * reference_[e * C + 2 * k + i];
-          for (int n = 0; n < N; ++n) sum += nodal(n, k) * u(dofs_[e * N + n] + i);
-          c[(2 * k + i) * L + lane] = sum;
+      for (int k = 0; k <= laws_.degree; ++k)
+        for (int i = 0; i < 3; ++i) {
+          double sum = places == 0 ? 0 : places * lines_.coefficients[e * C + 3 * k + i];
+          if (i < lines_.components)
+            for (int n = 0; n < N; ++n) sum += nodal(e, n, k) * u(dofs_[e * N + n] + i);
+          c[(3 * k + i) * L + lane] = sum;
         }
     }
   }
 
   /// Adds what forces on coefficients, [coefficient] kLanes apart, are at the nodes; returns their squares.
   double scatter(int e, const double* forces, const DofView& f) const {
-    const int N = lines_.nodesPerLine();
+    const int N = lines_.nodesPerLine;
     double squares = 0;
     for (int n = 0; n < N; ++n)
-      for (int i = 0; i < 2; ++i) {
+      for (int i = 0; i < lines_.components; ++i) {
         double sum = 0;
-        for (int k = 0; k < N; ++k) sum += nodal(n, k) * forces[(2 * k + i) * L];
+        for (int k = 0; k <= laws_.degree; ++k) sum += nodal(e, n, k) * forces[(3 * k + i) * L];
         f(dofs_[e * N + n] + i) += sum;
         squares += sum * sum;
       }
     return squares;
   }
 
-  /// Coefficient of xi^k in the shape function of a node: ends at -1 and 1, then the middle.
-  double nodal(int node, int k) const {
-    static constexpr double linear[2][2] = {{0.5, -0.5}, {0.5, 0.5}};
-    static constexpr double quadratic[3][3] = {{0, -0.5, 0.5}, {0, 0.5, 0.5}, {1, 0, -1}};
-    return laws_.degree == 1 ? linear[node][k] : quadratic[node][k];
+  /// Coefficient of xi^k in the shape function of a node of a line.
+  double nodal(int e, int node, int k) const {
+    return lines_.shape[(static_cast<std::size_t>(e) * lines_.nodesPerLine + node) * (laws_.degree + 1) + k];
   }
 
+  int numEnds() const { return lines_.numEnds(); }
   int batches() const { return (numEntities() + L - 1) / L; }
   std::vector<int> linesOf(int b) const {
     std::vector<int> lines;
@@ -608,22 +627,15 @@ class ZoneTerm final : public EventTerm {
     return lines;
   }
   /// Whether this part tells what the end or extremum p of its line e is.
-  bool tells(int e, int p) const { return p >= 2 || firstLine_[vertexOf_[2 * e + p]] == lineNumbers_[e]; }
+  bool tells(int e, int p) const { return p >= 2 || firstLine_[lines_.ends[2 * e + p]] == lineNumbers_[e]; }
 
   /// What belongs to lines, and their conditions.
   void makeArrays() {
-    const int N = lines_.nodesPerLine(), C = laws_.coefficients();
-    reference_.clear();
+    const int C = laws_.coefficients();
     lengths_.clear();
     for (int e = 0; e < numEntities(); ++e) {
-      const double* X = &lines_.coordinates[e * 2 * N];
-      for (int k = 0; k < N; ++k)
-        for (int i = 0; i < 2; ++i) {
-          double sum = 0;
-          for (int n = 0; n < N; ++n) sum += nodal(n, k) * X[2 * n + i];
-          reference_.push_back(sum);
-        }
-      lengths_.push_back(2 * std::hypot(reference_[e * C + 2], reference_[e * C + 3]));
+      const double* chord = &lines_.coefficients[e * C + 3];
+      lengths_.push_back(2 * std::hypot(chord[0], chord[1], chord[2]));
     }
     std::vector<int> all;
     for (int e = 0; options_.events && e < numEntities(); ++e)
@@ -640,7 +652,7 @@ class ZoneTerm final : public EventTerm {
     eventGap_ = eventStart_;
   }
   int numberOf(int e, int p) const {
-    return p < 2 ? vertexOf_[2 * e + p] : numVertices_ + kSlots * lineNumbers_[e] + p - 2;
+    return p < 2 ? lines_.ends[2 * e + p] : numEnds() + kSlots * lineNumbers_[e] + p - 2;
   }
 
   LineLaws laws_;
@@ -648,19 +660,17 @@ class ZoneTerm final : public EventTerm {
   ZoneOptions options_;
   ZoneForces forces_;
   LinePoints eventPoints_;
-  int numVertices_ = 0, numLines_ = 0;  ///< of the whole term
-  std::vector<int> vertexOf_;           ///< [line][end]
-  std::vector<int> firstLine_;          ///< [vertex of the whole term]
-  std::vector<int> lineNumbers_;        ///< [line] in the whole term
-  std::vector<int> numbers_;            ///< [own condition]
-  std::vector<int> conditionOf_;        ///< [line][end or extremum] its own condition
-  std::vector<int> active_;             ///< [own condition]
-  std::vector<double> reference_;       ///< [line][coefficient]
-  std::vector<double> lengths_;         ///< [line]
-  std::vector<int> dofs_;               ///< [line][node]
-  int balance_ = 0;                     ///< of the forces (DofMap::balances)
-  std::vector<int> positions_;          ///< [line][node][node] in the tangent's rows
-  double extent_ = 0;                   ///< largest coordinate
+  int numLines_ = 0;              ///< of the whole term
+  std::vector<int> firstLine_;    ///< [end of the whole term]
+  std::vector<int> lineNumbers_;  ///< [line] in the whole term
+  std::vector<int> numbers_;      ///< [own condition]
+  std::vector<int> conditionOf_;  ///< [line][end or extremum] its own condition
+  std::vector<int> active_;       ///< [own condition]
+  std::vector<double> lengths_;   ///< [line]
+  std::vector<int> dofs_;         ///< [line][node]
+  int balance_ = 0;               ///< of the forces (DofMap::balances)
+  std::vector<int> positions_;    ///< [line][node][node] in the tangent's rows
+  double extent_ = 0;             ///< largest coordinate
   int maxOrder_ = 0;
   std::vector<std::vector<int>> seriesLines_;  ///< [batch of zones] their lines, of the series under way
   std::vector<double> seriesWidths_;      ///< [batch of zones][lane] of those between two roots; 0 of others
@@ -671,13 +681,10 @@ class ZoneTerm final : public EventTerm {
 }  // namespace
 
 std::vector<ZoneCondition> zoneConditions(const LineSet& lines) {
-  const int N = lines.nodesPerLine();
-  std::set<int> ends;
-  for (int e = 0; e < lines.numLines(); ++e) ends.insert({lines.nodes[e * N], lines.nodes[e * N + 1]});
   std::vector<ZoneCondition> all;
-  for (const int node : ends) all.push_back({node, false});
-  for (int e = 0; e < lines.numLines(); ++e)
-    for (int s = 0; s < kSlots; ++s) all.push_back({lines.nodes[e * N + N - 1], s == 2});
+  for (const int node : lines.endNodes) all.push_back({node, false});
+  for (const int node : lines.middleNodes)
+    for (int s = 0; s < kSlots; ++s) all.push_back({node, s == 2});
   return all;
 }
 

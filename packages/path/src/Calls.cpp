@@ -113,6 +113,10 @@ State Calls::afterEvent(const std::vector<int>& indices, const State& state) {
   return problemCall([&] { return problem_.afterEvent(indices, state); });
 }
 
+std::vector<int> Calls::eventsBeside(const std::vector<int>& indices, const State& state) {
+  return problemCall([&] { return problem_.eventsBeside(indices, state); });
+}
+
 bool Calls::eventGradient(int index, const State& state, double& value, Vector& byU, double& byLambda) {
   return problemCall([&] { return problem_.eventGradient(index, state, value, byU, byLambda); });
 }

@@ -105,14 +105,15 @@ class Run {
 
   // RunEvents.cpp: where the Problem changes.
   std::vector<double> falls(const Series& series, double end, const std::vector<int>& zero) const;
-  void limit(const Series& series, Trial& trial) const { limit(series, trial, applied_); }
-  void limit(const Series& series, Trial& trial, const std::vector<int>& zero) const;
+  void limit(const Series& series, Trial& trial) { limit(series, trial, applied_); }
+  void limit(const Series& series, Trial& trial, const std::vector<int>& zero);
   std::vector<int> falling(const Series& series, const std::vector<int>& candidates, double sense);
   std::vector<int> overdue(const Series& series) const;
   Series seriesOfChoice(const std::vector<int>& zero, const std::vector<int>& chosen = {});
   bool passesStop(const State& from, const State& to) const;
   bool passJump();
   void correctBehindEvents();
+  bool hasSize(int event);
   bool correctWithEvent(int event);
   Series seriesAfterEvents(StepReport& report);
   Series seriesAfterRestart();

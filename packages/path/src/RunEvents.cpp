@@ -70,7 +70,7 @@ std::vector<double> Run::falls(const Series& series, double end, const std::vect
 
 /// Shortens the trial to the first stop or event; those just behind its end are taken now, not by a tiny next
 /// step.
-void Run::limit(const Series& series, Trial& trial, const std::vector<int>& zero) const {
+void Run::limit(const Series& series, Trial& trial, const std::vector<int>& zero) {
   trial.events.clear();
   trial.stop = firstStop(stops_, series, outcome_.pathLength, 1.001 * trial.a, !tangent_);
   if (trial.stop) trial.a = trial.stop->a;
@@ -97,6 +97,9 @@ void Run::limit(const Series& series, Trial& trial, const std::vector<int>& zero
   for (int i = 0; i < series.eventCount(); ++i)
     if (at[i] <= (1 + together) * first) trial.events.push_back(i);
   std::sort(trial.events.begin(), trial.events.end(), [&](int i, int j) { return at[i] < at[j]; });
+  for (const int i : calls_.eventsBeside(trial.events, series.state(first)))
+    if (std::find(trial.events.begin(), trial.events.end(), i) == trial.events.end())
+      trial.events.push_back(i);
 }
 
 /// The candidates that fall along the series in this sense, ascending. A break falls where the series leaves
@@ -193,6 +196,14 @@ Series Run::seriesOfChoice(const std::vector<int>& zero, const std::vector<int>&
   return seriesTo({}, zero);
 }
 
+/// Whether what begins or ends at this event has a size there, for which the state is corrected.
+bool Run::hasSize(int event) {
+  const auto byU = calls_.newVector();
+  double value = 0, byLambda = 0;
+  return !isBreak(event) && options_.maxCorrections > 0 &&
+         calls_.eventGradient(event, outcome_.final, value, *byU, byLambda);
+}
+
 /// What begins or ends at an event has a size there: the state that solves the changed Problem with the event
 /// function zero, a little further along the path. Newton iterations with that function as their border, the
 /// first two with factorizations of their own, as the first may be made before there is anything of that
@@ -273,7 +284,7 @@ void Run::correctBehindEvents() {
 Series Run::seriesAfterEvents(StepReport& report) {
   std::vector<int> due;
   std::swap(due, due_);
-  if (due.size() > 1) {
+  if (due.size() > 1 && !hasSize(due[0])) {
     // Not quite together: where the state does not solve the changed Problem, the others come next.
     const double residual = calls_.residual(calls_.afterEvent(due, outcome_.final), *r_).relative();
     if (!(residual <= std::max(bound(), 2 * residual_))) due.resize(1);

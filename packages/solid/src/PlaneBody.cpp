@@ -143,13 +143,36 @@ std::vector<fem::LineSet> planeEdgeLines(const fem::Mesh& mesh, const fem::SideS
   std::vector<fem::LineSet> result;
   for (const fem::PointSet& edges : planeEdgePoints(mesh, set, section, degree)) {
     fem::LineSet lines;
-    lines.degree = edges.nodesPerEntity - 1;
+    const int N = edges.nodesPerEntity;
+    lines.degree = N - 1;
+    lines.components = 2;
+    lines.nodesPerLine = N;
     lines.nodes = edges.nodes;
-    for (const int node : edges.nodes)
-      lines.coordinates.insert(lines.coordinates.end(), &mesh.coordinates[3 * static_cast<std::size_t>(node)],
-                               &mesh.coordinates[3 * static_cast<std::size_t>(node)] + 2);
-    lines.depth = ring ? 0 : section.thickness;
-    lines.depthPerX = ring ? 2 * std::acos(-1.0) : 0;
+    // Of the shape functions, [node][k]: ends at -1 and 1, then the middle.
+    const std::vector<double> shape = N == 2 ? std::vector<double>{0.5, -0.5, 0.5, 0.5}
+                                             : std::vector<double>{0, -0.5, 0.5, 0, 0.5, 0.5, 1, 0, -1};
+    std::map<int, int> ends;
+    for (int e = 0; e < edges.numEntities; ++e)
+      for (int end = 0; end < 2; ++end) ends.emplace(edges.nodes[e * N + end], 0);
+    for (auto& [node, number] : ends) {
+      number = lines.numEnds();
+      lines.endNodes.push_back(node);
+    }
+    for (int e = 0; e < edges.numEntities; ++e) {
+      const int* nodes = &edges.nodes[e * N];
+      lines.shape.insert(lines.shape.end(), shape.begin(), shape.end());
+      for (int k = 0; k < N; ++k) {
+        double X[3] = {0, 0, 0};
+        for (int n = 0; n < N; ++n)
+          for (int i = 0; i < 2; ++i)
+            X[i] += shape[n * N + k] * mesh.coordinates[3 * static_cast<std::size_t>(nodes[n]) + i];
+        lines.coefficients.insert(lines.coefficients.end(), X, X + 3);
+        const double depth = ring ? 2 * std::acos(-1.0) * X[0] : k == 0 ? section.thickness : 0;
+        lines.across.insert(lines.across.end(), {0, 0, depth});
+      }
+      lines.ends.insert(lines.ends.end(), {ends.at(nodes[0]), ends.at(nodes[1])});
+      lines.middleNodes.push_back(nodes[N - 1]);
+    }
     const Tabulation t = fem::tabulateFace(lines.degree == 1 ? fem::Face::Line2 : fem::Face::Line3, degree);
     lines.shown = t.points;
     lines.weights = edges.weights;

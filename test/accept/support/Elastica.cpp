@@ -17,7 +17,7 @@ Elastica::Elastica(Case which) : touch_(which == Case::A ? 0.001117785595 : 0.00
       branch.force.push_back(force[i]);
     };
     if (load[i] <= touch_) add(free_);
-    if (load[i] >= touch_ && phase[i] == 1) add(touching_);
+    if (load[i] >= touch_ && phase[i] >= 1) add(touching_);
   }
 }
 

@@ -67,6 +67,12 @@ class EventTerm : public Term {
   /// `renews`.
   virtual std::vector<double> renewed(const ConstDofView& /*u*/, double /*lambda*/) const { return {}; }
 
+  /// Not 0 of own conditions that begin or end with a size of their own (eventGradient) and are next to that
+  /// change at a state, in parts that sum over all ranks; asked where `renews`.
+  virtual std::vector<double> nearChange(const ConstDofView& /*u*/, double /*lambda*/) const {
+    return std::vector<double>(eventNumbers().size(), 0.0);
+  }
+
   /// The least stiffness of the body (force per length) at a node of each own condition, given those of the
   /// nodes (0 where a node cannot move); infinity where none can move.
   virtual std::vector<double> leastStiffness(const std::vector<double>& ofNodes) const = 0;

@@ -5,27 +5,14 @@
 #include <vector>
 
 #include "atrapos/fem/EventTerm.hpp"
+#include "atrapos/fem/LineSet.hpp"
 #include "atrapos/fem/PointLaw.hpp"
 
 namespace atrapos::fem {
 
-/// Lines of a plane body, the edges of its cells: x(xi) = sum over nodes of x_n N_n(xi), xi in [-1, 1].
-struct LineSet {
-  int degree = 1;                   ///< 1 or 2: of the shape functions
-  std::vector<int> nodes;           ///< [line][degree + 1]: both ends, then the middle
-  std::vector<double> coordinates;  ///< [line][degree + 1][2] in the undeformed body
-  /// What lengths are multiplied by: depth + depthPerX X.
-  double depth = 1, depthPerX = 0;
-  std::vector<double> shown;    ///< [point] xi where gaps and pressures are shown, ascending
-  std::vector<double> weights;  ///< [line][point] of these points: area
-
-  int nodesPerLine() const { return degree + 1; }
-  int numLines() const { return static_cast<int>(nodes.size()) / nodesPerLine(); }
-};
-
 /// A condition of zoneTerm as messages and lists of events show it.
 struct ZoneCondition {
-  int node = 0;        ///< the end of lines, or the middle of the line
+  int node = 0;        ///< at the end of lines or the middle of the line, or next to it
   bool opens = false;  ///< it is a maximum of the gap: active where it is out of contact
 };
 /// In the order of the conditions.

@@ -47,6 +47,7 @@ class Calls {
   /// Coefficient k of the Problem's event functions.
   std::vector<double> eventOrder(int k);
   State afterEvent(const std::vector<int>& indices, const State& state);
+  std::vector<int> eventsBeside(const std::vector<int>& indices, const State& state);
   bool eventGradient(int index, const State& state, double& value, Vector& byU, double& byLambda);
   std::vector<int> eventsAt(const State& start);
 

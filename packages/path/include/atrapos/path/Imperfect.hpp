@@ -36,6 +36,9 @@ class ImperfectProblem : public Problem {
   State afterEvent(const std::vector<int>& indices, const State& state) override {
     return perfect_.afterEvent(indices, state);
   }
+  std::vector<int> eventsBeside(const std::vector<int>& indices, const State& state) override {
+    return perfect_.eventsBeside(indices, state);
+  }
   bool eventGradient(int index, const State& state, double& value, Vector& byU, double& byLambda) override {
     return perfect_.eventGradient(index, state, value, byU, byLambda);
   }

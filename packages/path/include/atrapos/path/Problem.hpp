@@ -106,6 +106,12 @@ class Problem {
     return false;
   }
 
+  /// Further event functions that are due where these fall to zero, at this state: what symmetry brings
+  /// together and only rounding, or the bound of the residual, tells apart.
+  virtual std::vector<int> eventsBeside(const std::vector<int>& /*indices*/, const State& /*state*/) {
+    return {};
+  }
+
   /// Where the Problem is analytic piece by piece only; null: everywhere between its events. The object is
   /// the Problem's own.
   virtual Pieces* pieces() { return nullptr; }
