@@ -18,6 +18,7 @@
 #include "atrapos/exodus/MeshFile.hpp"
 #include "atrapos/exodus/ResultReader.hpp"
 #include "atrapos/fem/Processor.hpp"
+#include "commands/ChartCommand.hpp"
 #include "commands/Check.hpp"
 #include "commands/ImportCommand.hpp"
 #include "commands/JoinCommand.hpp"
@@ -300,6 +301,14 @@ int main(int argc, char** argv) {
   reportCommand->add_option("-o,--output", output, "the page (default: report.html in RESULTS)");
   reportCommand->add_flag("-q,--quiet", quiet, "print nothing");
 
+  std::string chartFile;
+  auto* chartCommand = app.add_subcommand(
+      "chart", "make runs of a deck with other values and draw their errors over their work; docs/chart.md");
+  chartCommand->add_option("CHART", chartFile, "YAML file that says which deck, runs and reference")
+      ->required();
+  chartCommand->add_option("-o,--output", output, "folder for the chart (default: <chart>_chart here)");
+  chartCommand->add_flag("-q,--quiet", quiet, "print nothing");
+
   atrapos::MapWords mapWords;
   auto* mapCommand =
       app.add_subcommand("map", "follow decks' paths under many settings: where do runs fail?");
@@ -341,15 +350,13 @@ int main(int argc, char** argv) {
   const bool hasCommand = !app.get_subcommands().empty();
   const auto extras = app.remaining(true);
   if (!hasCommand || !extras.empty()) {
-    std::cerr
-        << (extras.empty()
-                ? "atrapos: a command is needed: run, plot, report, mesh, import, split, join, check or map"
-            : hasCommand
-                ? fmt::format("atrapos: '{}' is not expected", extras.front())
-                : fmt::format(
-                      "atrapos: '{}' is not a command: run, plot, report, mesh, import, split, join, check or map",
-                      extras.front()))
-        << " (see atrapos --help)\n";
+    std::cerr << (extras.empty() ? "atrapos: a command is needed: run, plot, report, chart, mesh, import, "
+                                   "split, join, check or map"
+                  : hasCommand   ? fmt::format("atrapos: '{}' is not expected", extras.front())
+                                 : fmt::format("atrapos: '{}' is not a command: run, plot, report, chart, "
+                                                 "mesh, import, split, join, check or map",
+                                               extras.front()))
+              << " (see atrapos --help)\n";
     return kBadInput;
   }
   // Before anything is read: a level that is not there is no deck's fault.
@@ -385,6 +392,11 @@ int main(int argc, char** argv) {
     }
     if (*plotCommand) {
       atrapos::plotResults(plotWords, progress);
+      return 0;
+    }
+    if (*chartCommand) {
+      const std::string stem = std::filesystem::path(chartFile).stem().string();
+      atrapos::writeChart(chartFile, output.empty() ? stem + "_chart" : output, progress);
       return 0;
     }
     if (*checkCommand) return withRuntime(0, named, [&] { return check(deck); });

@@ -13,16 +13,6 @@
 namespace atrapos::deck {
 namespace {
 
-std::string readText(const std::string& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::string text(mostBytes + 1, ' ');  // no more: the file may have no end
-  if (!in || !(in.read(text.data(), static_cast<std::streamsize>(text.size())) || in.eof())) {
-    throw DeckError(fmt::format("{}: cannot be read: {}", file, std::strerror(errno)));
-  }
-  text.resize(static_cast<std::size_t>(in.gcount()));
-  return text;
-}
-
 /// A file of surfaces: a deck with the one key `surfaces`.
 struct SurfaceFile {
   std::vector<SplineSurface> surfaces;

@@ -42,6 +42,8 @@ class Value {
   std::vector<Value> children() const;
   /// Named entries: a map, or a list of maps each with the key `name`, as a map.
   Value entries() const;
+  /// As it is written.
+  const YamlTree& tree() const { return node_; }
   /// The key under which the value stands.
   const std::string& key() const { return key_; }
 

@@ -1,6 +1,9 @@
 #include "deck/YamlSource.hpp"
 
 #include <fmt/format.h>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
 
 #include <algorithm>
 
@@ -8,6 +11,16 @@
 #include "deck/Deck.hpp"
 
 namespace atrapos::deck {
+std::string readText(const std::string& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::string text(mostBytes + 1, ' ');  // no more: the file may have no end
+  if (!in || !(in.read(text.data(), static_cast<std::streamsize>(text.size())) || in.eof())) {
+    throw DeckError(fmt::format("{}: cannot be read: {}", file, std::strerror(errno)));
+  }
+  text.resize(static_cast<std::size_t>(in.gcount()));
+  return text;
+}
+
 YamlSource::YamlSource(const std::string& text, const std::string& file) : file_(file) {
   if (text.size() > mostBytes) {
     fail(fmt::format("is too large for a deck; expected at most {} bytes", mostBytes));

@@ -9,6 +9,9 @@ namespace atrapos::deck {
 /// The most bytes that a deck, or a file beside it, may have: more takes minutes and gigabytes to be read.
 constexpr std::size_t mostBytes = 8000000;
 
+/// The bytes of a file, no more than a little over mostBytes. Throws DeckError where it cannot be read.
+std::string readText(const std::string& file);
+
 /// The text of a YAML file, for a parser that counts bytes from 0.
 class YamlSource {
  public:

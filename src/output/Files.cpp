@@ -40,6 +40,7 @@ constexpr std::array<KnownFile, 12> knownFiles{{{"path.csv", "step,path_length,l
                                                 {"report.html", kReportBegins},
                                                 {"path.gp", kScriptBegins}}};
 constexpr const char* kMapBegins = "problem,order,delta,pade,";
+constexpr const char* kChartBegins = "curve,run,settings,";
 
 bool begins(const std::string& file, const std::string& text) {
   std::ifstream in(file, std::ios::binary);
@@ -60,6 +61,7 @@ bool isOwnExodus(const std::string& file) {
 
 bool looksOwn(const std::string& file, Made as) {
   if (as == Made::map) return begins(file, kMapBegins);
+  if (as == Made::chart) return begins(file, kChartBegins);
   if (as == Made::report) return begins(file, kReportBegins);
   if (as == Made::mesh) return isOwnExodus(file);
   const std::string name = std::filesystem::path(file).filename().string();

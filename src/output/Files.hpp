@@ -16,7 +16,7 @@ std::optional<int> branchOfFields(const std::string& name);
 bool isResultName(const std::string& name);
 
 /// What a file was made as.
-enum class Made { mesh, map, result, report };
+enum class Made { mesh, map, chart, result, report };
 
 /// Throws std::invalid_argument, one line, where the file is there and may not be replaced: it is not a
 /// regular one, it is one of `inputs`, or it does not look as if this program had made it as the same.

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "deck/YamlTree.hpp"
+
+/// What `atrapos chart` is asked for: a deck, runs of it with other values, and what their error is
+/// (docs/chart.md).
+namespace atrapos::chart {
+
+/// Keys of the deck, "a/b/c", and what stands there in place of the deck's value; no value: the key goes.
+using Edits = std::vector<std::pair<std::string, deck::YamlTree>>;
+
+/// One line of the picture.
+struct Curve {
+  std::string name;
+  std::vector<Edits> runs;  ///< of a deck
+  /// A table of what another program took, with the columns `seconds` and `error` and perhaps
+  /// `factorizations`.
+  std::string table;
+};
+
+/// What the paths are held against.
+struct Reference {
+  std::string file, x, y;    ///< a table and two of its columns
+  std::string formula;       ///< of the quantity `over`
+  std::optional<Edits> own;  ///< a run of the deck
+};
+
+struct Chart {
+  std::string file;  ///< of the chart
+  std::string title;
+  std::string deck;     ///< file
+  std::string monitor;  ///< whose largest error over the path counts
+  std::string over = "load_factor";
+  Reference reference;
+  int repeat = 1;  ///< times that each run is made; the least time counts
+  std::vector<Curve> curves;
+  std::string about;  ///< what the errors depend on beside the decks of the runs
+};
+
+/// Throws DeckError, one line with its place, for what makes no chart.
+Chart readChart(const std::string& file);
+
+}  // namespace atrapos::chart

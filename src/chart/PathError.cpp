@@ -1,0 +1,126 @@
+#include "chart/PathError.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "atrapos/formula/Builder.hpp"
+#include "atrapos/formula/Parse.hpp"
+#include "output/TableFile.hpp"
+
+namespace atrapos::chart {
+namespace {
+
+/// Points of a stretch without corners.
+struct Stretch {
+  std::vector<double> x, y;
+
+  /// Lagrange's polynomial through the points next to it, in Neville's form.
+  double at(double place) const {
+    const std::size_t n = x.size(), count = std::min<std::size_t>(4, n);
+    const auto above = static_cast<std::size_t>(std::upper_bound(x.begin(), x.end(), place) - x.begin());
+    const std::size_t first = std::min(above < 2 ? 0 : above - 2, n - count);
+    std::vector<double> p(y.begin() + static_cast<long>(first), y.begin() + static_cast<long>(first + count));
+    for (std::size_t m = 1; m < count; ++m)
+      for (std::size_t i = 0; i + m < count; ++i) {
+        const double a = x[first + i], b = x[first + i + m];
+        p[i] = ((place - b) * p[i] + (a - place) * p[i + 1]) / (a - b);
+      }
+    return p[0];
+  }
+};
+
+class OfPoints final : public ReferenceCurve {
+ public:
+  explicit OfPoints(std::vector<Stretch> stretches) : stretches_(std::move(stretches)) {}
+  double operator()(double x) const override {
+    for (const Stretch& s : stretches_)
+      if (x >= s.x.front() && x <= s.x.back()) return s.at(x);
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+
+ private:
+  std::vector<Stretch> stretches_;
+};
+
+class OfFormula final : public ReferenceCurve {
+ public:
+  explicit OfFormula(const formula::Program& program) : program_(program) {}
+  double operator()(double x) const override {
+    const double none = 0;
+    double result = 0;
+    formula::evaluate<double>(program_, &x, &none, &result);
+    return result;
+  }
+
+ private:
+  formula::Program program_;
+};
+
+}  // namespace
+
+std::unique_ptr<ReferenceCurve> ReferenceCurve::ofPoints(std::vector<double> x, std::vector<double> y,
+                                                         const std::string& what) {
+  if (!x.empty() && x.back() < x.front()) {
+    std::reverse(x.begin(), x.end());
+    std::reverse(y.begin(), y.end());
+  }
+  std::vector<Stretch> stretches(1);
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    Stretch* own = &stretches.back();
+    if (!own->x.empty() && x[i] == own->x.back()) {
+      stretches.emplace_back();
+      own = &stretches.back();
+    } else if (!own->x.empty() && !(x[i] > own->x.back())) {
+      throw std::invalid_argument(fmt::format(
+          "{}: {:g} and {:g} are out of order, but what errors are taken over must ascend or descend", what,
+          own->x.back(), x[i]));
+    }
+    if (!std::isfinite(x[i]) || !std::isfinite(y[i]))
+      throw std::invalid_argument(fmt::format("{}: row {} holds no numbers", what, i + 1));
+    own->x.push_back(x[i]);
+    own->y.push_back(y[i]);
+  }
+  if (stretches.front().x.empty()) throw std::invalid_argument(fmt::format("{}: has no rows", what));
+  return std::make_unique<OfPoints>(std::move(stretches));
+}
+
+std::unique_ptr<ReferenceCurve> ReferenceCurve::ofFormula(const std::string& text, const std::string& over) {
+  if (!formula::isName(over))
+    throw std::invalid_argument(
+        fmt::format("'{}' cannot stand in a formula; expected a monitor of another name", over));
+  try {
+    formula::Builder builder;
+    formula::Symbols symbols;
+    symbols.scalars[over] = builder.input(0);
+    const int result = formula::parse(text, symbols, builder);
+    return std::make_unique<OfFormula>(builder.program({result}));
+  } catch (const formula::FormulaError& error) {
+    throw std::invalid_argument(fmt::format("error/reference/formula: {}", error.what()));
+  }
+}
+
+PathError errorOf(const std::string& table, const Chart& chart, const ReferenceCurve& reference) {
+  const TableFile path(table);
+  const auto x = path.numbers(chart.over), y = path.numbers(chart.monitor), branch = path.numbers("branch");
+  PathError error;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    if (branch[i] != 0) continue;
+    const double exact = reference(x[i]);
+    if (std::isnan(exact)) continue;
+    ++error.compared;
+    const double difference = std::abs(y[i] - exact);
+    if (!(difference <= error.largest)) {
+      error.largest = difference;
+      error.at = x[i];
+    }
+  }
+  if (error.compared == 0)
+    throw std::invalid_argument(fmt::format("{}: the reference knows no {} of the path", table, chart.over));
+  return error;
+}
+
+}  // namespace atrapos::chart

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "chart/Chart.hpp"
+
+namespace atrapos::chart {
+
+/// The exact monitor as a function of the quantity `over`.
+class ReferenceCurve {
+ public:
+  virtual ~ReferenceCurve() = default;
+  /// Not a number where nothing is known.
+  virtual double operator()(double x) const = 0;
+
+  /// Of points with ascending or descending x: cubics through the four nearest, or as many as there are, of a
+  /// stretch; a point given twice is a corner, where two stretches meet. Throws std::invalid_argument, one
+  /// line that begins with `what`, where x turns back.
+  static std::unique_ptr<ReferenceCurve> ofPoints(std::vector<double> x, std::vector<double> y,
+                                                  const std::string& what);
+  /// Throws std::invalid_argument, one line.
+  static std::unique_ptr<ReferenceCurve> ofFormula(const std::string& formula, const std::string& over);
+};
+
+struct PathError {
+  double largest = 0, at = 0;  ///< |monitor - reference| and where it is, in `over`
+  int compared = 0;            ///< rows of the path that the reference knows
+};
+
+/// The error of the monitor over the rows of path.csv, those of the path and not of its branches. Throws
+/// std::invalid_argument, one line, where the table lacks a column, or the reference knows no row.
+PathError errorOf(const std::string& table, const Chart& chart, const ReferenceCurve& reference);
+
+}  // namespace atrapos::chart
