@@ -4,10 +4,12 @@
 
 #include <chrono>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <limits>
 #include <map>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <ostream>
 #include <set>
@@ -22,6 +24,7 @@
 #include "chart/PathError.hpp"
 #include "deck/Deck.hpp"
 #include "machine/Digest.hpp"
+#include "machine/OutputFile.hpp"
 #include "output/Files.hpp"
 #include "output/TableFile.hpp"
 
@@ -40,7 +43,12 @@ class Runs {
       : chart_(chart),
         folder_(std::move(folder)),
         root_(deck::readYaml(deck::readText(chart.deck), chart.deck).root) {
+    // Its runs are processes that a launcher of ranks knows nothing of.
+    for (const char* const size : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"})
+      if (const char* const ranks = std::getenv(size); ranks != nullptr && std::atoi(ranks) > 1)
+        throw std::invalid_argument("a chart is made by one rank; expected no mpirun");
     prepareFolder(folder_, {chart.file, chart.deck});
+    lock_ = std::make_unique<FolderLock>(folder_, FolderLock::For::writing);
     requireOwn(table(), Made::chart, {chart.file, chart.deck});
     requireOwnPicture(folder_ + "/chart");
     const std::string runs = folder_ + "/runs";
@@ -116,6 +124,7 @@ class Runs {
  private:
   const Chart& chart_;
   std::string folder_;
+  std::unique_ptr<FolderLock> lock_;
   deck::YamlTree root_;
 };
 

@@ -217,6 +217,13 @@ TEST_F(ChartTest, WhatMakesNoChart) {
              "none.yaml: cannot be read");
 }
 
+TEST_F(ChartTest, IsMadeByOneRank) {
+  writeFile(folder_ / "c.yaml", kBar);
+  const CommandResult r = runAtraposOnRanks(2, {"chart", "c.yaml"}, folder_.path());
+  EXPECT_NE(r.exitCode, 0);
+  EXPECT_NE(r.err.find("a chart is made by one rank; expected no mpirun"), std::string::npos) << r.err;
+}
+
 TEST_F(ChartTest, WritesIntoNoFolderOfOthers) {
   std::filesystem::create_directory(folder_ / "c_chart");
   writeFile(folder_.path() / "c_chart" / "chart.csv", "mine\n");
