@@ -45,7 +45,7 @@ class Runs {
         root_(deck::readYaml(deck::readText(chart.deck), chart.deck).root) {
     // Its runs are processes that a launcher of ranks knows nothing of.
     for (const char* const size : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE"})
-      if (const char* const ranks = std::getenv(size); ranks != nullptr && std::atoi(ranks) > 1)
+      if (const char* const ranks = std::getenv(size); ranks != nullptr && ranks != std::string("1"))
         throw std::invalid_argument("a chart is made by one rank; expected no mpirun");
     prepareFolder(folder_, {chart.file, chart.deck});
     lock_ = std::make_unique<FolderLock>(folder_, FolderLock::For::writing);
