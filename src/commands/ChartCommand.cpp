@@ -19,10 +19,10 @@
 #include "chart/Chart.hpp"
 #include "chart/ChartPlot.hpp"
 #include "chart/ChartTable.hpp"
-#include "chart/ChildRun.hpp"
 #include "chart/DeckEdits.hpp"
 #include "chart/PathError.hpp"
 #include "deck/Deck.hpp"
+#include "machine/ChildProcess.hpp"
 #include "machine/Digest.hpp"
 #include "machine/OutputFile.hpp"
 #include "output/Files.hpp"
@@ -91,7 +91,7 @@ class Runs {
     fs::create_directories(own);
     replaceFile(own + "/deck.yaml", text);
     const auto child = [&](const std::vector<std::string>& words) {
-      const ChildResult result = runChild(words, own);
+      const ChildResult result = runProgram(programBeside(""), words, false, own);
       if (result.exitCode != 0 && result.exitCode != 3)
         throw std::invalid_argument(fmt::format(
             "{}: {}", own, result.message.empty() ? "the run ended without a message" : result.message));

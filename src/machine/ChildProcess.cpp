@@ -1,4 +1,4 @@
-#include "chart/ChildRun.hpp"
+#include "machine/ChildProcess.hpp"
 
 #include <fcntl.h>
 #include <spawn.h>
@@ -14,7 +14,7 @@
 
 extern char** environ;
 
-namespace atrapos::chart {
+namespace atrapos {
 namespace {
 
 /// The first line that comes out of a pipe, which is read to its end.
@@ -32,18 +32,24 @@ std::string firstLine(int descriptor) {
 
 }  // namespace
 
-ChildResult runChild(const std::vector<std::string>& words, const std::string& folder) {
+std::string programBeside(const std::string& name) {
   std::error_code unknown;
-  const std::string program = std::filesystem::read_symlink("/proc/self/exe", unknown).string();
+  std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", unknown);
+  if (!unknown && !name.empty()) program.replace_filename(name);
+  return unknown || !std::filesystem::exists(program, unknown) ? "" : program.string();
+}
+
+ChildResult runProgram(const std::string& program, const std::vector<std::string>& words, bool shown,
+                       const std::string& folder) {
+  const std::string cannot = program + " could not be started";
   std::array<int, 2> ends{};
-  if (unknown || pipe2(ends.data(), O_CLOEXEC) != 0)
-    throw std::runtime_error("no process can be made for a run of a chart");
+  if (pipe2(ends.data(), O_CLOEXEC) != 0) throw std::runtime_error(cannot);
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+  if (!shown) posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
   posix_spawn_file_actions_adddup2(&actions, ends[1], STDERR_FILENO);
-  posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
+  if (!folder.empty()) posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
   std::vector<std::string> all{program};
   all.insert(all.end(), words.begin(), words.end());
   std::vector<char*> arguments;
@@ -56,7 +62,7 @@ ChildResult runChild(const std::vector<std::string>& words, const std::string& f
   ChildResult result;
   if (failure == 0) result.message = firstLine(ends[0]);
   close(ends[0]);
-  if (failure != 0) throw std::runtime_error("no process can be made for a run of a chart");
+  if (failure != 0) throw std::runtime_error(cannot);
   int status = 0;
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
@@ -64,4 +70,4 @@ ChildResult runChild(const std::vector<std::string>& words, const std::string& f
   return result;
 }
 
-}  // namespace atrapos::chart
+}  // namespace atrapos
