@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -12,9 +11,6 @@
 
 namespace atrapos::chart {
 namespace {
-
-constexpr std::array kColours{"#0b6fb8", "#d1495b", "#2a9d5c", "#8e5ea2",
-                              "#e08e0b", "#4a5a66", "#17becf", "#a0522d"};
 
 /// A range of an axis with some room beside what stands there.
 std::string range(const char* axis, const std::vector<PlottedCurve>& curves,
@@ -39,14 +35,17 @@ std::string range(const char* axis, const std::vector<PlottedCurve>& curves,
   return text + fmt::format("set {}tics ({})\n", axis, tics);
 }
 
+std::string styleOf(std::size_t curve) {
+  return fmt::format("with linespoints lw 2 pt {} ps 1 lc rgb '{}'", 4 + curve % 10, plotColour(curve));
+}
+
 std::string panel(const std::vector<PlottedCurve>& curves, bool inSeconds, double origin) {
   std::string plots;
   for (std::size_t c = 0; c < curves.size(); ++c) {
     const auto& work = inSeconds ? curves[c].seconds : curves[c].factorizations;
     if (work.empty() || curves[c].errors.empty()) continue;
-    plots += fmt::format("{}$curve_{} using {}:3 notitle with linespoints lw 2 pt {} ps 1 lc rgb '{}'",
-                         plots.empty() ? "" : ", \\\n  ", c, inSeconds ? 1 : 2, 4 + c % 10,
-                         kColours[c % kColours.size()]);
+    plots += fmt::format("{}$curve_{} using {}:3 notitle {}", plots.empty() ? "" : ", \\\n  ", c,
+                         inSeconds ? 1 : 2, styleOf(c));
   }
   return range("x", curves, inSeconds ? &PlottedCurve::seconds : &PlottedCurve::factorizations) +
          range("y", curves, &PlottedCurve::errors) +
@@ -59,8 +58,7 @@ std::string legend(const std::vector<PlottedCurve>& curves) {
   std::string plots;
   for (std::size_t c = 0; c < curves.size(); ++c)
     plots +=
-        fmt::format("{}1/0 title {} with linespoints lw 2 pt {} ps 1 lc rgb '{}'", c == 0 ? "" : ", \\\n  ",
-                    gnuplotText(curves[c].name), 4 + c % 10, kColours[c % kColours.size()]);
+        fmt::format("{}1/0 title {} {}", c == 0 ? "" : ", \\\n  ", gnuplotText(curves[c].name), styleOf(c));
   return "set size 1,0.16\nset origin 0,0\nset lmargin 0\nset rmargin 0\nset tmargin 0\nset bmargin 0\nunset "
          "border\n"
          "unset tics\nunset grid\nunset xlabel\nunset ylabel\nunset logscale\nset xrange [0:1]\nset yrange "
@@ -85,26 +83,13 @@ std::string plotChart(const std::string& title, const std::string& errorLabel,
     data += "EOD\n";
   }
   const auto drawing = [&](const std::string& file) {
-    return fmt::format(
-               "reset\nset encoding utf8\nset output {}\nset multiplot title {}\nset grid lw 0.7 lc rgb "
-               "'#c9d2d9' dt 1\n"
-               "set border lc rgb '#5a6872'\nset key off\nset logscale xy\nset format y '%.0e'\nset ylabel "
-               "{}\n",
-               gnuplotText(file), gnuplotText(title), gnuplotText(errorLabel)) +
+    return pictureHead(file, title) +
+           fmt::format("set logscale xy\nset format y '%.0e'\nset ylabel {}\n", gnuplotText(errorLabel)) +
            panel(curves, true, 0) + panel(curves, false, 0.5) + legend(curves) +
            "unset multiplot\nset output\n";
   };
   constexpr int width = 980, height = 560;
-  replaceFile(
-      folder + '/' + name + ".gp",
-      fmt::format(
-          "set terminal pngcairo noenhanced size {},{} font 'sans,11' fontscale 2 linewidth 2 pointscale "
-          "2\n",
-          2 * width, 2 * height) +
-          data + drawing(name + ".png") +
-          fmt::format("set terminal svg noenhanced size {},{} font 'sans,12' background 'white'\n", width,
-                      height) +
-          drawing(name + ".svg"));
+  replaceFile(folder + '/' + name + ".gp", pictureScript(name, width, height, data, drawing));
   return runGnuplot(folder, name + ".gp");
 }
 

@@ -103,22 +103,34 @@ std::unique_ptr<ReferenceCurve> ReferenceCurve::ofFormula(const std::string& tex
   }
 }
 
-PathError errorOf(const std::string& table, const Chart& chart, const ReferenceCurve& reference) {
+PathRows readPath(const std::string& table, const Chart& chart) {
   const TableFile path(table);
-  const auto x = path.numbers(chart.over), y = path.numbers(chart.monitor), branch = path.numbers("branch");
-  PathError error;
-  for (std::size_t i = 0; i < x.size(); ++i) {
+  const auto over = path.numbers(chart.over), monitor = path.numbers(chart.monitor),
+             branch = path.numbers("branch");
+  PathRows rows;
+  for (std::size_t i = 0; i < over.size(); ++i) {
     if (branch[i] != 0) continue;
-    const double exact = reference(x[i]);
+    rows.over.push_back(over[i]);
+    rows.monitor.push_back(monitor[i]);
+  }
+  return rows;
+}
+
+PathError errorOf(const std::string& table, const Chart& chart, const ReferenceCurve& reference) {
+  const PathRows rows = readPath(table, chart);
+  PathError error;
+  bool compared = false;
+  for (std::size_t i = 0; i < rows.over.size(); ++i) {
+    const double exact = reference(rows.over[i]);
     if (std::isnan(exact)) continue;
-    ++error.compared;
-    const double difference = std::abs(y[i] - exact);
+    compared = true;
+    const double difference = std::abs(rows.monitor[i] - exact);
     if (!(difference <= error.largest)) {
       error.largest = difference;
-      error.at = x[i];
+      error.at = rows.over[i];
     }
   }
-  if (error.compared == 0)
+  if (!compared)
     throw std::invalid_argument(fmt::format("{}: the reference knows no {} of the path", table, chart.over));
   return error;
 }

@@ -26,8 +26,14 @@ class ReferenceCurve {
 
 struct PathError {
   double largest = 0, at = 0;  ///< |monitor - reference| and where it is, in `over`
-  int compared = 0;            ///< rows of the path that the reference knows
 };
+
+/// The quantity `over` and the monitor in the rows of path.csv, those of the path and not of its branches.
+/// Throws std::invalid_argument, one line, where the table lacks a column.
+struct PathRows {
+  std::vector<double> over, monitor;
+};
+PathRows readPath(const std::string& table, const Chart& chart);
 
 /// The error of the monitor over the rows of path.csv, those of the path and not of its branches. Throws
 /// std::invalid_argument, one line, where the table lacks a column, or the reference knows no row.

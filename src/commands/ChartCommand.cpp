@@ -36,6 +36,12 @@ namespace fs = std::filesystem;
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
+/// The deck of a run.
+struct RunDeck {
+  std::string text;
+  bool makesMesh = false;
+};
+
 /// The runs of a chart and their folders.
 class Runs {
  public:
@@ -61,7 +67,7 @@ class Runs {
 
   /// The deck with these values, as it is run in a folder of its own: files that it reads are named from the
   /// root.
-  std::string deckText(const Edits& edits) const {
+  RunDeck deckOf(const Edits& edits) const {
     deck::YamlTree root = root_;
     for (const auto& [keys, value] : edits) try {
         root = replaced(root, keys, value);
@@ -74,22 +80,23 @@ class Runs {
       if (file && file->kind == deck::YamlNode::Kind::Scalar)
         root = replaced(root, keys, textValue((beside / file->text).lexically_normal().string()));
     };
-    if (valueAt(root, "mesh/generate"))
+    const bool makesMesh = valueAt(root, "mesh/generate") != nullptr;
+    if (makesMesh)
       root = replaced(root, "mesh/file", textValue("mesh.exo"));
     else
       fromRoot("mesh/file");
     if (const deck::YamlTree tools = valueAt(root, "tools");
         tools && tools->kind == deck::YamlNode::Kind::Map)
       for (const auto& tool : tools->keys) fromRoot("tools/" + tool.name + "/file");
-    return yamlText(root);
+    return {yamlText(root), makesMesh};
   }
 
   /// Makes a run `repeat` times; the least seconds count. What is measured but for the error; the path is in
   /// results/path.csv of the folder.
-  Measured make(const std::string& text, const std::string& name, int repeat) const {
+  Measured make(const RunDeck& deck, const std::string& name, int repeat) const {
     const std::string own = folder_ + "/runs/" + name;
     fs::create_directories(own);
-    replaceFile(own + "/deck.yaml", text);
+    replaceFile(own + "/deck.yaml", deck.text);
     const auto child = [&](const std::vector<std::string>& words) {
       const ChildResult result = runProgram(programBeside(""), words, false, own);
       if (result.exitCode != 0 && result.exitCode != 3)
@@ -97,7 +104,7 @@ class Runs {
             "{}: {}", own, result.message.empty() ? "the run ended without a message" : result.message));
       return result;
     };
-    if (text.find("\"generate\"") != std::string::npos) child({"mesh", "-q", "deck.yaml"});
+    if (deck.makesMesh) child({"mesh", "-q", "deck.yaml"});
     Measured measured;
     measured.seconds = std::numeric_limits<double>::infinity();
     for (int i = 0; i < repeat; ++i) {
@@ -144,20 +151,19 @@ std::unique_ptr<ReferenceCurve> referenceOf(const Chart& chart, const Runs& runs
   }
   if (progress)
     *progress << "the reference is a run of the deck's own: " << settingsOf(*reference.own) << std::endl;
-  const Measured own = runs.make(runs.deckText(*reference.own), "reference", 1);
+  const Measured own = runs.make(runs.deckOf(*reference.own), "reference", 1);
   if (own.outcome != "stop")
     throw std::invalid_argument(
         fmt::format("error/reference: the run does not reach a stop: {}", own.outcome));
-  const TableFile table(runs.path("reference"));
-  const auto x = table.numbers(chart.over), y = table.numbers(chart.monitor),
-             branch = table.numbers("branch");
-  std::vector<double> pathX, pathY;
-  for (std::size_t i = 0; i < x.size(); ++i) {
-    if (branch[i] != 0 || (!pathX.empty() && x[i] == pathX.back())) continue;
-    pathX.push_back(x[i]);
-    pathY.push_back(y[i]);
+  const PathRows rows = readPath(runs.path("reference"), chart);
+  // A step ends where the next one begins: that is no corner.
+  std::vector<double> over, monitor;
+  for (std::size_t i = 0; i < rows.over.size(); ++i) {
+    if (!over.empty() && rows.over[i] == over.back()) continue;
+    over.push_back(rows.over[i]);
+    monitor.push_back(rows.monitor[i]);
   }
-  return ReferenceCurve::ofPoints(pathX, pathY, runs.path("reference"));
+  return ReferenceCurve::ofPoints(std::move(over), std::move(monitor), runs.path("reference"));
 }
 
 /// The curve of another program.
@@ -222,8 +228,8 @@ class Rows {
 
 /// Makes a run and measures its error.
 Measured measure(const Chart& chart, const Runs& runs, const ReferenceCurve& reference, const Edits& edits,
-                 const std::string& text, const std::string& name) {
-  Measured row = runs.make(text, name, chart.repeat);
+                 const RunDeck& deck, const std::string& name) {
+  Measured row = runs.make(deck, name, chart.repeat);
   row.settings = settingsOf(edits);
   row.error = row.at = kUnknown;
   if (row.outcome == "stop") {
@@ -278,10 +284,11 @@ void writeChart(const std::string& file, const std::string& folder, std::ostream
     for (std::size_t c = 0; c < chart.curves.size(); ++c) {
       const Curve& curve = chart.curves[c];
       if (i >= curve.runs.size()) continue;
-      const std::string text = runs.deckText(curve.runs[i]), digest = rows.digestOf(text);
+      const RunDeck deck = runs.deckOf(curve.runs[i]);
+      const std::string digest = rows.digestOf(deck.text);
       const Measured* const known = rows.known(digest);
       Measured row = known != nullptr ? *known
-                                      : measure(chart, runs, *reference, curve.runs[i], text,
+                                      : measure(chart, runs, *reference, curve.runs[i], deck,
                                                 fmt::format("{}-{}", c + 1, i + 1));
       row.digest = digest;
       row.curve = curve.name;

@@ -45,6 +45,32 @@ std::string gnuplotText(const std::string& text) {
   return result + '"';
 }
 
+const char* plotColour(std::size_t i) {
+  static const char* colours[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
+                                  "#e69f00", "#56b4e9", "#444444"};
+  return colours[i % 7];
+}
+
+std::string pictureHead(const std::string& file, const std::string& title) {
+  return fmt::format(
+      "reset\nset encoding utf8\nset output {}\nset multiplot title {}\nset grid lw 0.7 lc rgb '#c9d2d9' "
+      "dt 1\n"
+      "set border lc rgb '#5a6872'\nset tics textcolor rgb '#111111'\nset key off\n",
+      gnuplotText(file), gnuplotText(title));
+}
+
+std::string pictureScript(const std::string& name, int width, int height, const std::string& data,
+                          const std::function<std::string(const std::string& file)>& draw) {
+  return fmt::format(
+             "set terminal pngcairo noenhanced size {},{} font 'sans,11' fontscale 2 linewidth 2 "
+             "pointscale 2\n",
+             2 * width, 2 * height) +
+         data + draw(name + ".png") +
+         fmt::format("set terminal svg noenhanced size {},{} font 'sans,12' background 'white'\n", width,
+                     height) +
+         draw(name + ".svg");
+}
+
 std::string runGnuplot(const std::string& folder, const std::string& script) {
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);

@@ -17,13 +17,6 @@
 namespace atrapos {
 namespace {
 
-/// Told apart by people who see fewer colours too (Okabe and Ito, "Color universal design", 2008).
-const char* colour(std::size_t i) {
-  static const char* colours[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
-                                  "#e69f00", "#56b4e9", "#444444"};
-  return colours[i % 7];
-}
-
 const char* lineOf(Stability s) {
   switch (s) {
     case Stability::stable:
@@ -180,14 +173,8 @@ class Script {
   }
 
   std::string text(const std::string& name) const {
-    return fmt::format(
-               "set terminal pngcairo noenhanced size {},{} font 'sans,11' fontscale 2 linewidth 2 "
-               "pointscale 2\n",
-               2 * width_, 2 * height_) +
-           data_ + drawing(name + ".png") +
-           fmt::format("set terminal svg noenhanced size {},{} font 'sans,12' background 'white'\n", width_,
-                       height_) +
-           drawing(name + ".svg");
+    return pictureScript(name, width_, height_, data_,
+                         [this](const std::string& file) { return drawing(file); });
   }
 
  private:
@@ -240,7 +227,7 @@ class Script {
       const std::string name = fmt::format("$curve_{}_{}_{}", p, number, static_cast<int>(s));
       data_ += fmt::format("{} << EOD\n{}EOD\n", name, rows);
       plots += fmt::format("{}{} using 1:2 notitle with lines {} lc rgb '{}'",
-                           plots.empty() ? "" : ", \\\n  ", name, lineOf(s), colour(number));
+                           plots.empty() ? "" : ", \\\n  ", name, lineOf(s), plotColour(number));
       legend_.stability[static_cast<int>(s)] = true;
     }
   }
@@ -286,8 +273,8 @@ class Script {
     constexpr std::size_t most = 14;
     if (legend_.colours.size() > 1)
       for (std::size_t i = 0; i < std::min(most, legend_.colours.size()); ++i)
-        entries.emplace_back(legend_.colours[i].first,
-                             fmt::format("with lines lw 2.2 lc rgb '{}'", colour(legend_.colours[i].second)));
+        entries.emplace_back(legend_.colours[i].first, fmt::format("with lines lw 2.2 lc rgb '{}'",
+                                                                   plotColour(legend_.colours[i].second)));
     static const char* const words[] = {"stable", "unstable", "stability not counted"};
     for (const Stability s : kAll)
       if (legend_.stability[static_cast<int>(s)])
@@ -325,11 +312,7 @@ class Script {
   }
 
   std::string drawing(const std::string& file) const {
-    std::string text = fmt::format(
-        "reset\nset encoding utf8\nset output {}\nset multiplot title {}\nset grid lw 0.7 lc rgb '#c9d2d9' "
-        "dt 1\n"
-        "set border lc rgb '#5a6872'\nset tics textcolor rgb '#111111'\nset key off\n",
-        gnuplotText(file), gnuplotText(curves_.title));
+    std::string text = pictureHead(file, curves_.title);
     for (std::size_t p = 0; p < panels_.size(); ++p) text += panel(p);
     return text + legend() + "unset multiplot\nset output\n";
   }

@@ -56,7 +56,7 @@ void Scene::addContacts(fem::FeModel& model) {
     entry.name = contact.name;
     entry.tool = tools_[position - deck_.tools.begin()].get();
     const bool zones = contact.points == deck::Contact::Points::Zones;
-    if (zones && !plane_)
+    if (zones)
       makeLines(contact, entry);
     else
       entry.points = pointsOf(contact);
@@ -99,13 +99,18 @@ void Scene::addContacts(fem::FeModel& model) {
   }
 }
 
-/// Lines across faces, and the points that show them.
+/// Edges or lines across faces, and the points that show them.
 void Scene::makeLines(const deck::Contact& contact, ContactPoints& entry) const {
+  const auto& set = mesh_.sideSets.at(fem::findSideSet(mesh_, contact.set));
+  if (plane_) {
+    entry.points = pointsOf(contact);
+    entry.lines = solid::planeEdgeLines(mesh_, set, *plane_, contact.quadratureDegree);
+    return;
+  }
   const auto gap = [&](const double* x) {
     const double place[4] = {x[0], x[1], x[2], 0};
     return entry.tool->project(place).gap;
   };
-  const auto& set = mesh_.sideSets.at(fem::findSideSet(mesh_, contact.set));
   try {
     for (auto& faces :
          fem::faceLines(mesh_, shells_.geometry, set, zetaOf(contact.at), contact.quadratureDegree, gap)) {
@@ -119,10 +124,6 @@ void Scene::makeLines(const deck::Contact& contact, ContactPoints& entry) const 
 
 void Scene::addZones(const deck::Contact& contact, ContactPoints& entry, fem::FeModel& model) const {
   const std::string key = "contact/" + contact.name + "/points";
-  if (plane_) {
-    const auto& set = mesh_.sideSets.at(fem::findSideSet(mesh_, contact.set));
-    entry.lines = solid::planeEdgeLines(mesh_, set, *plane_, contact.quadratureDegree);
-  }
   fem::ZoneOptions options;
   options.events = deck_.path.series();
   for (const fem::LineSet& lines : entry.lines) try {

@@ -165,22 +165,18 @@ std::vector<int> EventTerms::beside(const std::vector<int>& indices, const Const
                                     double lambda) const {
   std::vector<int> all;
   for (const Entry& entry : entries_) {
-    if (!entry.term->renews()) continue;
     const int end = entry.first + entry.term->eventCount();
-    for (const bool active : {false, true}) {
-      const bool due = std::any_of(indices.begin(), indices.end(), [&](int i) {
-        return i >= entry.first && i < end && (conditions_[i] == 1) == active;
-      });
-      if (!due) continue;
-      std::vector<double> at(count(), 0.0);
-      ranks_.together([&] { put(entry, entry.term->nearChange(u, lambda), at); });
-      ranks_.sum(at);
-      const bool sized = std::any_of(indices.begin(), indices.end(), [&](int i) {
-        return i >= entry.first && i < end && (conditions_[i] == 1) == active && at[i] > 0;
-      });
-      for (int c = entry.first; sized && c < end; ++c)
-        if (at[c] > 0 && (conditions_[c] == 1) == active) all.push_back(c);
-    }
+    const auto own = [&](int i) { return i >= entry.first && i < end; };
+    if (!entry.term->renews() || std::none_of(indices.begin(), indices.end(), own)) continue;
+    std::vector<double> near(count(), 0.0);
+    ranks_.together([&] { put(entry, entry.term->nearChange(u, lambda), near); });
+    ranks_.sum(near);
+    // What begins with what is due, and what ends with it.
+    for (int c = entry.first; c < end; ++c)
+      if (near[c] > 0 && std::any_of(indices.begin(), indices.end(), [&](int i) {
+            return own(i) && near[i] > 0 && conditions_[i] == conditions_[c];
+          }))
+        all.push_back(c);
   }
   return all;
 }

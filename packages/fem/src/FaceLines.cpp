@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <map>
 #include <stdexcept>
 #include <utility>
@@ -147,7 +146,7 @@ std::vector<int> directions(const std::vector<SurfaceFace>& faces, const Corners
   return result;
 }
 
-FaceLines linesAcross(const std::vector<SurfaceFace>& faces, int degree,
+FaceLines linesAcross(const Mesh& mesh, const SideSet& set, const std::vector<SurfaceFace>& faces, int degree,
                       const std::function<double(const double*)>& gap) {
   const Face shape = faces[0].face;
   const int P = shape == Face::Quad4 ? 1 : 2, K = P + 1;
@@ -166,7 +165,7 @@ FaceLines linesAcross(const std::vector<SurfaceFace>& faces, int degree,
     const SurfaceFace& face = faces[f];
     const Pattern& pattern = patterns[direction[f]];
     const int N = static_cast<int>(face.places.size());
-    appendFace(pattern.points, face, result.points);
+    appendFace(mesh, set, pattern.points, face, result.points);
     for (int j = 0; j < n; ++j) {
       lines.nodes.insert(lines.nodes.end(), face.nodes.begin(), face.nodes.end());
       for (std::size_t a = 0; a < face.nodes.size(); ++a)
@@ -218,7 +217,7 @@ std::vector<FaceLines> faceLines(const Mesh& mesh, const ShellGeometry& shells, 
     byShape[face.face].push_back(std::move(face));
   }
   std::vector<FaceLines> result;
-  for (const auto& [shape, faces] : byShape) result.push_back(linesAcross(faces, degree, gap));
+  for (const auto& [shape, faces] : byShape) result.push_back(linesAcross(mesh, set, faces, degree, gap));
   return result;
 }
 

@@ -716,6 +716,7 @@ std::vector<int> FeProblem::growingAt(const path::State& state) const {
 }
 
 std::vector<int> FeProblem::eventsBeside(const std::vector<int>& indices, const path::State& state) {
+  if (!impl_->events->renews()) return {};
   return impl_->events->beside(indices, onRank(state), state.lambda);
 }
 

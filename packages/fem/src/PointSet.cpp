@@ -9,6 +9,7 @@
 #include <set>
 #include <stdexcept>
 
+#include "SurfaceFaces.hpp"
 #include "Vec3.hpp"
 
 namespace atrapos::fem {
@@ -144,44 +145,7 @@ ElementAddress addressOf(const Mesh& mesh, int element) {
 }
 
 std::vector<PointSet> facePoints(const Mesh& mesh, const SideSet& set, int degree) {
-  std::map<Face, PointSet> byShape;
-  std::map<Face, Tabulation> tables;
-  for (const Side& side : set.sides) {
-    const auto [b, e] = addressOf(mesh, side.element);
-    const Block& block = mesh.blocks[b];
-    const Face face = sideFace(block.topology, side.side);
-    if (isLine(face))
-      throw std::runtime_error(
-          fmt::format("side set '{}': side {} of element {} is an edge, where a face is needed", set.name,
-                      side.side + 1, mesh.elementNumber(side.element)));
-    if (!tables.count(face)) tables[face] = tabulateFace(face, degree);
-    const Tabulation& t = tables.at(face);
-    PointSet& p = byShape[face];
-    p.nodesPerEntity = t.numNodes;
-    p.pointsPerEntity = t.numPoints;
-    p.shapeComponents = 1;
-    ++p.numEntities;
-    std::vector<int> nodes;
-    for (int n : sideNodes(block.topology, side.side))
-      nodes.push_back(block.nodes[static_cast<std::size_t>(e) * nodesPerElement(block.topology) + n]);
-    p.nodes.insert(p.nodes.end(), nodes.begin(), nodes.end());
-    for (int q = 0; q < t.numPoints; ++q) {
-      Vec3 g[2];
-      tangents(mesh, nodes.data(), t, q, g);
-      const Vec3 normal = cross(g[0], g[1]);
-      const double area = std::sqrt(dot(normal, normal));
-      if (!(area > 0))
-        throw std::runtime_error(fmt::format("side set '{}': side {} of element {} has no area", set.name,
-                                             side.side + 1, mesh.elementNumber(side.element)));
-      p.weights.push_back(t.weights[q] * area);
-      appendPosition(mesh, nodes.data(), t, q, p);
-      for (int i = 0; i < 3; ++i) p.normals.push_back(normal[i] / area);
-      for (int n = 0; n < t.numNodes; ++n) p.shape.push_back(t.values[q * t.numNodes + n]);
-    }
-  }
-  std::vector<PointSet> result;
-  for (auto& entry : byShape) result.push_back(std::move(entry.second));
-  return result;
+  return pointsOf(mesh, set, surfaceFaces(mesh, {}, set, 0), degree);
 }
 
 PointSet nodePoints(const Mesh& mesh, const std::vector<int>& nodes) {

@@ -25,7 +25,15 @@ struct SurfaceFace {
 std::vector<SurfaceFace> surfaceFaces(const Mesh& mesh, const ShellGeometry& shells, const SideSet& set,
                                       double zeta);
 
-/// Appends a face, an entity with these points.
-void appendFace(const Tabulation& points, const SurfaceFace& face, PointSet& p);
+/// Appends a face, an entity with these points. Throws std::runtime_error where it has no area.
+void appendFace(const Mesh& mesh, const SideSet& set, const Tabulation& points, const SurfaceFace& face,
+                PointSet& p);
+
+/// One PointSet for each shape of faces; cubature exact to `degree`. Throws as appendFace does.
+std::vector<PointSet> pointsOf(const Mesh& mesh, const SideSet& set, const std::vector<SurfaceFace>& faces,
+                               int degree);
+
+/// Throws std::runtime_error: the side is no `needed`.
+[[noreturn]] void wrongSide(const Mesh& mesh, const SideSet& set, const Side& side, const char* needed);
 
 }  // namespace atrapos::fem

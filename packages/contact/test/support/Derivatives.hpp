@@ -14,6 +14,14 @@ namespace atrapos::contact::test {
 
 using fem::test::Numbers;
 
+/// To rounding of sums; all entries are there twice.
+inline void expectSymmetric(const fem::test::Tangent& K) {
+  const double largest = fem::test::largest(K.value);
+  for (std::size_t i = 0; i + 1 < K.start.size(); ++i)
+    for (std::size_t e = K.start[i]; e < K.start[i + 1]; ++e)
+      ASSERT_NEAR(K.value[e], K.at(K.column[e], static_cast<int>(i)), 1e-13 * largest);
+}
+
 /// K v - rate F of the tangent at (u, lambda) against central differences of the residual, whose error must
 /// fall by 4 with every halving of the step: from `step` three times.
 inline void expectDerivative(fem::FeProblem& problem, const fem::test::Tangent& K, const Numbers& u,
