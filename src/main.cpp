@@ -30,6 +30,7 @@
 #include "commands/Run.hpp"
 #include "commands/SceneCase.hpp"
 #include "commands/SplitCommand.hpp"
+#include "commands/Stages.hpp"
 #include "import/Import.hpp"
 #include "machine/OutputFile.hpp"
 #include "machine/Ranks.hpp"
@@ -123,7 +124,7 @@ int run(const RunWords& words) {
   const auto follow = [&](atrapos::PathCase& pathCase, const std::string& about) {
     tell(about);
     if (!alone) tell(sharing);
-    const auto result = atrapos::runPath(pathCase, options);
+    const auto result = atrapos::runPath(deck, pathCase, options);
     const std::string page = options.directory + "/report.html";
     const bool toOpen = !quiet && std::filesystem::exists(page);
     if (!quiet || (!result.reachedStop && atrapos::ranks::isFirst()))
@@ -143,7 +144,8 @@ int run(const RunWords& words) {
   atrapos::DeckMesh mesh = atrapos::readDeckMesh(deck);
   tell(deck.title);  // the scene may take a while
   const char* const came = mesh.ranks.empty() ? "" : ", a part file for each rank";
-  atrapos::Scene scene(deck, std::move(mesh));
+  const atrapos::deck::Deck first = atrapos::firstDeck(deck, mesh);
+  atrapos::Scene scene(first, std::move(mesh));
   atrapos::SceneCase pathCase(scene);
   return follow(pathCase, atrapos::describeMesh(scene.mesh()) + came);
 }
@@ -163,6 +165,8 @@ int map(const atrapos::MapWords& words) {
           cases.push_back(std::make_unique<atrapos::ModelCase>(deck));
           continue;
         }
+        if (!deck.path.stages.empty())
+          atrapos::deck::failAt(deck, "path/stages", "a map is of paths without stages");
         scenes.push_back(std::make_unique<atrapos::Scene>(deck, atrapos::readDeckMesh(deck)));
         cases.push_back(std::make_unique<atrapos::SceneCase>(*scenes.back()));
       }
@@ -200,8 +204,10 @@ int check(const std::string& deckFile) {
     atrapos::printCheck(atrapos::ModelCase(deck), out);
     return 0;
   }
-  atrapos::Scene scene(deck, atrapos::readDeckMesh(deck));
-  atrapos::printCheck(scene, out);
+  atrapos::DeckMesh mesh = atrapos::readDeckMesh(deck);
+  const atrapos::deck::Deck first = atrapos::firstDeck(deck, mesh);
+  atrapos::Scene scene(first, std::move(mesh));
+  atrapos::printCheck(deck, scene, out);
   return 0;
 }
 

@@ -15,8 +15,8 @@
 
 namespace atrapos {
 
-void printCheck(Scene& scene, std::ostream& out) {
-  deck::describe(scene.deck(), out);
+void printCheck(const deck::Deck& deck, Scene& scene, std::ostream& out) {
+  deck::describe(deck, out);
   fem::FeProblem& problem = scene.problem();
   out << fmt::format("\n# mesh      {}\n", describeMesh(scene.mesh()));
   out << fmt::format("# unknowns  {} ({} free), {} tangent\n", scene.numUnknowns(), problem.numFreeDofs(),

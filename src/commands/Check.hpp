@@ -8,7 +8,7 @@
 namespace atrapos {
 
 /// What would be solved: effective deck values, sizes, contact gaps, memory of all ranks. Collective.
-void printCheck(Scene& scene, std::ostream& out);
+void printCheck(const deck::Deck& deck, Scene& scene, std::ostream& out);
 
 /// The same for a model problem.
 void printCheck(const ModelCase& model, std::ostream& out);

@@ -102,6 +102,11 @@ class PathCase {
   virtual std::unique_ptr<PathCase> moved(const path::Vector& /*shape*/, double /*size*/) const {
     return nullptr;
   }
+  /// The same body under another deck of the same mesh, for a path that begins at `start` of this case's
+  /// problem or one made so. Null where there is no body.
+  virtual std::unique_ptr<PathCase> under(const deck::Deck& /*deck*/, const path::State& /*start*/) const {
+    return nullptr;
+  }
   /// Lines for the user before the first step: what was chosen for him.
   virtual std::vector<std::string> remarks() const { return {}; }
   /// Whether the step leads where the problem has to be another one, as it is from now on: the step has to be

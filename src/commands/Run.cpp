@@ -10,8 +10,9 @@
 
 #include "atrapos/exodus/Error.hpp"
 #include "atrapos/exodus/MeshPart.hpp"
-#include "atrapos/path/PathFollower.hpp"
+#include "commands/OnePath.hpp"
 #include "commands/RunSettings.hpp"
+#include "commands/Stages.hpp"
 #include "deck/ProblemLines.hpp"
 #include "machine/Interrupt.hpp"
 #include "machine/Memory.hpp"
@@ -27,72 +28,6 @@
 
 namespace atrapos {
 namespace {
-
-/// A path without branches as a diagram of one.
-class Single final : public path::Observer {
- public:
-  Single(PathCase& pathCase, Recorder& recorder, path::BranchProgress& progress)
-      : case_(pathCase), recorder_(recorder), progress_(progress) {}
-
-  /// Follows the path; where the problem has become another one on a step, again from the step's start.
-  template <class Follower>
-  void follow(Follower& follower) {
-    path::Outcome total;
-    do {
-      changed_ = false;
-      const path::Start from = *progress_.path;
-      const path::Outcome part = follower.runFrom(from, *this);
-      total = total.final.u ? sum(total, part) : part;
-    } while (changed_);
-    progress_.diagram.branches[0].outcome = total;
-  }
-
-  void onSearch(int found, int wanted) override { recorder_.onSearch(0, found, wanted); }
-
-  bool onStep(const path::StepReport& report, const path::Series& series) override {
-    changed_ = case_.changedOn(report.length, series);
-    if (changed_) return false;
-    auto& points = progress_.diagram.points;
-    for (const auto& point : report.criticalPoints) points.push_back({point, 0, report.step});
-    progress_.path = report.next;
-    const bool more = recorder_.onStep(0, report, series);
-    recorder_.onProgress(progress_);
-    return more;
-  }
-
- private:
-  /// The costs of both; all else is that of the last part.
-  static path::Outcome sum(const path::Outcome& first, path::Outcome last) {
-    last.factorizations += first.factorizations;
-    last.events += first.events;
-    last.eventTrials += first.eventTrials;
-    last.solves += first.solves;
-    last.orders += first.orders;
-    last.startIterations += first.startIterations;
-    last.corrections += first.corrections;
-    last.restarts += first.restarts;
-    last.retreats += first.retreats;
-    last.criticalFactorizations += first.criticalFactorizations;
-    last.closings += first.closings;
-    last.cutBacks += first.cutBacks;
-    last.jumps += first.jumps;
-    last.worstResidual = std::max(last.worstResidual, first.worstResidual);
-    last.worstJump = std::max(last.worstJump, first.worstJump);
-    last.seconds.tangent += first.seconds.tangent;
-    last.seconds.analysis += first.seconds.analysis;
-    last.seconds.factor += first.seconds.factor;
-    last.seconds.solve += first.seconds.solve;
-    last.seconds.orderRhs += first.seconds.orderRhs;
-    last.seconds.residual += first.seconds.residual;
-    last.seconds.total += first.seconds.total;
-    return last;
-  }
-
-  PathCase& case_;
-  Recorder& recorder_;
-  path::BranchProgress& progress_;
-  bool changed_ = false;
-};
 
 /// Files that the run reads, and must not replace.
 std::vector<std::string> inputsOf(const deck::Deck& deck) {
@@ -114,10 +49,10 @@ void lock(std::optional<FolderLock>& of, const std::string& folder, FolderLock::
   if (ranks::isFirst()) of.emplace(folder, purpose);
 }
 
-std::optional<Continued> continuedRun(PathCase& pathCase, const RunProblem& problem,
+std::optional<Continued> continuedRun(const deck::Deck& deck, PathCase& pathCase, const RunProblem& problem,
                                       const RunOptions& options) {
   if (options.restart.empty()) return {};
-  const deck::Path& settings = pathCase.deck().path;
+  const deck::Path& settings = deck.path;
   Continued continued = readRestart(options.restart, options.from, problem, pathCase.problem().map());
   const bool tree = settings.branches != path::Follow::none;
   if (continued.tree != tree)
@@ -173,16 +108,25 @@ std::string report(const std::string& folder) {
   }
 }
 
-RunResult resultOf(const path::BranchDiagram& diagram) {
+RunResult resultOf(const deck::Deck& deck, const path::BranchDiagram& diagram) {
+  const auto named = [&](std::size_t b) {
+    const path::Branch& branch = diagram.branches[b];
+    if (!branch.stage.empty()) return fmt::format("stage {}: {}", branch.stage, branch.outcome.text);
+    return b > 0 ? fmt::format("branch {}: {}", b, branch.outcome.text) : branch.outcome.text;
+  };
+  const auto& stages = deck.path.stages;
   RunResult result;
   result.reachedStop = true;
-  result.text = diagram.branches[0].outcome.text;
+  result.text = stages.empty() ? named(0) : named(diagram.branches.size() - 1);
   for (std::size_t b = 0; b < diagram.branches.size(); ++b) {
     if (atStop(diagram.branches[b])) continue;
     result.reachedStop = false;
-    result.text = diagram.branches[b].outcome.text;
-    if (b > 0) result.text = fmt::format("branch {}: {}", b, result.text);
+    result.text = named(b);
     break;
+  }
+  if (result.reachedStop && diagram.branches.size() < stages.size()) {
+    result.reachedStop = false;
+    result.text += fmt::format("; stage {} has not begun", stages[diagram.branches.size()].name);
   }
   if (Interrupt::came()) {
     result.reachedStop = false;
@@ -193,16 +137,13 @@ RunResult resultOf(const path::BranchDiagram& diagram) {
 
 }  // namespace
 
-RunResult runPath(PathCase& pathCase, const RunOptions& options) {
-  const deck::Deck& deck = pathCase.deck();
+RunResult runPath(const deck::Deck& deck, PathCase& pathCase, const RunOptions& options) {
   path::Problem& problem = pathCase.problem();
   requireRoom(pathCase);
   const auto solver = tangentSolver(pathCase, options.progress);
   const path::Options settings = pathOptions(pathCase);
   const path::Stops stops = pathCase.stops();
-  path::PathFollower follower(problem, *solver, settings, stops);
   path::BranchFollower tree(problem, *solver, settings, stops, branchOptions(deck.path));
-  follower.watch(pathCase.functionals());
   tree.watch(pathCase.functionals());
   const RunProblem runProblem{deck::problemLines(deck), pathCase.meshDigest()};
   const bool inPlace = isOneFolder(options.restart, options.directory);
@@ -210,32 +151,33 @@ RunResult runPath(PathCase& pathCase, const RunOptions& options) {
   if (!options.restart.empty())
     lock(inPlace ? writes : reads, options.restart,
          inPlace ? FolderLock::For::writing : FolderLock::For::reading);
-  auto continued = continuedRun(pathCase, runProblem, options);
+  auto continued = continuedRun(deck, pathCase, runProblem, options);
   auto imperfect = continued ? imperfectUnderWay(pathCase, continued->progress) : nullptr;
+  auto stage = continued ? stageUnderWay(deck, pathCase, continued->progress) : nullptr;
+  PathCase& caseHere = imperfect ? imperfect->pathCase() : stage ? stage->pathCase() : pathCase;
+  path::Problem& problemHere = imperfect ? imperfect->problem() : stage ? stage->problem() : problem;
   ranks::wait();  // all have read what the first one is going to replace
 
   prepareFolder(options.directory, inputsOf(deck));
   if (!inPlace) lock(writes, options.directory, FolderLock::For::writing);
   ranks::wait();  // the folder is there
   Interrupt interrupt;
-  Recorder recorder(imperfect ? imperfect->pathCase() : pathCase, imperfect ? imperfect->problem() : problem,
-                    runProblem, options.directory, options.progress, continued);
+  const bool inStages = !deck.path.stages.empty();
+  if (inStages && options.progress)
+    *options.progress << fmt::format("stage {}\n",
+                                     deck.path.stages[continued ? continued->progress.current : 0].name);
+  Recorder recorder(caseHere, problemHere, runProblem, options.directory, options.progress, continued);
   reads.reset();
   const path::State start = pathCase.start();
   const std::optional<path::Start> behind = continued ? continued->progress.path : std::nullopt;
   path::BranchProgress progress = continued ? continued->progress : path::BranchProgress(start);
-  if (progress.diagram.branches.back().imperfection == 0) {
+  if (inStages) progress.diagram.branches[0].stage = deck.path.stages[0].name;
+  if (progress.diagram.branches.back().imperfection == 0 && !stage) {
     if (deck.path.branches != path::Follow::none) {
       tree.goOn(progress, recorder);
     } else if (progress.path) {
-      Single single(pathCase, recorder, progress);
-      if (deck.path.series()) {
-        single.follow(follower);
-      } else {
-        path::NewtonFollower newton(problem, *solver, newtonOptions(pathCase), stops);
-        single.follow(newton);
-      }
-      if (!deck.path.imperfections.empty() && !Interrupt::came()) {
+      followOne(pathCase, problem, *solver, recorder, progress);
+      if ((inStages || !deck.path.imperfections.empty()) && !Interrupt::came()) {
         progress.path.reset();
         recorder.onProgress(progress);
       }
@@ -245,12 +187,13 @@ RunResult runPath(PathCase& pathCase, const RunOptions& options) {
   const path::BranchDiagram& diagram = progress.diagram;
   std::string trouble;
   try {
+    if (inStages) followStages(deck, pathCase, std::move(stage), recorder, progress, options.progress);
     followImperfect(pathCase, *solver, settings, std::move(imperfect), recorder, progress);
   } catch (const std::runtime_error& e) {
     trouble = e.what();  // what has been found stays
   }
 
-  auto summary = runSummary(pathCase, diagram, *solver, recorder);
+  auto summary = runSummary(deck, pathCase, diagram, *solver, recorder);
   if (continued) {
     const int branch = continued->progress.current;
     summary["restarted_on_branch"] = branch;
@@ -274,7 +217,7 @@ RunResult runPath(PathCase& pathCase, const RunOptions& options) {
     if (!plot.empty()) *options.progress << plot << '\n';
     if (!unreported.empty()) *options.progress << unreported << '\n';
   }
-  RunResult result = resultOf(diagram);
+  RunResult result = resultOf(deck, diagram);
   if (result.reachedStop && !trouble.empty()) result = {false, trouble};
   return result;
 }

@@ -22,10 +22,11 @@ struct RunResult {
   std::string text;          ///< one line
 };
 
-/// Follows a path, and the branches that the deck asks for, and writes path.csv, points.csv, branches.csv,
-/// summary.json, path.png, restart.bin and, where there are fields, results.exo and results_branch<n>.exo
-/// into the directory. Every finished step is on disk before the next one begins. On several ranks all call
-/// it and the first one writes.
-RunResult runPath(PathCase& pathCase, const RunOptions& options);
+/// Follows the path of a deck, and the branches or further stages that the deck asks for, and writes
+/// path.csv, points.csv, branches.csv, summary.json, path.png, restart.bin and, where there are fields,
+/// results.exo and results_branch<n>.exo into the directory. Every finished step is on disk before the next
+/// one begins. On several ranks all call it and the first one writes. `pathCase`: of the deck, or of its
+/// first stage (deck::stageDeck).
+RunResult runPath(const deck::Deck& deck, PathCase& pathCase, const RunOptions& options);
 
 }  // namespace atrapos

@@ -49,6 +49,13 @@ std::unique_ptr<PathCase> SceneCase::moved(const path::Vector& shape, double siz
       std::make_unique<Scene>(scene_.deck(), DeckMesh(std::move(mesh), scene_.givenRanks())));
 }
 
+std::unique_ptr<PathCase> SceneCase::under(const deck::Deck& deck, const path::State& start) const {
+  auto scene = std::make_unique<Scene>(deck, DeckMesh(fem::Mesh(scene_.mesh()), scene_.givenRanks()));
+  scene->grow(start);
+  scene->problem().beginAt(start);
+  return std::make_unique<SceneCase>(std::move(scene));
+}
+
 std::vector<std::string> SceneCase::remarks() const {
   std::vector<std::string> lines = describe(scene_.mesh(), scene_.shells());
   for (const ContactPoints& contact : scene_.contacts())

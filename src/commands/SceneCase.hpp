@@ -39,6 +39,7 @@ class SceneCase final : public PathCase {
   std::unique_ptr<FieldFile> makeFieldFile(const std::string& file) const override;
   std::unique_ptr<StepWatch> makeWatch(const std::string& file, bool append) const override;
   std::unique_ptr<PathCase> moved(const path::Vector& shape, double size) const override;
+  std::unique_ptr<PathCase> under(const deck::Deck& deck, const path::State& start) const override;
   std::vector<std::string> remarks() const override;
   /// Points without a contact law that come near their tool on the step get it.
   bool changedOn(double length, const path::Series& series) override;

@@ -191,6 +191,7 @@ struct Support {
   std::array<std::optional<Prescribed>, 3> director{};
   std::string field;                ///< a scalar one, which is held in place of displacements; empty = none
   std::optional<Prescribed> value;  ///< of it
+  bool released = false;            ///< by a stage: holds nothing any more
 };
 
 /// Whether a condition holds this component (0, 1, 2) of the displacement, or of the director's displacement.
@@ -352,6 +353,7 @@ struct ToolMotion {
   std::vector<double> angle;   ///< the same of the angle, degrees
   Vector3 axis{0, 0, 1};       ///< direction, any length
   Vector3 pivot{};
+  std::optional<double> heldAt;  ///< a load factor: by a stage, the tool stays where it is there
   bool moves() const { return !shift.empty() || !angle.empty(); }
 };
 
@@ -427,6 +429,16 @@ struct Stop {
   std::map<std::string, std::vector<double>> monitors;  ///< name -> values
 };
 
+/// A part of a path that begins where the one before has ended.
+struct Stage {
+  std::string name;
+  std::vector<std::string> drives;  ///< entries that follow its load factor; empty: all
+  std::vector<std::string>
+      release;  ///< supports that it takes away, from load factor 0 to 1; it drives nothing then
+  std::optional<int> direction;  ///< sign of the load factor's first change; empty: towards the stop
+  Stop stop;
+};
+
 struct Path {
   /// How the path is followed.
   enum class Method {
@@ -466,7 +478,8 @@ struct Path {
   bool restart = true;  ///< keeps what a restart needs at every step
   /// In (0, 1): at the path's end eta of all contacts falls by this factor; empty: does not.
   std::optional<double> sharpen;
-  Stop stop;
+  Stop stop;                  ///< of a path without stages
+  std::vector<Stage> stages;  ///< one after another
   bool series() const { return method == Method::Series; }
 };
 

@@ -10,6 +10,7 @@
 #include "atrapos/formula/Builder.hpp"
 #include "atrapos/physics/Balance.hpp"
 #include "deck/DeckTables.hpp"
+#include "deck/Stages.hpp"
 
 namespace atrapos::deck {
 namespace {
@@ -258,8 +259,8 @@ void checkMonitor(const Value& v, const Monitor& monitor, const Deck& deck) {
   }
 }
 
-void checkStop(const Value& stop, const Deck& deck) {
-  for (const auto& [name, values] : deck.path.stop.monitors) {
+void checkStop(const Value& stop, const Stop& read, const Deck& deck) {
+  for (const auto& [name, values] : read.monitors) {
     const bool older = stop.has("displacement") && stop.at("displacement").has(name);
     const Value v = stop.at(older ? "displacement" : "monitor").at(name);
     const auto& monitor = find(v, name, deck.output.monitors, "output/monitors");
@@ -270,70 +271,13 @@ void checkStop(const Value& stop, const Deck& deck) {
   }
 }
 
-bool isZero(const Vector3& v) { return v[0] == 0 && v[1] == 0 && v[2] == 0; }
-
-/// Of what acts in proportion to the load factor.
-bool isZero(const Load& load) {
-  if (const auto* nodal = std::get_if<NodalLoad>(&load.load)) {
-    return isZero(nodal->force);
-  }
-  if (const auto* surface = std::get_if<SurfaceLoad>(&load.load)) {
-    return surface->kind == SurfaceLoad::Kind::Pressure ? surface->pressure == 0 : isZero(surface->vector);
-  }
-  if (const auto* edge = std::get_if<EdgeLoad>(&load.load)) {
-    return edge->kind == EdgeLoad::Kind::FollowerMoment ? edge->moment == 0 : isZero(edge->vector);
-  }
-  return isZero(std::get<VolumeLoad>(load.load).force);
-}
-
 void checkSomethingIsDriven(const Value& root, const Deck& deck) {
-  for (const auto& load : deck.loads) {
-    if (const auto* inflow = std::get_if<InflowLoad>(&load.load)) {
-      if (physics::dependsOnLoadFactor(inflow->amount, scalarFields(deck), deck.constants,
-                                       physics::Place::surface)) {
-        return;
-      }
-    } else if (!load.constant && !isZero(load)) {
-      return;
-    }
+  if (drivenOf(deck).empty()) {
+    root.fail(
+        "nothing depends on the load factor; expected a load that is neither constant nor zero, a support "
+        "with "
+        "per_load_factor, a contact with a tool that moves, or a formula with lambda");
   }
-  for (const auto& material : deck.materials) {
-    if (!material.expansion.empty() &&
-        physics::dependsOnLoadFactor(material.expansion, scalarFields(deck), deck.constants,
-                                     physics::Place::surface)) {
-      return;
-    }
-  }
-  for (const auto& entry : deck.physics) {
-    const auto& balance = std::get<ScalarBalance>(entry.law);
-    for (const auto& text : {balance.conductivity, balance.source}) {
-      if (physics::dependsOnLoadFactor(text, scalarFields(deck), deck.constants, physics::Place::body)) {
-        return;
-      }
-    }
-  }
-  for (const auto& support : deck.supports) {
-    if (support.value && support.value->perLoadFactor != 0) {
-      return;
-    }
-    for (const auto& components : {support.components, support.director}) {
-      for (const auto& component : components) {
-        if (component && component->perLoadFactor != 0) {
-          return;
-        }
-      }
-    }
-  }
-  for (const auto& contact : deck.contacts) {
-    for (const auto& tool : deck.tools) {
-      if (tool.name == contact.tool && tool.motion.moves()) {
-        return;
-      }
-    }
-  }
-  root.fail(
-      "nothing depends on the load factor; expected a load that is neither constant nor zero, a support with "
-      "per_load_factor, a contact with a tool that moves, or a formula with lambda");
 }
 
 /// A stop at points that nothing looks for would never come.
@@ -388,6 +332,94 @@ void checkMethod(const Value& root, Deck& deck) {
 
 namespace {
 
+/// A released support is there once, and has not gone before.
+void checkRelease(const Value& v, const Deck& deck, std::vector<std::string>& gone) {
+  for (const std::string& name : v.names()) {
+    find(v, name, deck.supports, "supports");
+    if (std::find(gone.begin(), gone.end(), name) != gone.end()) {
+      v.fail(fmt::format("'{}' has been released by a stage before", name));
+    }
+    gone.push_back(name);
+  }
+}
+
+/// What a stage drives has a name of its own and one load factor, which the stages before have left it at.
+void checkDriven(const Value& at, const Stage& stage, const Deck& deck,
+                 std::map<std::string, int>& lastDrivenBy, int number) {
+  const auto all = drivenOf(deck);
+  const std::string key = at.has("drives") ? "drives" : "";
+  const Value v = key.empty() ? at : at.at(key);
+  for (const std::string& name : stage.drives) {
+    const auto count =
+        std::count_if(all.begin(), all.end(), [&](const Driven& entry) { return entry.name == name; });
+    if (count > 1) {
+      v.fail(
+          fmt::format("'{}' is the name of {} entries that depend on the load factor; expected other names",
+                      name, count));
+    }
+    if (count == 0) {
+      const auto names = namesOf(all);
+      v.fail(fmt::format("no entry '{}' depends on the load factor{}; those that do are {}", name,
+                         suggestion(name, names), joined(names)));
+    }
+  }
+  const Driven* first = nullptr;
+  const auto driven = drivenBy(deck, stage);
+  const auto stageBefore = [&](const Driven& entry) {
+    const auto found = lastDrivenBy.find(fmt::format("{}/{}", static_cast<int>(entry.kind), entry.name));
+    return found == lastDrivenBy.end() ? -1 : found->second;
+  };
+  for (const Driven& entry : driven) {
+    if (first != nullptr && stageBefore(entry) != stageBefore(*first)) {
+      v.fail(fmt::format(
+          "'{}' and '{}' were last driven by different stages, and stand at different load factors; "
+          "expected stages that drive one of them each",
+          first->name, entry.name));
+    }
+    first = first == nullptr ? &entry : first;
+  }
+  for (const Driven& entry : driven) {
+    lastDrivenBy[fmt::format("{}/{}", static_cast<int>(entry.kind), entry.name)] = number;
+  }
+}
+
+/// What stages are not there with, and what each of them needs.
+void checkStages(const Value& path, const Deck& deck) {
+  const auto refuse = [&](const char* key, bool given, const char* expected) {
+    if (given) {
+      path.at(key).failKey(std::string("is not for a path in stages") + expected);
+    }
+  };
+  refuse("stop", path.has("stop"), "; expected it in each stage");
+  refuse("direction", deck.path.direction != 1, "; expected it in each stage");
+  refuse("branches", deck.path.branches != path::Follow::none, "");
+  refuse("imperfections", !deck.path.imperfections.empty(), "");
+  refuse("sharpen", deck.path.sharpen.has_value(), "");
+  std::map<std::string, int> lastDrivenBy;
+  std::vector<std::string> gone;
+  const auto entries = path.at("stages").entries().children();
+  for (std::size_t s = 0; s < entries.size(); ++s) {
+    const Value& at = entries[s];
+    const Stage& stage = deck.path.stages[s];
+    if (at.has("release") && at.has("drives")) {
+      at.at("drives").failKey("stands beside release; expected one of them");
+    }
+    if (at.has("release")) {
+      checkRelease(at.at("release"), deck, gone);
+    } else if (!at.has("stop")) {
+      at.failMissing("stop", "a map with load_factor or another way to end");
+    } else {
+      checkDriven(at, stage, deck, lastDrivenBy, static_cast<int>(s));
+    }
+    if (at.has("stop")) {
+      checkStop(at.at("stop"), stage.stop, deck);
+      if (stage.stop.bifurcation) {
+        checkBifurcationStop(at.at("stop").at("bifurcation"), deck);
+      }
+    }
+  }
+}
+
 void checkSolver(const Value& root, const Deck& deck) {
   if (deck.solver.type != Solver::Type::Belos && deck.solver.type != Solver::Type::Auto) return;
   for (const auto& contact : deck.contacts)
@@ -416,7 +448,10 @@ void checkReferences(const Value& root, const Deck& deck) {
       checkMonitor(monitors[i], deck.output.monitors[i], deck);
     }
   }
-  checkStop(root.at("path").at("stop"), deck);
+  const Value path = root.at("path");
+  if (path.has("stop")) {
+    checkStop(path.at("stop"), deck.path.stop, deck);
+  }
   checkBranches(root, deck);
   checkSolver(root, deck);
   if (deck.path.sharpen) {
@@ -443,6 +478,9 @@ void checkReferences(const Value& root, const Deck& deck) {
     }
   }
   checkSomethingIsDriven(root, deck);
+  if (path.has("stages")) {
+    checkStages(path, deck);
+  }
 }
 
 }  // namespace atrapos::deck

@@ -39,6 +39,7 @@ const Table<ToolMotion>& motionTable();
 const Table<SplineSurface>& splineSurfaceTable();
 const Table<Contact>& contactTable();
 const Table<Stop>& stopTable();
+const Table<Stage>& stageTable();
 const Table<Path>& pathTable();
 /// The same for model problems, which bring stops of their own.
 const Table<Path>& modelPathTable();

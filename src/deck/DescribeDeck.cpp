@@ -112,6 +112,7 @@ void describeKeys(std::ostream& out) {
   printKeys("contact/NAME/", contactTable(), out);
   printKeys("path/", pathTable(), out);
   printKeys("path/stop/", stopTable(), out);
+  printKeys("path/stages/NAME/", stageTable(), out);
   printKeys("problem/", modelTable(), out);
   printKeys("solver/", solverTable(), out);
   printKeys("output/", outputTable(), out);

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "deck/DeckTables.hpp"
+#include "deck/Entries.hpp"
 
 namespace atrapos::deck {
 namespace {
@@ -97,12 +98,15 @@ Node oneOrMore(const std::vector<double>& values) {
   return values.size() == 1 ? Node{yaml(values[0]), {}} : Node{yamlList(values), {}};
 }
 
-Field<Stop> stopLoadFactor() {
+/// `zeroToo`: a stage may go back to 0.
+Field<Stop> stopLoadFactor(bool zeroToo) {
   return {"load_factor",
           false,
-          "a number or a list of numbers, different from zero",
+          zeroToo ? "a number or a list of numbers" : "a number or a list of numbers, different from zero",
           "ends where the load factor takes one of these values",
-          [](const Value& v, Stop& s) { s.loadFactors = oneOrMore(v, check::nonzero); },
+          [zeroToo](const Value& v, Stop& s) {
+            s.loadFactors = oneOrMore(v, zeroToo ? check::any : check::nonzero);
+          },
           [](const Stop& s) { return s.loadFactors.empty() ? Node{} : oneOrMore(s.loadFactors); }};
 }
 
@@ -208,9 +212,9 @@ Field<Path> ofSeries(Field<Path> field) {
   return field;
 }
 
-Table<Stop> stopKeys(const Table<Stop>& monitors) {
+Table<Stop> stopKeys(const Table<Stop>& monitors, bool zeroToo = false) {
   Table<Stop> keys{
-      stopLoadFactor(),
+      stopLoadFactor(zeroToo),
       integer("steps", optional, &Stop::steps, check::count, "largest number of steps of a branch"),
       real("path_length", &Stop::pathLength, check::positive, "ends at this length of the path"),
       integer("limit_point", &Stop::limitPoint, check::count,
@@ -221,19 +225,24 @@ Table<Stop> stopKeys(const Table<Stop>& monitors) {
   return keys;
 }
 
+template <class S>
+Field<S> stopBlock(Need need, const Table<Stop>& stops) {
+  auto stop = block("stop", need, &S::stop, stops, "where the path ends: whichever comes first");
+  stop.read = [inner = stop.read, keys = keysOf(stops)](const Value& v, S& s) {
+    inner(v, s);
+    if (v.keys().empty()) {
+      v.fail("is empty; expected at least one of " + joined(keys));
+    }
+  };
+  return stop;
+}
+
 Table<Path> pathKeys(const Table<Stop>& stops, Need needStop, bool ofModel) {
   static const Choices<Path::Critical> searches{{"off", Path::Critical::Off},
                                                 {"automatic", Path::Critical::Automatic},
                                                 {"every_step", Path::Critical::EveryStep}};
   static const Choices<path::Follow> follows{
       {"none", path::Follow::none}, {"stable", path::Follow::stable}, {"all", path::Follow::all}};
-  auto stop = block("stop", needStop, &Path::stop, stops, "where the path ends: whichever comes first");
-  stop.read = [inner = stop.read, keys = keysOf(stops)](const Value& v, Path& s) {
-    inner(v, s);
-    if (v.keys().empty()) {
-      v.fail("is empty; expected at least one of " + joined(keys));
-    }
-  };
   return {
       choice("method", optional, &Path::method, methods(),
              "how the path is followed: Taylor series, or arc-length steps by full or modified Newton"),
@@ -263,7 +272,17 @@ Table<Path> pathKeys(const Table<Stop>& stops, Need needStop, bool ofModel) {
       flag("restart", &Path::restart, "keeps what `atrapos run --restart` needs, at every step"),
       ofSeries(real("sharpen", &Path::sharpen, check::fraction,
                     "at the path's end eta of all contacts falls by this factor, towards hard contact")),
-      stop};
+      stopBlock<Path>(needStop, stops)};
+}
+
+/// Names of entries, where there are any.
+Field<Stage> namedEntries(std::string key, std::vector<std::string> Stage::*member, std::string meaning) {
+  auto field = names(std::move(key), optional, member, std::move(meaning));
+  field.accepts = "a list of names of entries";
+  field.print = [inner = field.print, member](const Stage& s) {
+    return (s.*member).empty() ? Node{} : inner(s);
+  };
+  return field;
 }
 
 }  // namespace
@@ -292,20 +311,59 @@ const Choices<OutputField>& outputFields() {
 }
 std::string wordOf(Component component) { return wordOf(component, allComponents()); }
 
+namespace {
+
+Table<Stop> sceneStopKeys(bool zeroToo) {
+  auto displacement =
+      stopMonitors("displacement", "a map of displacement monitors' names to values, or to lists of values");
+  displacement.print = [](const Stop&) { return Node{}; };  // with all others
+  return stopKeys({displacement, stopMonitors("monitor",
+                                              "a map of names of monitors of type displacement or field to "
+                                              "values, or to lists of values")},
+                  zeroToo);
+}
+
+}  // namespace
+
 const Table<Stop>& stopTable() {
-  static const Table<Stop> table = [] {
-    auto displacement = stopMonitors(
-        "displacement", "a map of displacement monitors' names to values, or to lists of values");
-    displacement.print = [](const Stop&) { return Node{}; };  // with all others
-    return stopKeys({displacement, stopMonitors("monitor",
-                                                "a map of names of monitors of type displacement or field to "
-                                                "values, or to lists of values")});
+  static const Table<Stop> table = sceneStopKeys(false);
+  return table;
+}
+
+const Table<Stage>& stageTable() {
+  static const Table<Stop> stops = sceneStopKeys(true);
+  static const Table<Stage> table = [] {
+    auto release =
+        namedEntries("release", &Stage::release,
+                     "supports that are taken away: their forces fall as the load factor goes from 0 to 1");
+    release.read = [inner = release.read](const Value& v, Stage& s) {
+      inner(v, s);
+      s.stop.loadFactors = {1};
+    };
+    return Table<Stage>{
+        namedEntries(
+            "drives", &Stage::drives,
+            "loads, supports, tools, materials and physics that follow the load factor of this stage; "
+            "without it all; others stay as they are"),
+        release,
+        integer("direction", &Stage::direction, check::direction,
+                "1: the load factor first grows, -1: falls; without it towards stop/load_factor"),
+        stopBlock<Stage>(optional, stops)};
   }();
   return table;
 }
 
 const Table<Path>& pathTable() {
-  static const Table<Path> table = pathKeys(stopTable(), required, false);
+  static const Table<Path> table = [] {
+    Table<Path> keys = pathKeys(stopTable(), required, false);
+    keys.back().unless = "stages";
+    keys.back().print = [inner = keys.back().print](const Path& s) {
+      return s.stages.empty() ? inner(s) : Node{};
+    };
+    keys.push_back(entries("stages", optional, &Path::stages, stageTable(), "each with drives, stop, ...",
+                           "parts of the path, one after another, each from where the one before has ended"));
+    return keys;
+  }();
   return table;
 }
 

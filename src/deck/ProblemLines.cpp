@@ -25,6 +25,18 @@ bool isOfProblem(const std::string& line) {
   return !left || line.rfind("output/monitors/", 0) == 0;
 }
 
+constexpr const char* kStages = "path/stages/";
+
+bool isStage(const std::string& line) { return line.rfind(kStages, 0) == 0; }
+
+/// What a stage does, whether a run has come to it or not.
+std::string lineOf(const Stage& stage) {
+  const bool releases = !stage.release.empty();
+  const std::string what = releases ? yamlList(stage.release) : yamlList(stage.drives);
+  return fmt::format("{}{}: {} {}", kStages, stage.name, releases ? "releases" : "drives",
+                     what.empty() ? "all" : what);
+}
+
 std::string keyOf(const std::string& line) { return line.substr(0, line.find(": ")); }
 
 std::string valueIn(const std::string& line) { return beginOf(line.substr(line.find(": ") + 2), 60); }
@@ -51,16 +63,27 @@ std::vector<std::string> problemLines(const Deck& deck) {
   lines.erase(
       std::remove_if(lines.begin(), lines.end(), [](const std::string& line) { return !isOfProblem(line); }),
       lines.end());
+  for (const Stage& stage : deck.path.stages) {
+    lines.push_back(lineOf(stage));
+  }
   return lines;
 }
 
-std::string firstDifference(const std::vector<std::string>& before, const std::vector<std::string>& now) {
+std::string firstDifference(const std::vector<std::string>& before, std::vector<std::string> now) {
+  // Stages may be added: a run that has come to the end of the last one goes on with them.
+  const auto oldKeys = byKey(before);
+  now.erase(std::remove_if(now.begin(), now.end(),
+                           [&](const std::string& line) {
+                             return isStage(line) && std::any_of(before.begin(), before.end(), isStage) &&
+                                    oldKeys.count(keyOf(line)) == 0;
+                           }),
+            now.end());
   const auto at = std::mismatch(before.begin(), before.end(), now.begin(), now.end());
   if (at.first == before.end() && at.second == now.end()) {
     return {};
   }
   // What is missing or new is told before what has only moved.
-  const auto newLines = byKey(now), oldLines = byKey(before);
+  const auto newLines = byKey(now);
   for (const std::string& line : before) {
     const auto other = newLines.find(keyOf(line));
     if (other == newLines.end()) {
@@ -71,7 +94,7 @@ std::string firstDifference(const std::vector<std::string>& before, const std::v
     }
   }
   for (const std::string& line : now) {
-    if (oldLines.count(keyOf(line)) == 0) {
+    if (oldKeys.count(keyOf(line)) == 0) {
       return fmt::format("{} is {} now and was not there", keyOf(line), valueIn(line));
     }
   }

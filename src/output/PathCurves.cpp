@@ -135,11 +135,13 @@ void nameBranches(const TableFile& table, std::vector<BranchCurve>& curves) {
   const auto number = table.integers("branch");
   const auto size = table.numbers("imperfection");
   const auto kind = table.texts("kind");
+  const auto stage = table.has("stage") ? table.texts("stage") : std::vector<std::string>(number.size());
   for (std::size_t i = 0; i < table.numRows(); ++i)
     for (BranchCurve& curve : curves) {
-      if (curve.number != number[i] || curve.number == 0) continue;
-      curve.name = size[i] != 0 ? fmt::format("imperfection {:g}", size[i])
-                                : fmt::format("branch {} ({})", curve.number, kind[i]);
+      if (curve.number != number[i] || (curve.number == 0 && stage[i].empty())) continue;
+      curve.name = !stage[i].empty() ? stage[i]
+                   : size[i] != 0    ? fmt::format("imperfection {:g}", size[i])
+                                     : fmt::format("branch {} ({})", curve.number, kind[i]);
     }
 }
 

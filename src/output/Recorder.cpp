@@ -162,10 +162,11 @@ void Recorder::onBranch(const path::BranchDiagram& diagram, int branch) {
   if (b.end == path::BranchEnd::path) begin(branch);
 }
 
-void Recorder::beginImperfect(PathCase& pathCase, path::Problem& problem, int branch, double size) {
+void Recorder::beginOther(PathCase& pathCase, path::Problem& problem, int branch, const std::string& line) {
   if (&pathCase != case_) {
     case_ = &pathCase;
     functionals_ = pathCase.functionals();
+    log_.follow(pathCase.deck().path);
     if (watch_) {
       watched_ += watch_->count();
       watch_.reset();
@@ -173,7 +174,7 @@ void Recorder::beginImperfect(PathCase& pathCase, path::Problem& problem, int br
     }
   }
   problem_ = &problem;
-  log_.line(fmt::format("branch {}: the path with imperfection {:g}", branch, size));
+  log_.line(line);
   begin(branch);
 }
 

@@ -32,9 +32,9 @@ class Recorder final : public path::BranchObserver {
   ~Recorder() override;
 
   void onBranch(const path::BranchDiagram& diagram, int branch) override;
-  /// An imperfect path as another branch; the case and the problem, whose residual counts, must outlive its
-  /// steps.
-  void beginImperfect(PathCase& pathCase, path::Problem& problem, int branch, double size);
+  /// A path of another case or problem as another branch, with a line for the user; the case and the problem,
+  /// whose residual counts, must outlive its steps.
+  void beginOther(PathCase& pathCase, path::Problem& problem, int branch, const std::string& line);
   /// False after SIGINT or SIGTERM.
   bool onStep(int branch, const path::StepReport& report, const path::Series& series) override;
   /// A line for the user where the last one is long ago.

@@ -24,6 +24,8 @@ class RunLog {
 
   bool tells() const { return out_ != nullptr; }
   void line(const std::string& text);
+  /// The settings from here on.
+  void follow(const deck::Path& settings) { settings_ = settings; }
   /// A path begins: the table's head.
   void head();
 

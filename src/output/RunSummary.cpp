@@ -89,6 +89,7 @@ nlohmann::ordered_json branchesOf(const path::BranchDiagram& diagram) {
     }
     json["depth"] = b.depth;
     if (b.imperfection != 0) json["imperfection"] = b.imperfection;
+    if (!b.stage.empty()) json["stage"] = b.stage;
     json["end"] = path::toString(b.end);
     json["ended"] = endedOf(b);
     json["why"] = whyOf(b);
@@ -121,23 +122,27 @@ nlohmann::ordered_json monitorTypes(const deck::Deck& deck) {
 
 }  // namespace
 
-nlohmann::ordered_json runSummary(const PathCase& pathCase, const path::BranchDiagram& diagram,
-                                  const linear::TangentSolver& solver, const Recorder& recorder) {
+nlohmann::ordered_json runSummary(const deck::Deck& deck, const PathCase& pathCase,
+                                  const path::BranchDiagram& diagram, const linear::TangentSolver& solver,
+                                  const Recorder& recorder) {
   using path::Outcome;
-  const Outcome& first = diagram.branches[0].outcome;
-  const deck::Deck& deck = pathCase.deck();
+  const bool inStages = !deck.path.stages.empty();
+  const path::Branch& main = inStages ? diagram.branches.back() : diagram.branches[0];
+  const Outcome& outcome = main.outcome;
   nlohmann::ordered_json json;
   json["program"] = "atrapos " + std::string(kVersion);
   json["deck"] = deck.file;
   json["title"] = deck.title;
   json["driven_by"] = drivenBy(deck);
   json["monitors"] = monitorTypes(deck);
-  json["ended"] = endedOf(diagram.branches[0]);
-  json["why"] = whyOf(diagram.branches[0]);
-  json["reached_stop"] = first.reason == path::EndReason::stopReached;
-  json["load_factor"] = first.final.lambda;
-  json["path_length"] = first.pathLength;
-  json["path_weight"] = first.weight;
+  if (inStages) json["stage"] = main.stage;
+  json["ended"] = endedOf(main);
+  json["why"] = whyOf(main);
+  json["reached_stop"] = outcome.reason == path::EndReason::stopReached &&
+                         (!inStages || diagram.branches.size() == deck.path.stages.size());
+  json["load_factor"] = outcome.final.lambda;
+  json["path_length"] = outcome.pathLength;
+  json["path_weight"] = outcome.weight;
   json["steps"] = sum(diagram, &Outcome::steps);
   json["method"] = deck::wordOf(deck.path.method, deck::methods());
   if (deck.path.autoOrder)
@@ -202,18 +207,19 @@ nlohmann::ordered_json runSummary(const PathCase& pathCase, const path::BranchDi
 std::string branchTable(const path::BranchDiagram& diagram) {
   std::string table =
       "branch,parent,depth,point,kind,load_factor,load_direction,steps,factorizations,end,ended,"
-      "imperfection\n";
+      "stage,imperfection\n";
   for (std::size_t i = 0; i < diagram.branches.size(); ++i) {
     const path::Branch& b = diagram.branches[i];
     const bool first = b.parent < 0;
     const path::CriticalPoint* p = first ? nullptr : &diagram.points[b.point].point;
-    table += fmt::format("{},{},{},{},{},{:.17g},{:.17g},{},{},{},{},{:g}\n", i, b.parent, b.depth, b.point,
-                         b.imperfection != 0 ? "imperfect"
-                         : first             ? "start"
-                                             : path::toString(p->kind),
-                         first ? b.start.lambda : p->state.lambda, first ? 0.0 : b.direction.lambda,
-                         b.outcome.steps, b.outcome.factorizations, path::toString(b.end), endedOf(b),
-                         b.imperfection);
+    table += fmt::format(
+        "{},{},{},{},{},{:.17g},{:.17g},{},{},{},{},{},{:g}\n", i, b.parent, b.depth, b.point,
+        b.imperfection != 0 ? "imperfect"
+        : !b.stage.empty()  ? "stage"
+        : first             ? "start"
+                            : path::toString(p->kind),
+        first ? b.start.lambda : p->state.lambda, first ? 0.0 : b.direction.lambda, b.outcome.steps,
+        b.outcome.factorizations, path::toString(b.end), endedOf(b), b.stage, b.imperfection);
   }
   return table;
 }

@@ -208,7 +208,7 @@ void plainMembers(Outcome& o, path::Outcome*, const F& f) {
 }
 template <class Branch, class F>
 void plainMembers(Branch& b, path::Branch*, const F& f) {
-  f(b.parent), f(b.point), f(b.depth), f(b.imperfection), f(b.end);
+  f(b.parent), f(b.point), f(b.depth), f(b.imperfection), f(b.stage), f(b.end);
 }
 template <class Owner>
 void putPlain(const Owner& owner, Packer& p) {

@@ -88,8 +88,14 @@ contact::AnyTool tool(const deck::CrownedRollTool& t) {
 
 contact::Motion motion(const deck::ToolMotion& m) {
   contact::Motion motion;
-  for (std::size_t k = 0; k < m.shift.size(); ++k) copy(m.shift[k], motion.shift[k + 1]);
-  for (std::size_t k = 0; k < m.angle.size(); ++k) motion.angle[k + 1] = radians(m.angle[k]);
+  double power = 1;
+  for (std::size_t k = 0; k < std::max(m.shift.size(), m.angle.size()); ++k) {
+    power *= m.heldAt.value_or(0);
+    const std::size_t at = m.heldAt ? 0 : k + 1;  // held: a constant
+    const double factor = m.heldAt ? power : 1;
+    for (int i = 0; k < m.shift.size() && i < 3; ++i) motion.shift[at][i] += factor * m.shift[k][i];
+    if (k < m.angle.size()) motion.angle[at] += factor * radians(m.angle[k]);
+  }
   copy(unit(m.axis), motion.axis);
   copy(m.pivot, motion.pivot);
   return motion;

@@ -1,12 +1,14 @@
 #include "scene/Imperfections.hpp"
 
+#include <fmt/format.h>
+
 #include <Tpetra_Vector.hpp>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
 #include "atrapos/linear/OnAllRanks.hpp"
-#include "atrapos/path/Imperfect.hpp"
+#include "atrapos/path/Forced.hpp"
 #include "atrapos/path/PathFollower.hpp"
 #include "commands/RunSettings.hpp"
 #include "machine/Interrupt.hpp"
@@ -54,8 +56,9 @@ ImperfectCase::ImperfectCase(PathCase& perfect, const path::CriticalPoint& point
       throw std::runtime_error("path/imperfections_as: geometry needs a mesh, a model problem has none");
     return;
   }
-  problem_ = std::make_unique<path::ImperfectProblem>(
-      perfect.problem(), path::forceOfShape(perfect.problem(), perfect.start(), *scaled(mode, size)));
+  problem_ = std::make_unique<path::ForcedProblem>(
+      perfect.problem(),
+      path::DeadForce{path::forceOfShape(perfect.problem(), perfect.start(), *scaled(mode, size)), {}});
 }
 
 ImperfectCase::~ImperfectCase() = default;
@@ -106,7 +109,8 @@ void followImperfect(PathCase& pathCase, linear::TangentSolver& solver, const pa
     branches.push_back(branch);
     progress.path.emplace();
     progress.path->state = branch.start;
-    recorder.beginImperfect(imperfect.pathCase(), imperfect.problem(), progress.current, size);
+    recorder.beginOther(imperfect.pathCase(), imperfect.problem(), progress.current,
+                        fmt::format("branch {}: the path with imperfection {:g}", progress.current, size));
     follow(imperfect, *progress.path);
   }
 }

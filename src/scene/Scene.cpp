@@ -208,6 +208,13 @@ BodyBlock Scene::addShell(const deck::Material& material, int shells, fem::FeMod
 void Scene::addSupports(fem::FeModel& model) const {
   const std::string displacement = fem::displacementField().name;
   for (const deck::Support& support : deck_.supports) {
+    const auto prescribe = [&](int node, int component, const deck::Prescribed& p,
+                               const std::string& of = {}) {
+      if (support.released)
+        model.release(node, component, of);
+      else
+        model.prescribe(node, component, p.value, p.perLoadFactor, of);
+    };
     const std::string& field = support.field.empty() ? displacement : support.field;
     const int number = model.dofs.find(field);
     for (int node : nodesOf(support.set)) {
@@ -217,19 +224,16 @@ void Scene::addSupports(fem::FeModel& model) const {
                          support.field.empty() ? "displacement: its blocks have no material"
                                                : "field '" + field + "'"));
       try {
-        if (support.value)
-          model.prescribe(node, 0, support.value->value, support.value->perLoadFactor, field);
+        if (support.value) prescribe(node, 0, *support.value, field);
       } catch (const std::invalid_argument&) {
         fail("supports/" + support.name, fmt::format("the field '{}' of node {} is prescribed twice with "
                                                      "different values",
                                                      field, mesh_.nodeNumber(node)));
       }
       for (int i = 0; i < 3; ++i) try {
-          if (const auto& p = support.components[i]; p && i < mesh_.dimension)
-            model.prescribe(node, i, p->value, p->perLoadFactor);
+          if (const auto& p = support.components[i]; p && i < mesh_.dimension) prescribe(node, i, *p);
           if (const auto& p = support.director[i])
-            for (int director : shells_.geometry.directorNodes(node))
-              model.prescribe(director, i, p->value, p->perLoadFactor);
+            for (int director : shells_.geometry.directorNodes(node)) prescribe(director, i, *p);
         } catch (const std::invalid_argument&) {
           fail("supports/" + support.name,
                fmt::format("displacement {0} of node {1}, or of its director, is prescribed twice with "
@@ -258,7 +262,7 @@ void Scene::requireSupport(const fem::FeModel& model) const {
           continue;
         const double* x = &mesh_.coordinates[3 * static_cast<std::size_t>(n)];
         const double place[4] = {x[0], x[1], x[2], 0};
-        const contact::ToolProjection over = contact.tool->project(place);
+        const contact::ToolProjection over = contact.atStart->project(place);
         if (std::isfinite(over.gap)) held.push_back({n, {over.normal[0], over.normal[1], over.normal[2]}});
       }
     }
@@ -272,6 +276,8 @@ void Scene::requireSupport(const fem::FeModel& model) const {
 
 void Scene::requireEffect(const fem::FeModel& model) const {
   if (model.supports.driven()) return;
+  for (const deck::Support& support : deck_.supports)
+    if (support.released) return;  // by this stage, or the deck's stages have been looked at
   for (const ContactPoints& contact : contacts_)
     if (contact.tool->moves()) return;
   for (const deck::Load& load : deck_.loads)

@@ -44,7 +44,8 @@ struct ContactPoints {
   std::vector<std::vector<double>> references;  ///< [term][point] Delta
   std::vector<std::vector<double>> closedGaps;  ///< [term][point] a point with a smaller gap is closed
   const contact::RigidTool* tool = nullptr;
-  std::vector<contact::NearContact*> near;  ///< [term]; empty where all points carry the law
+  const contact::RigidTool* atStart = nullptr;  ///< where it stands before it moves, at load factor 0
+  std::vector<contact::NearContact*> near;      ///< [term]; empty where all points carry the law
   ContactPressure pressure;
   bool hardFaces = false;           ///< hard, with conditions on mean gaps around the corners of faces
   std::vector<fem::LineSet> lines;  ///< [term] of zones; empty: points carry the law
@@ -198,7 +199,9 @@ class Scene {
   /// Of a scene that sharpens: the problem before, which those who followed its path still refer to.
   std::unique_ptr<fem::FeProblem> loaded_;
   std::vector<std::unique_ptr<contact::RigidTool>> tools_;  ///< in the deck's order
-  std::vector<BodyBlock> bodies_;                           ///< [block]
+  /// The same where they stand before they move; null where that is at load factor 0 of tools_.
+  std::vector<std::unique_ptr<contact::RigidTool>> toolsAtStart_;
+  std::vector<BodyBlock> bodies_;  ///< [block]
   std::vector<ContactPoints> contacts_;
   /// [monitor] weights of a monitor of displacements or a field over the unknowns; null for the others
   std::vector<linear::RCP<path::Vector>> unknownWeights_;

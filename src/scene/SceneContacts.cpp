@@ -38,6 +38,12 @@ std::vector<fem::PointSet> Scene::pointsOf(const deck::Contact& contact) const {
 void Scene::makeTools() {
   for (const deck::Tool& tool : deck_.tools) try {
       tools_.push_back(makeTool(tool));
+      toolsAtStart_.emplace_back();
+      if (tool.motion.heldAt) {
+        deck::Tool atStart = tool;
+        atStart.motion.heldAt = 0;
+        toolsAtStart_.back() = makeTool(atStart);
+      }
     } catch (const std::invalid_argument& e) {
       fail("tools/" + tool.name, e.what());
     }
@@ -54,7 +60,9 @@ void Scene::addContacts(fem::FeModel& model) {
                                        [&](const deck::Tool& tool) { return tool.name == contact.tool; });
     ContactPoints entry;
     entry.name = contact.name;
-    entry.tool = tools_[position - deck_.tools.begin()].get();
+    const auto number = position - deck_.tools.begin();
+    entry.tool = tools_[number].get();
+    entry.atStart = toolsAtStart_[number] ? toolsAtStart_[number].get() : entry.tool;
     const bool zones = contact.points == deck::Contact::Points::Zones;
     if (zones)
       makeLines(contact, entry);
@@ -109,7 +117,7 @@ void Scene::makeLines(const deck::Contact& contact, ContactPoints& entry) const 
   }
   const auto gap = [&](const double* x) {
     const double place[4] = {x[0], x[1], x[2], 0};
-    return entry.tool->project(place).gap;
+    return entry.atStart->project(place).gap;
   };
   try {
     for (auto& faces :
@@ -142,8 +150,8 @@ void Scene::measureGaps(const deck::Contact& contact, ContactPoints& entry) cons
     for (int p = 0; p < points.numPoints(); ++p) {
       const double* x = &points.positions[3 * static_cast<std::size_t>(p)];
       const double place[4] = {x[0], x[1], x[2], 0};
-      const std::string ambiguity = entry.tool->ambiguity(place);
-      const contact::ToolProjection over = entry.tool->project(place);
+      const std::string ambiguity = entry.atStart->ambiguity(place);
+      const contact::ToolProjection over = entry.atStart->project(place);
       if (!ambiguity.empty() || std::isnan(over.gap))
         fail("contact/" + contact.name,
              fmt::format("the point ({:.6g}, {:.6g}, {:.6g}) has no unique projection on tool '{}'{}{}", x[0],

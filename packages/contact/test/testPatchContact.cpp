@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "atrapos/contact/PatchSearch.hpp"
-#include "atrapos/path/Imperfect.hpp"
+#include "atrapos/path/Forced.hpp"
 #include "support/ContactModel.hpp"
 #include "support/PatchSurfaces.hpp"
 
@@ -321,7 +321,7 @@ TEST_F(Slide, ImperfectPathsCrossTheBorder) {
   addContact(loaded, points, set, 1e-3);
   loaded.constantLoad = force;
   fem::FeProblem problem(std::move(perfect)), other(std::move(loaded));
-  path::ImperfectProblem imperfect(problem, fem::test::vectorOf(problem, force));
+  path::ForcedProblem imperfect(problem, {fem::test::vectorOf(problem, force), {}});
   Ends ends, otherEnds;
   const auto a = follow(imperfect, {problem.initialState(0), 0.0}, 1.0, ends);
   const auto b = follow(other, {other.initialState(0), 0.0}, 1.0, otherEnds);

@@ -590,6 +590,18 @@ bool FeProblem::symmetric() const {
                      [](const auto& term) { return term->symmetric(); });
 }
 
+void FeProblem::beginAt(const path::State& start) {
+  impl_->initialForces.assign(impl_->scaleFloor.size(), 0.0);  // those at another state
+  Sizes sizes = impl_->imbalance(onRank(start), start.lambda);
+  if (start.memory && !start.memory->variables.empty()) {
+    auto conditions = std::make_shared<path::Memory>();
+    conditions->conditions = start.memory->conditions;
+    sizes = largest(sizes, impl_->imbalance(onRank({start.u, start.lambda, conditions}), start.lambda));
+  }
+  for (double& size : sizes) size = std::isfinite(size) ? 1e-3 * size : 0;
+  impl_->scaleFloor = largest(impl_->scaleFloor, sizes);
+}
+
 path::ResidualNorm FeProblem::residual(const path::State& at, Vector& r) {
   const ConstDofView state = onRank(at);
   const double lambda = at.lambda;
@@ -820,7 +832,7 @@ std::vector<double> FeProblem::reactions(const path::State& state) const {
   impl_->ranks->collect(impl_->sum);
   std::vector<double> r = impl_->onAllRanks(impl_->sum);
   for (std::size_t d = 0; d < r.size(); ++d)
-    if (!impl_->model.supports.fixed(static_cast<int>(d))) r[d] = 0;
+    if (!impl_->model.supports.fixedOrReleased(static_cast<int>(d))) r[d] = 0;
   return r;
 }
 

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "atrapos/path/Branches.hpp"
-#include "atrapos/path/Imperfect.hpp"
+#include "atrapos/path/Forced.hpp"
 #include "problems/Bifurcations.hpp"
 #include "problems/FollowedModel.hpp"
 
@@ -55,7 +55,7 @@ TEST(Imperfect, AForceIsTheImperfectionOfTheLaw) {
   Stops stops;
   stops.loadFactors = {2};
   JetProblem<Modes> problem(perfect);
-  ImperfectProblem imperfect(problem, problem.vector({0, size}));
+  ForcedProblem imperfect(problem, {problem.vector({0, size}), {}});
   SymmetricDenseSolver solver;
   Record record;
   const auto outcome =
@@ -77,14 +77,14 @@ TEST(Imperfect, AForceOfAShapeMovesByThatShape) {
   for (int i = 1; i <= law.n; ++i) mode[i] = 1e-3 * std::sin((i - 0.5) * M_PI / (2 * law.n));
   const State start{problem.vector({}), 0};
   const auto shape = problem.vector(mode);
-  ImperfectProblem imperfect(problem, forceOfShape(problem, start, *shape));
+  ForcedProblem imperfect(problem, {forceOfShape(problem, start, *shape), {}});
   SymmetricDenseSolver solver;
   Stops stops;
   stops.loadFactors = {4};
   for (const double sense : {1.0, -1.0}) {
     auto d = problem.vector(mode);
     d->scale(sense);
-    ImperfectProblem one(problem, forceOfShape(problem, start, *d));
+    ForcedProblem one(problem, {forceOfShape(problem, start, *d), {}});
     Record record;
     Options options;
     options.residualBound = options.delta = 1e-9;
@@ -99,8 +99,39 @@ TEST(Imperfect, AForceOfAShapeMovesByThatShape) {
     EXPECT_TRUE(criticalPoints(record).empty());
   }
   Vector other(Teuchos::rcp(new Map(3, 0, Teuchos::rcp(new Teuchos::MpiComm<int>(MPI_COMM_SELF)))));
-  EXPECT_THROW(ImperfectProblem(problem, Teuchos::rcp(new Vector(other, Teuchos::Copy))),
-               std::invalid_argument);
+  const auto elsewhere = Teuchos::rcp(new Vector(other, Teuchos::Copy));
+  EXPECT_THROW(ForcedProblem(problem, {elsewhere, {}}), std::invalid_argument);
+  EXPECT_THROW(ForcedProblem(problem, {{}, elsewhere}), std::invalid_argument);
+  EXPECT_THROW(ForcedProblem(problem, {}), std::invalid_argument);
+}
+
+/// A state that is held where the Problem is out of balance, and let go: the path ends in the Problem's own
+/// equilibrium, and in between the force that is missing is the rest of what held it.
+TEST(Forced, WhatHoldsAStateFades) {
+  Column law;
+  law.n = 6;
+  JetProblem<Column> problem(law);
+  std::vector<double> bent(law.n + 1, 0.0);
+  for (int i = 1; i <= law.n; ++i) bent[i] = 0.3 * std::sin((i - 0.5) * M_PI / (2 * law.n));
+  const State start{problem.vector(bent), 0};
+  const DeadForce force = forceThatFades(problem, start);
+  ForcedProblem held(problem, force);
+  Vector r(problem.map());
+  EXPECT_EQ(held.residual(start, r).norm, 0);
+  ASSERT_GT(problem.residual(start, r).relative(), 1e-2);
+  SymmetricDenseSolver solver;
+  Stops stops;
+  stops.loadFactors = {1};
+  Record record;
+  Options options;
+  options.residualBound = options.delta = 1e-9;
+  const auto outcome = PathFollower(held, solver, options, stops).run(start, record);
+  EXPECT_EQ(outcome.reason, EndReason::stopReached) << outcome.text;
+  EXPECT_LE(problem.residual(outcome.final, r).relative(), 1e-9);
+  const auto half = record.series.front().state(0.5 * record.steps.front().length);
+  problem.residual(half, r);
+  r.update(-(1 - half.lambda), *force.constant, 1);
+  EXPECT_LE(r.norm2(), 1e-8 * force.constant->norm2());  // what the accuracy leaves of the series, ten times
 }
 
 /// From any step a path goes on with other settings: the same curve.

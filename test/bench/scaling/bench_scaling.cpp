@@ -117,7 +117,7 @@ int makeRow(const Options& options) {
     if (fits) {
       RunOptions run;
       run.directory = folder + "/results";
-      const RunResult result = runPath(pathCase, run);
+      const RunResult result = runPath(scene.deck(), pathCase, run);
       const double contact = contactSeconds(scene, order);
       if (ranks::isFirst()) {
         std::ifstream file(run.directory + "/summary.json");

@@ -44,6 +44,8 @@ struct FeModel {
   /// Prescribes a component of a node's first field, or of the named one. Throws std::invalid_argument as
   /// Supports::prescribe does, and where the node has no such component.
   void prescribe(int node, int component, double value, double perLoadFactor, const std::string& field = {});
+  /// Supports::release of such a component.
+  void release(int node, int component, const std::string& field = {});
 };
 
 }  // namespace atrapos::fem

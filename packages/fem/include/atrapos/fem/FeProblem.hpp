@@ -72,6 +72,11 @@ class FeProblem final : public path::Problem {
 
   path::Pieces* pieces() override;
 
+  /// Paths begin at this state, another one than initialState(): the scale of the residual is at least a
+  /// thousandth of the forces there, and of those that its unknowns would need without what is remembered,
+  /// from which the forces of a body without stress are the difference. Collective.
+  void beginAt(const path::State& start);
+
   /// Memory::variables: those of all terms that remember (Term::numVariables), of this rank's entities.
   bool remembers() const override;
   std::vector<std::vector<double>> memoryOrders() override;

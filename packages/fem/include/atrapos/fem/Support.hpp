@@ -1,6 +1,7 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -18,7 +19,12 @@ class Supports {
   /// below 0.
   void prescribe(int dof, double value, double perLoadFactor);
 
+  /// What held the dof before is no longer there; what is out of balance there still counts as a support's
+  /// force (FeProblem::reactions).
+  void release(int dof) { released_.insert(dof); }
+
   bool fixed(int dof) const { return prescribed_.count(dof) > 0; }
+  bool fixedOrReleased(int dof) const { return fixed(dof) || released_.count(dof) > 0; }
   double value(int dof) const { return of(dof).value; }
   double perLoadFactor(int dof) const { return of(dof).rate; }
   double at(int dof, double lambda) const { return of(dof).value + lambda * of(dof).rate; }
@@ -35,6 +41,7 @@ class Supports {
     return found == prescribed_.end() ? Prescribed{} : found->second;
   }
   std::map<int, Prescribed> prescribed_;
+  std::set<int> released_;
 };
 
 /// A direction in which something other than a support holds a node (contact with a rigid tool).

@@ -40,6 +40,7 @@ struct Branch {
   PathTangent direction;    ///< unit, at that point
   State start;              ///< where its first step starts, next to the point
   double imperfection = 0;  ///< size of the imperfection that it is followed with; 0: perfect
+  std::string stage;        ///< of a path in stages: the name of this one; empty: of another path
   BranchEnd end = BranchEnd::path;
   Outcome outcome;
 };
