@@ -82,6 +82,8 @@ struct Ogden {
 
 /// Plasticity; stresses and moduli are pressures.
 struct VonMises {
+  enum class Strains { Small, Finite };
+  Strains strains = Strains::Small;
   double youngsModulus = 0;     ///< > 0
   double poissonsRatio = 0;     ///< in (-1, 0.5)
   double yieldStress = 0;       ///< in tension, > 0

@@ -208,6 +208,8 @@ void requireTerms(const Value& map, const Ogden& m) {
 }  // namespace
 
 const Variants<Material, decltype(Material::law)>& materialVariants() {
+  static const Choices<VonMises::Strains> strains{{"small", VonMises::Strains::Small},
+                                                  {"finite", VonMises::Strains::Finite}};
   using V = decltype(Material::law);
   static const Variants<Material, V> variants{
       "law",
@@ -265,8 +267,13 @@ const Variants<Material, decltype(Material::law)>& materialVariants() {
             real("kinematic_modulus", optional, &VonMises::kinematicModulus, check::natural,
                  "C of Armstrong and Frederick's backstress, a pressure"),
             real("recall", optional, &VonMises::recall, check::natural,
-                 "b of the backstress; 0: Prager's rule")},
+                 "b of the backstress; 0: Prager's rule"),
+            choice("strains", optional, &VonMises::strains, strains,
+                   "small: with rotations of any size; finite: elastic and plastic parts multiply")},
            [](const Value& map, const VonMises& m) {
+             if (m.strains == VonMises::Strains::Finite && m.kinematicModulus != 0) {
+               map.at("kinematic_modulus").fail("is for strains: small");
+             }
              if (!(m.yieldStress + m.saturation > 0)) {
                map.at("saturation")
                    .fail(fmt::format("must leave some of the yield stress {}, got {}", m.yieldStress,

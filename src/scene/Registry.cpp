@@ -7,6 +7,7 @@
 #include "atrapos/fem/EnhancedTerm.hpp"
 #include "atrapos/fem/LawTerm.hpp"
 #include "atrapos/physics/Dielectric.hpp"
+#include "atrapos/solid/FiniteVonMises.hpp"
 #include "atrapos/solid/MixedBody.hpp"
 #include "atrapos/solid/MixedLaw.hpp"
 #include "atrapos/solid/SaintVenantKirchhoff.hpp"
@@ -93,6 +94,8 @@ std::unique_ptr<fem::PointLaw> lawInSpace(const Entry& entry) {
   return fem::pointLaw(law(entry));
 }
 std::unique_ptr<fem::PointLaw> lawInSpace(const deck::VonMises& entry) {
+  if (entry.strains == deck::VonMises::Strains::Finite)
+    return fem::pointLaw(solid::FiniteVonMises{metal(entry)});
   if (entry.kinematicModulus > 0) return fem::pointLaw(solid::VonMises<true>{metal(entry)});
   return fem::pointLaw(solid::VonMises<false>{metal(entry)});
 }

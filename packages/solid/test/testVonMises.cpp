@@ -2,9 +2,12 @@
 // back; a thick sphere under pressure against Hill; derivatives.
 #include <gtest/gtest.h>
 
+#include <Sacado.hpp>
 #include <Tpetra_Vector.hpp>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 
 #include "atrapos/fem/FeProblem.hpp"
@@ -14,6 +17,7 @@
 #include "atrapos/fem/StructuredPlane.hpp"
 #include "atrapos/linear/MakeTangentSolver.hpp"
 #include "atrapos/path/PathFollower.hpp"
+#include "atrapos/solid/FiniteVonMises.hpp"
 #include "atrapos/solid/PlaneBody.hpp"
 #include "atrapos/solid/VonMises.hpp"
 #include "support/Checks.hpp"
@@ -155,6 +159,41 @@ TEST(VonMises, BarWithVoceHardening) { thereAndBack<false>(metal(500, 120, 300, 
 TEST(VonMises, BarWithKinematicHardening) { thereAndBack<true>(metal(0, 0, 0, 20e3, 0)); }
 TEST(VonMises, BarWithBoth) { thereAndBack<true>(metal(300, 60, 150, 30e3, 250)); }
 
+namespace {
+
+/// Pulled and sheared by its end: u = (x, 2 x) times the load factor, homogeneous, free across the plane.
+template <class Law>
+fem::FeProblem sheared(const Law& material, const fem::Mesh& mesh, const fem::PointSet& points,
+                       const std::optional<PlaneSection::Kind>& plane) {
+  fem::FeModel model;
+  model.dofs = fem::DofMap::displacements(mesh.numNodes(), mesh.dimension);
+  auto law = fem::pointLaw(material);
+  if (plane) law = planeLaw(std::move(law), *plane);
+  const auto data = virgin(points, *law);
+  model.terms.push_back(fem::lawTerm(std::move(law), points, data));
+  for (int n = 0; n < mesh.numNodes(); ++n) {
+    const double* x = &mesh.coordinates[3 * static_cast<std::size_t>(n)];
+    if (x[0] == 0.5 && x[1] == 0.5) continue;  // where it is by itself
+    model.prescribe(n, 0, 0, x[0]);
+    model.prescribe(n, 1, 0, 2 * x[0]);
+    if (mesh.dimension == 3 && x[2] == 0) model.prescribe(n, 2, 0, 0);
+  }
+  return fem::FeProblem(std::move(model));
+}
+
+/// Both forces at the end x = 1.
+std::array<double, 2> forcesOfEnd(const fem::FeProblem& problem, const fem::Mesh& mesh,
+                                  const path::State& state) {
+  const auto r = problem.reactions(state);
+  std::array<double, 2> sum{0, 0};
+  for (int n = 0; n < mesh.numNodes(); ++n)
+    for (int i = 0; mesh.coordinates[3 * static_cast<std::size_t>(n)] == 1 && i < 2; ++i)
+      sum[i] += r[problem.model().dofs.firstDof(n) + i];
+  return sum;
+}
+
+}  // namespace
+
 // Perfectly plastic: no equilibrium beyond the yield stress, but a driven bar goes on.
 TEST(VonMises, PerfectlyPlasticBar) {
   fem::FeProblem problem = bar<false>(metal(0, 0, 0, 0, 0));
@@ -276,6 +315,126 @@ TEST(VonMises, ThickSphereAgainstHill) {
   EXPECT_LT(two, 1e-3);
   EXPECT_LT(two, 0.3 * one);  // second order in the size of the cells, whose points yield one after the other
   RecordProperty("steps", fine.steps);
+}
+
+namespace {
+
+/// A bar of FiniteVonMises that is pulled along: with F = F_e F_p and F_p = exp(gamma) along the bar, q =
+/// R(gamma).
+struct FiniteBar {
+  Metal m;
+  /// The elastic stretch along it at a Kirchhoff stress q, free across.
+  double elastic(double q) const {
+    const double half = 0.5 * (m.lambda + 2 * m.mu / 3);
+    double a = 1, b = 1;  // along and across
+    for (int i = 0; i < 100; ++i) {
+      const double J = a * b * b;
+      // m (a^2 - b^2) = q, -q/3 + kappa/2 (J^2 - 1) = 0
+      const double volume = std::sqrt(1 + q / (3 * half));
+      a = std::sqrt(b * b + q / (m.mu * std::pow(J, -2.0 / 3)));
+      b = std::sqrt(volume / a);
+    }
+    return a;
+  }
+  double stretch(double gamma) const { return elastic(m.strength(gamma)) * std::exp(gamma); }
+};
+
+/// A unit cube of one HEX8 of a law, clamped in y and z by symmetry, x driven by the load factor.
+template <class Law>
+fem::FeProblem pulled(const Law& material) {
+  const fem::Mesh mesh = box(fem::Topology::Hex8, {1, 1, 1});
+  const fem::PointSet points = fem::volumePoints(mesh, mesh.blocks[0], fem::tabulate(fem::Topology::Hex8));
+  fem::FeModel model;
+  model.dofs = fem::DofMap::displacements(mesh.numNodes());
+  auto law = fem::pointLaw(material);
+  const auto data = virgin(points, *law);
+  model.terms.push_back(fem::lawTerm(std::move(law), points, data));
+  for (const int n : nodesOfSet(mesh, "x_min")) model.prescribe(n, 0, 0, 0);
+  for (const int n : nodesOfSet(mesh, "y_min")) model.prescribe(n, 1, 0, 0);
+  for (const int n : nodesOfSet(mesh, "z_min")) model.prescribe(n, 2, 0, 0);
+  for (const int n : nodesOfSet(mesh, "x_max")) model.prescribe(n, 0, 0, 1);
+  return fem::FeProblem(std::move(model));
+}
+
+}  // namespace
+
+// To twice its length: stretch and Cauchy stress are those of the closed form at the point's gamma.
+TEST(FiniteVonMises, BarToTwiceItsLength) {
+  const Metal m = metal(500, 120, 8, 0, 0);
+  fem::FeProblem problem = pulled(FiniteVonMises{m});
+  const Followed out(problem, {problem.initialState(0), 0.0}, 1);
+  ASSERT_EQ(out.outcome.reason, path::EndReason::stopReached) << out.outcome.text;
+  const FiniteBar exact{m};
+  int yielding = 0;
+  for (std::size_t s = 0; s < out.steps.reports.size(); ++s)
+    for (int i = 1; i <= 4; ++i) {
+      const path::State state = out.steps.series[s].state(out.steps.reports[s].length * i / 4);
+      const auto shown = problem.observe(0, state);
+      const double gamma = shown.values.at(6);
+      if (gamma == 0) continue;
+      ++yielding;
+      // Series of an accuracy of 1e-9, a dozen of steps.
+      EXPECT_NEAR(1 + state.lambda, exact.stretch(gamma), 1e-7) << "step " << s;
+      const double q = m.strength(gamma), half = 0.5 * (m.lambda + 2 * m.mu / 3);
+      EXPECT_NEAR(shown.values.at(0), q / std::sqrt(1 + q / (3 * half)), 1e-7 * yield) << "step " << s;
+    }
+  EXPECT_GE(yielding, 8);
+}
+
+// Plastic flow keeps the volume: det G = 1 after any path; and where strains are small it is the other law.
+TEST(FiniteVonMises, ShearKeepsThePlasticVolume) {
+  const fem::Mesh cube = box(fem::Topology::Hex8, {1, 1, 1});
+  const auto points = fem::volumePoints(cube, cube.blocks[0], fem::tabulate(fem::Topology::Hex8));
+  const Metal m = metal(500, 120, 8, 0, 0);
+  auto problem = sheared(FiniteVonMises{m}, cube, points, {});
+  const Followed out(problem, {problem.initialState(0), 0.0}, 0.5);
+  ASSERT_EQ(out.outcome.reason, path::EndReason::stopReached) << out.outcome.text;
+  const auto& z = out.outcome.final.memory->variables;
+  ASSERT_GT(z.at(0), 0.3);
+  const double xx = 1 + z.at(1), yy = 1 + z.at(2), zz = 1 + z.at(3), xy = z.at(4), yz = z.at(5), zx = z.at(6);
+  EXPECT_NEAR(xx * (yy * zz - yz * yz) - xy * (xy * zz - yz * zx) + zx * (xy * yz - yy * zx), 1, 1e-8);
+
+  auto finite = sheared(FiniteVonMises{m}, cube, points, {}),
+       small = sheared(VonMises<false>{m}, cube, points, {});
+  double difference[2];
+  for (int half = 0; half < 2; ++half) {
+    const double to = half == 0 ? 0.004 : 0.002;
+    const Followed a(finite, {finite.initialState(0), 0.0}, to), b(small, {small.initialState(0), 0.0}, to);
+    const auto f = forcesOfEnd(finite, cube, a.outcome.final), g = forcesOfEnd(small, cube, b.outcome.final);
+    difference[half] = std::hypot(f[0] - g[0], f[1] - g[1]) / std::hypot(f[0], f[1]);
+  }
+  EXPECT_LT(difference[0], 0.02);
+  EXPECT_LT(difference[1], 0.7 * difference[0]);  // of the order of the strain
+}
+
+// Forces do not see a rotation, the tangent is symmetric, Fad and differences agree.
+TEST(FiniteVonMises, ObjectiveWithASymmetricTangent) {
+  const FiniteVonMises law{metal(500, 120, 8, 0, 0)};
+  double data[FiniteVonMises::numData] = {1, 0.1, 0.2, -0.12, -0.05, 0.07, -0.04, 0.03};
+  const double angle = 0.7, c = std::cos(angle), s = std::sin(angle);
+  const double Q[9] = {c, -s, 0, s, c, 0, 0, 0, 1};
+  const double F[9] = {0.97, 0.1, -0.05, 0.2, 1.05, 0.03, 0.02, -0.04, 1.01};
+  double H[9], turned[9], P[FiniteVonMises::numOutputs], R[FiniteVonMises::numOutputs];
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) {
+      H[3 * i + j] = F[3 * i + j] - (i == j);
+      turned[3 * i + j] = -(i == j);
+      for (int k = 0; k < 3; ++k) turned[3 * i + j] += Q[3 * i + k] * F[3 * k + j];
+    }
+  law(H, data, P);
+  law(turned, data, R);
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) {
+      double expected = 0;
+      for (int k = 0; k < 3; ++k) expected += Q[3 * i + k] * P[3 * k + j];
+      EXPECT_NEAR(R[3 * i + j], expected, 1e-10 * std::abs(E));
+    }
+  using Fad = Sacado::Fad::SFad<double, 9>;
+  Fad in[9], out[FiniteVonMises::numOutputs];
+  for (int i = 0; i < 9; ++i) in[i] = Fad(9, i, H[i]);
+  law(in, data, out);
+  for (int i = 0; i < 9; ++i)
+    for (int j = 0; j < i; ++j) EXPECT_NEAR(out[i].dx(j), out[j].dx(i), 1e-9 * E) << i << ' ' << j;
 }
 
 TEST(VonMises, BadMetalsAreRefused) {
