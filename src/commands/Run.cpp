@@ -188,7 +188,7 @@ RunResult runPath(const deck::Deck& deck, PathCase& pathCase, const RunOptions& 
   std::string trouble;
   try {
     if (inStages) followStages(deck, pathCase, std::move(stage), recorder, progress, options.progress);
-    followImperfect(pathCase, *solver, settings, std::move(imperfect), recorder, progress);
+    followImperfect(pathCase, *solver, std::move(imperfect), recorder, progress);
   } catch (const std::runtime_error& e) {
     trouble = e.what();  // what has been found stays
   }

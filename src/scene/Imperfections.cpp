@@ -9,7 +9,7 @@
 
 #include "atrapos/linear/OnAllRanks.hpp"
 #include "atrapos/path/Forced.hpp"
-#include "atrapos/path/PathFollower.hpp"
+#include "commands/OnePath.hpp"
 #include "commands/RunSettings.hpp"
 #include "machine/Interrupt.hpp"
 
@@ -25,22 +25,6 @@ path::RCP<path::Vector> scaled(const path::Vector& nullVector, double size) {
   shape->scale(size / largest);
   return shape;
 }
-
-class Forward final : public path::Observer {
- public:
-  Forward(Recorder& recorder, path::BranchProgress& progress) : recorder_(recorder), progress_(progress) {}
-  bool onStep(const path::StepReport& report, const path::Series& series) override {
-    const bool more = recorder_.onStep(progress_.current, report, series);
-    progress_.path = report.next;
-    recorder_.onProgress(progress_);
-    return more;
-  }
-  void onSearch(int found, int wanted) override { recorder_.onSearch(progress_.current, found, wanted); }
-
- private:
-  Recorder& recorder_;
-  path::BranchProgress& progress_;
-};
 
 }  // namespace
 
@@ -71,7 +55,7 @@ std::unique_ptr<ImperfectCase> imperfectUnderWay(PathCase& pathCase, const path:
   return std::make_unique<ImperfectCase>(pathCase, progress.diagram.points.at(0).point, size);
 }
 
-void followImperfect(PathCase& pathCase, linear::TangentSolver& solver, const path::Options& settings,
+void followImperfect(PathCase& pathCase, linear::TangentSolver& solver,
                      std::unique_ptr<ImperfectCase> underWay, Recorder& recorder,
                      path::BranchProgress& progress) {
   auto& branches = progress.diagram.branches;
@@ -80,21 +64,17 @@ void followImperfect(PathCase& pathCase, linear::TangentSolver& solver, const pa
   sizes.erase(sizes.begin(),
               sizes.begin() + std::count_if(branches.begin(), branches.end(),
                                             [](const path::Branch& b) { return b.imperfection != 0; }));
-  const auto follow = [&](ImperfectCase& imperfect, const path::Start& from) {
+  const auto follow = [&](ImperfectCase& imperfect) {
     // Another body has another graph of its tangent, or the same one in another place.
     std::unique_ptr<linear::TangentSolver> own;
     if (&imperfect.pathCase() != &pathCase) own = tangentSolver(imperfect.pathCase());
-    path::PathFollower follower(imperfect.problem(), own ? *own : solver, settings,
-                                imperfect.pathCase().stops());
-    follower.watch(imperfect.pathCase().functionals());
-    Forward forward(recorder, progress);
-    branches[progress.current].outcome = follower.runFrom(from, forward);
+    followOne(imperfect.pathCase(), imperfect.problem(), own ? *own : solver, recorder, progress, false);
     recorder.finish(branches[progress.current].start);
     if (Interrupt::came()) return;
     progress.path.reset();
     recorder.onProgress(progress);
   };
-  if (underWay && progress.path) follow(*underWay, *progress.path);
+  if (underWay && progress.path) follow(*underWay);
   underWay.reset();
   for (const double size : sizes) {
     if (Interrupt::came()) return;
@@ -111,7 +91,7 @@ void followImperfect(PathCase& pathCase, linear::TangentSolver& solver, const pa
     progress.path->state = branch.start;
     recorder.beginOther(imperfect.pathCase(), imperfect.problem(), progress.current,
                         fmt::format("branch {}: the path with imperfection {:g}", progress.current, size));
-    follow(imperfect, *progress.path);
+    follow(imperfect);
   }
 }
 

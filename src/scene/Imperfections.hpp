@@ -34,7 +34,7 @@ std::unique_ptr<ImperfectCase> imperfectUnderWay(PathCase& pathCase, const path:
 /// Follows the paths of imperfect structures after the perfect one's, those that are not done yet, the one
 /// under way first. They become further branches of the diagram, without a parent. Throws std::runtime_error,
 /// one line, where the diagram has no bifurcation point.
-void followImperfect(PathCase& pathCase, linear::TangentSolver& solver, const path::Options& settings,
+void followImperfect(PathCase& pathCase, linear::TangentSolver& solver,
                      std::unique_ptr<ImperfectCase> underWay, Recorder& recorder,
                      path::BranchProgress& progress);
 
