@@ -107,7 +107,8 @@ class Run {
   std::vector<double> falls(const Series& series, double end, const std::vector<int>& zero) const;
   void limit(const Series& series, Trial& trial) { limit(series, trial, applied_); }
   void limit(const Series& series, Trial& trial, const std::vector<int>& zero);
-  std::vector<int> falling(const Series& series, const std::vector<int>& candidates, double sense);
+  std::vector<int> falling(const Series& series, const std::vector<int>& candidates, double sense,
+                           const std::vector<int>& flat = {});
   std::vector<int> overdue(const Series& series) const;
   Series seriesOfChoice(const std::vector<int>& zero, const std::vector<int>& chosen = {});
   bool passesStop(const State& from, const State& to) const;

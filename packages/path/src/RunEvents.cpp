@@ -23,12 +23,12 @@ double size(const std::vector<double>& c, double length) {
   return largest;
 }
 
-/// Whether a function that is zero at a = 0 rises in a sense (+1, -1), looked at on this length; what is
-/// below `noise` counts as zero.
-bool rises(const std::vector<double>& c, double sense, double length, double noise) {
+/// Whether a function that is zero at a = 0, as its first derivatives are below `first`, rises in a sense
+/// (+1, -1), looked at on this length; what is below `noise` counts as zero.
+bool rises(const std::vector<double>& c, double sense, double length, double noise, std::size_t first = 1) {
   const double small = std::max(noise, 1e-9 * size(c, length));
-  double power = length;
-  for (std::size_t k = 1; k < c.size(); ++k, power *= length)
+  double power = std::pow(length, first);
+  for (std::size_t k = first; k < c.size(); ++k, power *= length)
     if (std::abs(c[k]) * power > small) return (k % 2 == 1 ? sense : 1) * c[k] > 0;
   return true;  // stays zero: nothing is violated
 }
@@ -103,8 +103,9 @@ void Run::limit(const Series& series, Trial& trial, const std::vector<int>& zero
 }
 
 /// The candidates that fall along the series in this sense, ascending. A break falls where the series leaves
-/// its piece.
-std::vector<int> Run::falling(const Series& series, const std::vector<int>& candidates, double sense) {
+/// its piece. `flat`: those whose functions begin with their second derivatives.
+std::vector<int> Run::falling(const Series& series, const std::vector<int>& candidates, double sense,
+                              const std::vector<int>& flat) {
   const double reach = std::min(series.radius(options_.delta), options_.maxStep);
   const int functions = series.eventCount();
   double largest = 0;
@@ -117,7 +118,8 @@ std::vector<int> Run::falling(const Series& series, const std::vector<int>& cand
   std::vector<int> violated;
   for (const int i : candidates) {
     if (i < functions) {
-      if (!rises(series.eventCoefficients(i), sense, reach, rounding * largest)) violated.push_back(i);
+      const std::size_t first = std::binary_search(flat.begin(), flat.end(), i) ? 2 : 1;
+      if (!rises(series.eventCoefficients(i), sense, reach, rounding * largest, first)) violated.push_back(i);
       continue;
     }
     if (place.state.u.is_null()) {
@@ -312,6 +314,12 @@ Series Run::seriesAfterEvents(StepReport& report) {
   std::string crease;  // of a jump behind which no sense was admissible
   const int senses = tangent_ ? 2 : 1;
   std::optional<Series> found;
+  // Behind the end of growth alone rates go on as they were: the functions that begin there have none yet,
+  // but for what the series left out.
+  const bool smooth = tangent_ && std::includes(growing.begin(), growing.end(), due.begin(), due.end());
+  // The old sense comes first where something grows: a body that yields can always unload the way it came.
+  bool anySense = growing.empty();
+  std::optional<std::vector<int>> turned;  // a choice admissible in the other sense
   const auto attempt = [&](const std::vector<int>& chosen) -> const Choice& {
     const auto [at, isNew] = tried.try_emplace(chosen);
     Choice& choice = at->second;
@@ -322,8 +330,13 @@ Series Run::seriesAfterEvents(StepReport& report) {
     try {
       const Series series = seriesOfChoice(candidates, chosen);
       for (int s = 0; s < senses && !found; ++s) {
-        choice.falls[s] = falling(series, candidates, s == 0 ? 1 : -1);
-        if (choice.falls[s].empty()) found = s == 0 ? series : series.reversed();
+        const bool flat = smooth && chosen == due;
+        choice.falls[s] = falling(series, candidates, s == 0 ? 1 : -1, flat ? due : std::vector<int>{});
+        if (!choice.falls[s].empty()) continue;
+        if (s == 0 || anySense)
+          found = s == 0 ? series : series.reversed();
+        else if (!turned)
+          turned = chosen;
       }
     } catch (const PathError& error) {
       // A set of constraints that depend on each other, or a mechanism: another choice.
@@ -356,11 +369,17 @@ Series Run::seriesAfterEvents(StepReport& report) {
   // Principal pivoting: all that fall change sides, or the last of them where that would go in a circle.
   const int count = static_cast<int>(candidates.size());
   for (int s = 0; s < senses && !found; ++s) {
+    if (s == 1) anySense = true;
+    if (s == 1 && turned) {
+      tried.erase(*turned);
+      attempt(*turned);
+      if (found) break;
+    }
     std::set<std::vector<int>> seen;
     std::vector<int> chosen = due;
     for (int trial = 0; trial < 3 * count && allowed(chosen) && seen.insert(chosen).second; ++trial) {
       const Choice& choice = attempt(chosen);
-      if (found || choice.singular) break;
+      if (found || choice.singular || choice.falls[s].empty()) break;
       std::vector<int> next = difference(chosen, choice.falls[s]);
       if (seen.count(next)) next = difference(chosen, {choice.falls[s].back()});
       chosen = next;

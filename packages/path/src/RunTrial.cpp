@@ -162,7 +162,8 @@ bool Run::polynomialReaches(Series& series, double a) {
 /// The end of the step by the rational form, where that goes further than the polynomial and its residual
 /// passes, at the end and inside; or by the polynomial, where that reaches a stop or an event.
 std::optional<Run::Trial> Run::padeTrial(Series& series, StepReport& report) {
-  if (options_.pade == PadeUse::off || order_ < 4 || endsEarly(series) || series.standsStill())
+  if (options_.pade == PadeUse::off || order_ < 4 || endsEarly(series) || series.standsStill() ||
+      series.hidesGrowth())
     return std::nullopt;
   const bool automatic = options_.pade == PadeUse::automatic;
   if (automatic && padeWait_ > 0) {

@@ -130,16 +130,33 @@ bool Series::eventsMove() const {
   });
 }
 
-double Series::convergence(int k) const {
-  const auto both = [&](int j) { return std::hypot(std::sqrt(weight_) * norm_[j], lambda_[j]); };
-  const auto ratio = [&](double first, double last) {
-    return last > 0 ? std::pow(first / last, 1.0 / (k - 1)) : std::numeric_limits<double>::infinity();
+double Series::ratio(int k, double first, double last) {
+  return last > 0 ? std::pow(first / last, 1.0 / (k - 1)) : std::numeric_limits<double>::infinity();
+}
+
+double Series::convergenceOfGrowth(int k) const {
+  const auto growth = [&](int j) {
+    double sum = 0;
+    for (const int i : growing_) sum += events_[i][j] * events_[i][j];
+    return std::sqrt(sum);
   };
-  double smallest = std::min(ratio(norm_[1], norm_[k]), ratio(both(1), both(k)));
+  return growing_.empty() ? std::numeric_limits<double>::infinity() : ratio(k, growth(1), growth(k));
+}
+
+double Series::convergenceOfUnknowns(int k) const {
+  const auto both = [&](int j) { return std::hypot(std::sqrt(weight_) * norm_[j], lambda_[j]); };
+  double smallest = std::min(ratio(k, norm_[1], norm_[k]), ratio(k, both(1), both(k)));
   if (standsStill())
     for (const auto& g : events_)
-      smallest = std::min(smallest, ratio(std::max(std::abs(g[0]), std::abs(g[1])), std::abs(g[k])));
+      smallest = std::min(smallest, ratio(k, std::max(std::abs(g[0]), std::abs(g[1])), std::abs(g[k])));
   return smallest;
+}
+
+double Series::convergence(int k) const { return std::min(convergenceOfUnknowns(k), convergenceOfGrowth(k)); }
+
+bool Series::hidesGrowth() const {
+  const int K = order();
+  return K > 2 && convergenceOfUnknowns(K) > 2 * convergenceOfGrowth(K);
 }
 
 double Series::radius(double delta) const {

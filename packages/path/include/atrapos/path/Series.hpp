@@ -62,9 +62,10 @@ class Series {
 
   /// Validity, eq. (36): (delta ||X_1|| / ||X_K||)^(1/(K-1)), once with the norm of X alone as printed and
   /// once with w ||X||^2 + lambda^2 (where U is the better parameter, lambda is what the truncation spoils);
-  /// the smaller. Where X_K is nearly zero by symmetry, order K-1 stands in for it. Infinity where both
-  /// vanish (the series terminates) and for K = 1 (nothing to estimate from). Where the unknowns stand still,
-  /// that of the event functions.
+  /// and with the norm of the event functions that grow (forces may not show what they do: where a state is
+  /// homogeneous they balance whatever it is); the smallest. Where X_K is nearly zero by symmetry, order K-1
+  /// stands in for it. Infinity where all vanish (the series terminates) and for K = 1 (nothing to estimate
+  /// from). Where the unknowns stand still, that of the event functions.
   double radius(double delta) const;
 
   /// Whether no unknown moves, only lambda.
@@ -83,6 +84,10 @@ class Series {
   int eventCount() const { return static_cast<int>(events_.size()); }
   const std::vector<double>& eventCoefficients(int i) const { return events_.at(i); }
 
+  /// Whether what grows has a series much shorter than the unknowns have: forces do not tell how far that one
+  /// leads.
+  bool hidesGrowth() const;
+
   /// Problem::growingAt of its start.
   void setGrowing(std::vector<int> events) { growing_ = std::move(events); }
   bool eventGrows(int i) const { return std::binary_search(growing_.begin(), growing_.end(), i); }
@@ -97,8 +102,11 @@ class Series {
   double convergenceRadius() const { return radius(1); }
 
  private:
+  static double ratio(int k, double first, double last);  ///< (first/last)^(1/(k-1))
   /// (||X_1|| / ||X_k||)^(1/(k-1)), the smaller over both norms; of the event functions, max(|g_0|, |g_1|)
   /// over |g_k|, where the unknowns stand still.
+  double convergenceOfUnknowns(int k) const;
+  double convergenceOfGrowth(int k) const;  ///< the same with the norm of all that grow
   double convergence(int k) const;
   /// Factors of X_0 .. X_K in X(a).
   std::vector<double> weights(double a) const;
