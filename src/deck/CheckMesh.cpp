@@ -75,7 +75,7 @@ class MeshCheck {
         if (!isNew) {
           fail(path, fmt::format("block '{}' already has the material '{}'", name, previous->second));
         }
-        if (std::holds_alternative<VonMises>(material.law)) plastic(material.name, found);
+        if (std::holds_alternative<VonMises>(material.law)) plastic(material, found);
         if ((!material.expansion.empty() || material.dielectric) &&
             fem::isShell(mesh_.blocks[static_cast<std::size_t>(found)].topology)) {
           const std::string key = material.dielectric ? "dielectric" : "expansion";
@@ -260,16 +260,16 @@ class MeshCheck {
 
  private:
   /// What a material that yields does not serve so far.
-  void plastic(const std::string& name, int block) const {
-    const std::string path = "materials/" + name + "/law";
-    if (fem::isShell(mesh_.blocks[static_cast<std::size_t>(block)].topology)) {
-      fail(path, "von_mises is for solids, plane strain and axisymmetry, not for shells");
-    }
-    if (deck_.plane && deck_.plane->kind == Plane::Kind::Stress) {
-      fail(path, "von_mises is for solids, plane strain and axisymmetry, not for plane stress");
+  void plastic(const Material& material, int block) const {
+    const bool shell = fem::isShell(mesh_.blocks[static_cast<std::size_t>(block)].topology);
+    const bool thin = shell || (deck_.plane && deck_.plane->kind == Plane::Kind::Stress);
+    if (thin && std::get<VonMises>(material.law).strains == VonMises::Strains::Finite) {
+      fail("materials/" + material.name + "/strains",
+           "finite strains are for solids, plane strain and axisymmetry; shells and plane stress take small");
     }
     if (!deck_.path.series()) {
-      fail(path, "von_mises needs path/method: series, whose events are the points that begin to yield");
+      fail("materials/" + material.name + "/law",
+           "von_mises needs path/method: series, whose events are the points that begin to yield");
     }
   }
 

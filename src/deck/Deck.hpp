@@ -170,6 +170,7 @@ struct Shells {
   std::vector<ShellJoint> joints;   ///< rigid where no entry says otherwise; of several the last one counts
   Shear shear = Shear::Compatible;  ///< of blocks without an entry, and of entries without their own
   std::vector<ShellSection> sections;
+  int metalPoints = 5;  ///< through the thickness where the material yields, 2 to 10
 };
 
 /// Where in the thickness of shells something acts; middle for all others.

@@ -137,7 +137,7 @@ const Table<Deck>& deckTable() {
     shells.print = [inner = shells.print](const Deck& deck) {
       const Shells& s = deck.shells;
       const bool plain = s.sections.empty() && s.joints.empty() && s.foldAngle == Shells{}.foldAngle &&
-                         s.shear == Shells{}.shear;
+                         s.shear == Shells{}.shear && s.metalPoints == Shells{}.metalPoints;
       return plain ? Node{} : inner(deck);
     };
     return Table<Deck>{

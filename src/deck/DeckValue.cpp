@@ -26,6 +26,7 @@ const Check count{[](double x) { return x >= 1; }, "at least 1"};
 const Check natural{[](double x) { return x >= 0; }, "at least 0"};
 const Check rows{[](double x) { return x >= 1 && x <= 10000; }, "from 1 to 10000"};
 const Check order{[](double x) { return x >= 1 && x <= 60; }, "from 1 to 60"};
+const Check throughThickness{[](double x) { return x >= 2 && x <= 10; }, "from 2 to 10"};
 const Check degree{[](double x) { return x >= 1 && x <= 20; }, "from 1 to 20"};
 const Check direction{[](double x) { return x == 1 || x == -1; }, "1 or -1"};
 const Check poissonsRatio{[](double x) { return x > -1 && x < 0.5; }, "above -1 and below 0.5"};

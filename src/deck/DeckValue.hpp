@@ -19,7 +19,7 @@ struct Check {
 
 namespace check {
 extern const Check any, positive, nonzero, fraction, fractionOrZero, count, rows, natural, order, degree,
-    direction, poissonsRatio, acuteAngle, slopeAngle, exponent;
+    direction, poissonsRatio, acuteAngle, slopeAngle, exponent, throughThickness;
 }
 
 /// A value of the deck with its key path. Every accessor throws DeckError where the value is not of its kind.

@@ -87,6 +87,8 @@ const Table<Shells>& shellsTable() {
                          choice("shear", optional, &Shells::shear, shears(),
                                 "transverse shear strains; assumed: for thin plates with clamped edges or "
                                 "skew corners"),
+                         integer("thickness_points", optional, &Shells::metalPoints, check::throughThickness,
+                                 "points through the thickness where the material yields"),
                          entries("sections", optional, &Shells::sections, shellSectionTable(),
                                  "each with blocks, thickness, shear", "thickness of the shells")};
   }();

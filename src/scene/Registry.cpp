@@ -11,6 +11,7 @@
 #include "atrapos/solid/MixedBody.hpp"
 #include "atrapos/solid/MixedLaw.hpp"
 #include "atrapos/solid/SaintVenantKirchhoff.hpp"
+#include "atrapos/solid/ShellMetal.hpp"
 #include "atrapos/solid/VonMises.hpp"
 
 namespace atrapos::registry {
@@ -100,6 +101,20 @@ std::unique_ptr<fem::PointLaw> lawInSpace(const deck::VonMises& entry) {
   return fem::pointLaw(solid::VonMises<false>{metal(entry)});
 }
 
+/// In the plane.
+template <class Entry>
+std::unique_ptr<fem::PointLaw> lawInPlane(const Entry& entry, solid::PlaneSection::Kind kind) {
+  return solid::planeLaw(lawInSpace(entry), kind);
+}
+std::unique_ptr<fem::PointLaw> lawInPlane(const deck::VonMises& entry, solid::PlaneSection::Kind kind) {
+  using Kind = solid::PlaneSection::Kind;
+  if (kind != Kind::stress) return solid::planeLaw(lawInSpace(entry), kind);
+  // It has eliminated the strain across itself.
+  auto law = entry.kinematicModulus > 0 ? fem::pointLaw(solid::VonMises<true, true>{metal(entry)})
+                                        : fem::pointLaw(solid::VonMises<false, true>{metal(entry)});
+  return solid::planeLaw(std::move(law), Kind::strain);
+}
+
 /// The materials that are compiled with scalar fields.
 template <class Entry>
 constexpr bool inFields =
@@ -122,17 +137,31 @@ std::unique_ptr<fem::PointLaw> expanding(const Entry& entry, const physics::Expa
     throw std::logic_error("registry: an expansion of another material");  // decks are checked
 }
 
-std::unique_ptr<fem::Term> shells(const deck::VonMises&, const solid::ShellElements&, deck::Shear) {
-  throw std::invalid_argument("von_mises is not for shells");
+template <bool kinematic>
+std::unique_ptr<fem::Term> metalShells(const solid::Metal& metal, const solid::ShellElements& elements,
+                                       const solid::ShellCubature& cubature, deck::Shear shear) {
+  using Compatible = solid::ShellMetal<kinematic>;
+  using Assumed = solid::AssumedShearMetal<kinematic>;
+  const bool assumed = shear == deck::Shear::Assumed;
+  auto at = assumed ? solid::assumedShearMetalPoints(elements, cubature, Assumed::numData)
+                    : solid::shellMetalPoints(elements, cubature, Compatible::numData);
+  auto law = assumed ? fem::pointLaw(Assumed{metal}) : fem::pointLaw(Compatible{metal});
+  return fem::lawTerm(std::move(law), at.points, at.data);
+}
+std::unique_ptr<fem::Term> shells(const deck::VonMises& entry, const solid::ShellElements& elements,
+                                  const solid::ShellCubature& cubature, deck::Shear shear) {
+  return entry.kinematicModulus > 0 ? metalShells<true>(metal(entry), elements, cubature, shear)
+                                    : metalShells<false>(metal(entry), elements, cubature, shear);
 }
 template <class Entry>
 std::unique_ptr<fem::Term> shells(const Entry& entry, const solid::ShellElements& elements,
-                                  deck::Shear shear) {
+                                  const solid::ShellCubature& cubature, deck::Shear shear) {
   using Law = decltype(law(entry));
   if (shear == deck::Shear::Assumed)
     return fem::enhancedTerm(fem::pointLaw(solid::AssumedShearLaw<Law>{law(entry)}),
-                             solid::assumedShearPoints(elements));
-  return fem::enhancedTerm(fem::pointLaw(solid::ShellLaw<Law>{law(entry)}), solid::shellPoints(elements));
+                             solid::assumedShearPoints(elements, cubature));
+  return fem::enhancedTerm(fem::pointLaw(solid::ShellLaw<Law>{law(entry)}),
+                           solid::shellPoints(elements, cubature));
 }
 
 }  // namespace
@@ -141,10 +170,10 @@ std::unique_ptr<fem::Term> materialTerm(const deck::Material& material, const fe
                                         const std::optional<solid::PlaneSection>& plane) {
   return std::visit(
       [&](const auto& entry) -> std::unique_ptr<fem::Term> {
-        auto inSpace = lawInSpace(entry);
+        auto law = plane ? lawInPlane(entry, plane->kind) : lawInSpace(entry);
         // What a law keeps begins with zeros.
-        const std::vector<double> data(static_cast<std::size_t>(points.numPoints()) * inSpace->shape().data);
-        return fem::lawTerm(inBody(std::move(inSpace), plane), points, data);
+        const std::vector<double> data(static_cast<std::size_t>(points.numPoints()) * law->shape().data);
+        return fem::lawTerm(std::move(law), points, data);
       },
       material.law);
 }
@@ -179,9 +208,11 @@ std::unique_ptr<fem::Term> mixedTerm(const deck::Material& material, const fem::
 }
 
 std::unique_ptr<fem::Term> shellTerm(const deck::Material& material, const solid::ShellElements& elements,
-                                     deck::Shear shear) {
+                                     const solid::ShellCubature& cubature, deck::Shear shear) {
   return std::visit(
-      [&](const auto& entry) -> std::unique_ptr<fem::Term> { return shells(entry, elements, shear); },
+      [&](const auto& entry) -> std::unique_ptr<fem::Term> {
+        return shells(entry, elements, cubature, shear);
+      },
       material.law);
 }
 

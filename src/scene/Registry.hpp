@@ -34,6 +34,6 @@ std::unique_ptr<fem::Term> mixedTerm(const deck::Material& material, const fem::
 /// The term of a material in shells. Throws std::runtime_error where an element cannot be
 /// (solid::shellPoints).
 std::unique_ptr<fem::Term> shellTerm(const deck::Material& material, const solid::ShellElements& elements,
-                                     deck::Shear shear);
+                                     const solid::ShellCubature& cubature, deck::Shear shear);
 
 }  // namespace atrapos::registry

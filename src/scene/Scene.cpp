@@ -201,7 +201,8 @@ fem::PointSet Scene::materialPoints(const fem::Block& block, const fem::Tabulati
 
 BodyBlock Scene::addShell(const deck::Material& material, int shells, fem::FeModel& model) const {
   BodyBlock body{static_cast<int>(model.terms.size()), -1, shells, solid::shellPointsToNodes({})};
-  model.terms.push_back(registry::shellTerm(material, shells_.elements[shells], shells_.shear[shells]));
+  model.terms.push_back(registry::shellTerm(material, shells_.elements[shells], shells_.cubature[shells],
+                                            shells_.shear[shells]));
   return body;
 }
 

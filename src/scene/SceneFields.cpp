@@ -189,8 +189,9 @@ std::vector<std::vector<double>> Scene::nodalStress(const SceneState& state) con
     for (int layer = 0; layer < 3; ++layer) {
       constexpr double zetas[3] = {solid::midSurface, solid::topSurface, solid::bottomSurface};
       if (body.shells < 0 && layer > 0 && !surfaces) break;
-      const auto values =
-          body.shells < 0 ? columns(observed, 0, 6) : solid::surfaceStress(observed, {}, zetas[layer]);
+      const auto values = body.shells < 0
+                              ? columns(observed, 0, 6)
+                              : solid::surfaceStress(observed, shells_.cubature[body.shells], zetas[layer]);
       const int elements = static_cast<int>(block.nodes.size()) / N;
       for (int e = 0; e < elements; ++e)
         for (int n = 0; n < N; ++n) {
@@ -224,23 +225,23 @@ std::vector<std::vector<double>> Scene::elementValues(const SceneState& state) c
       continue;
     }
     const fem::PointValues& observed = state.observed(body.term);
-    if (body.shells >= 0) {
-      add(0, meanSurfaceStress(observed, solid::midSurface), 6);
-      add(6, meanSurfaceStress(observed, solid::topSurface), 6);
-      add(12, meanSurfaceStress(observed, solid::bottomSurface), 6);
-      add(18, meanResultants(shells_.elements[body.shells], observed, state.displacements()), 8);
-      if (yields()) add(result.size() - 1, std::vector<double>(elements), 1);
-      continue;
-    }
     const std::size_t points = observed.values.size() / observed.names.size() / elements;
-    const auto means = meansOverPoints(columns(observed, 0, 6), points, 6);
-    add(0, means, 6);
     if (yields()) {
       const bool shown = observed.names.size() > 6;
       const auto strain =
           shown ? meansOverPoints(columns(observed, 6, 7), points, 1) : std::vector<double>(elements);
       add(result.size() - 1, strain, 1);
     }
+    if (body.shells >= 0) {
+      const solid::ShellCubature& cubature = shells_.cubature[body.shells];
+      add(0, meanSurfaceStress(observed, cubature, solid::midSurface), 6);
+      add(6, meanSurfaceStress(observed, cubature, solid::topSurface), 6);
+      add(12, meanSurfaceStress(observed, cubature, solid::bottomSurface), 6);
+      add(18, meanResultants(shells_.elements[body.shells], observed, cubature, state.displacements()), 8);
+      continue;
+    }
+    const auto means = meansOverPoints(columns(observed, 0, 6), points, 6);
+    add(0, means, 6);
     if (shells_.empty()) continue;
     add(6, means, 6);
     add(12, means, 6);

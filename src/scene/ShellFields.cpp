@@ -37,17 +37,18 @@ std::vector<std::vector<double>> directorFields(const SceneShells& shells, const
   return fields;
 }
 
-std::vector<double> meanSurfaceStress(const fem::PointValues& observed, double zeta) {
-  const solid::ShellCubature cubature;
+std::vector<double> meanSurfaceStress(const fem::PointValues& observed, const solid::ShellCubature& cubature,
+                                      double zeta) {
   return meansOverPoints(solid::surfaceStress(observed, cubature, zeta),
                          static_cast<std::size_t>(cubature.inPlane) * cubature.inPlane, 6);
 }
 
 std::vector<double> meanResultants(const solid::ShellElements& elements, const fem::PointValues& observed,
-                                   const std::vector<double>& u) {
-  const solid::ShellResultOptions options;
+                                   const solid::ShellCubature& cubature, const std::vector<double>& u) {
+  solid::ShellResultOptions options;
+  options.cubature = cubature;
   return meansOverPoints(solid::shellResultants(elements, observed, u, options).values,
-                         static_cast<std::size_t>(options.cubature.inPlane) * options.cubature.inPlane,
+                         static_cast<std::size_t>(cubature.inPlane) * cubature.inPlane,
                          solid::ShellResultants::names().size());
 }
 

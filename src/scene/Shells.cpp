@@ -29,6 +29,15 @@ deck::Shear shearOf(const deck::Deck& deck, const fem::Mesh& mesh, int block) {
   return deck.shells.shear;
 }
 
+solid::ShellCubature cubatureOf(const deck::Deck& deck, const fem::Mesh& mesh, int block) {
+  solid::ShellCubature cubature;
+  for (const deck::Material& material : deck.materials)
+    for (const std::string& name : material.blocks)
+      if (fem::findBlock(mesh, name) == block && std::holds_alternative<deck::VonMises>(material.law))
+        cubature.throughThickness = deck.shells.metalPoints;
+  return cubature;
+}
+
 fem::ShellGeometry geometryOf(const deck::Deck& deck, const fem::Mesh& mesh) {
   fem::ShellGeometryOptions options;
   options.foldAngle = deck.shells.foldAngle;
@@ -59,6 +68,7 @@ SceneShells sceneShells(const deck::Deck& deck, fem::Mesh& mesh) {
   for (const fem::ShellBlock& b : shells.geometry.blocks) {
     shells.elements.push_back({b.nodes, b.midsurface, b.directors, b.directorScale});
     shells.shear.push_back(shearOf(deck, mesh, b.block));
+    shells.cubature.push_back(cubatureOf(deck, mesh, b.block));
   }
   return shells;
 }

@@ -14,6 +14,7 @@ struct SceneShells {
   fem::ShellGeometry geometry;
   std::vector<solid::ShellElements> elements;  ///< [position in geometry.blocks]
   std::vector<deck::Shear> shear;              ///< the same
+  std::vector<solid::ShellCubature> cubature;  ///< the same
   fem::ShellJoints joints;                     ///< as joinShells has made them
   std::vector<fem::ShellPart> parts;           ///< as orientShells has turned them
 

@@ -1,8 +1,9 @@
+#include "atrapos/solid/Metal.hpp"
+
 #include <cmath>
 #include <stdexcept>
 
 #include "atrapos/solid/SaintVenantKirchhoff.hpp"
-#include "atrapos/solid/VonMises.hpp"
 
 namespace atrapos::solid {
 

@@ -21,7 +21,7 @@ std::vector<double> lagrange(const std::vector<double>& x, double zeta) {
 }
 
 void checkStress(const fem::PointValues& stress, std::size_t multipleOf) {
-  if (stress.names.size() != 6 || stress.values.size() % (6 * multipleOf) != 0)
+  if (stress.names.size() < 6 || stress.values.size() % (stress.names.size() * multipleOf) != 0)
     throw std::logic_error("shell results: the stresses are not those of this shell's term");
 }
 
@@ -62,13 +62,16 @@ double component(const double* s, const Vec3& a, const Vec3& b) {
 std::vector<double> surfaceStress(const fem::PointValues& stress, const ShellCubature& cubature,
                                   double zeta) {
   const detail::GaussRule through = detail::gaussRule(cubature.throughThickness);
-  const std::size_t Z = through.x.size();
+  const std::size_t Z = through.x.size(), names = stress.names.size();
   checkStress(stress, Z);
-  const std::vector<double> l = lagrange(through.x, zeta);
-  std::vector<double> result(stress.values.size() / Z, 0.0);
+  // Linear through the two points beside zeta: a metal's stress has kinks.
+  std::size_t first = 0;
+  while (first + 2 < Z && through.x[first + 1] < zeta) ++first;
+  const std::vector<double> l = lagrange({through.x[first], through.x[first + 1]}, zeta);
+  std::vector<double> result(stress.values.size() / (names * Z) * 6, 0.0);
   for (std::size_t p = 0; p < result.size() / 6; ++p)
-    for (std::size_t z = 0; z < Z; ++z)
-      for (int m = 0; m < 6; ++m) result[6 * p + m] += l[z] * stress.values[6 * (p * Z + z) + m];
+    for (std::size_t z = 0; z < 2; ++z)
+      for (int m = 0; m < 6; ++m) result[6 * p + m] += l[z] * stress.values[names * (p * Z + first + z) + m];
   return result;
 }
 
@@ -92,7 +95,7 @@ ShellResultants shellResultants(const ShellElements& elements, const fem::PointV
   const detail::GaussRule through = detail::gaussRule(options.cubature.throughThickness);
   const int Q = plane.count(), Z = static_cast<int>(through.x.size());
   checkStress(stress, static_cast<std::size_t>(Q) * Z);
-  if (stress.values.size() != static_cast<std::size_t>(elements.count()) * Q * Z * 6)
+  if (stress.values.size() != static_cast<std::size_t>(elements.count()) * Q * Z * stress.names.size())
     throw std::logic_error("shell results: the stresses are not those of these elements");
   ShellResultants result;
   for (int e = 0; e < elements.count(); ++e) {
@@ -115,7 +118,8 @@ ShellResultants shellResultants(const ShellElements& elements, const fem::PointV
       const double half = detail::dot(g.g3, e3);
       double sums[8] = {};
       for (int z = 0; z < Z; ++z) {
-        const double* s = &stress.values[6 * ((static_cast<std::size_t>(e) * Q + q) * Z + z)];
+        const double* s =
+            &stress.values[stress.names.size() * ((static_cast<std::size_t>(e) * Q + q) * Z + z)];
         const detail::Base at = detail::baseAt(plane.table, q, through.x[z], r, d);
         const double w = through.w[z], arm = through.x[z] * half;
         const Vec3 a1 = sectionArea(e1, g, half, at), a2 = sectionArea(e2, g, half, at);

@@ -20,7 +20,7 @@ struct GaussRule {
   std::vector<double> x, w;
 };
 
-/// 2 or 3 Gauss points of [-1, 1]; throws std::invalid_argument for another number.
+/// 2 to 10 Gauss points of [-1, 1], ascending; throws std::invalid_argument for another number.
 GaussRule gaussRule(int points);
 
 /// The points of a cubature in the plane, xi fastest, with the shape functions there.

@@ -9,13 +9,12 @@
 #include <limits>
 #include <stdexcept>
 
+#include "MetalPath.hpp"
 #include "atrapos/fem/FeProblem.hpp"
 #include "atrapos/fem/LawTerm.hpp"
 #include "atrapos/fem/Loads.hpp"
 #include "atrapos/fem/ReferenceCell.hpp"
 #include "atrapos/fem/StructuredPlane.hpp"
-#include "atrapos/linear/MakeTangentSolver.hpp"
-#include "atrapos/path/PathFollower.hpp"
 #include "atrapos/solid/FiniteVonMises.hpp"
 #include "atrapos/solid/PlaneBody.hpp"
 #include "atrapos/solid/VonMises.hpp"
@@ -26,26 +25,9 @@
 using namespace atrapos;
 using namespace atrapos::solid;
 using namespace atrapos::fem::test;
+using namespace atrapos::solid::test;
 
 namespace {
-
-constexpr double E = 200e3, nu = 0.3, yield = 250;
-
-Metal metal(double modulus, double saturation, double exponent, double kinematic, double recall) {
-  Metal m;
-  m.yieldStress = yield;
-  m.modulus = modulus;
-  m.saturation = saturation;
-  m.exponent = exponent;
-  m.kinematicModulus = kinematic;
-  m.recall = recall;
-  return metalFromYoung(E, nu, m);
-}
-
-/// The start of every point: free, without plastic strain.
-std::vector<double> virgin(const fem::PointSet& points, const fem::PointLaw& law) {
-  return std::vector<double>(static_cast<std::size_t>(points.numPoints()) * law.shape().data, 0.0);
-}
 
 /// A unit cube of two HEX8 that is pulled along x by the load factor, free across.
 template <class Law>
@@ -63,45 +45,6 @@ fem::FeProblem bar(const Law& material) {
   for (const int n : nodesOfSet(mesh, "x_max")) model.prescribe(n, 0, 0, 1);
   return fem::FeProblem(std::move(model));
 }
-
-struct Steps final : path::Observer {
-  std::vector<path::StepReport> reports;
-  std::vector<path::Series> series;
-  bool onStep(const path::StepReport& report, const path::Series& s) override {
-    reports.push_back(report);
-    series.push_back(s);
-    return true;
-  }
-};
-
-struct Followed {
-  Steps steps;
-  path::Outcome outcome;
-  Followed(fem::FeProblem& problem, const path::State& start, double loadFactor, double direction = 1) {
-    path::Options options;
-    options.delta = options.residualBound = 1e-9;
-    options.direction = direction;
-    path::Stops stops;
-    stops.loadFactors = {loadFactor};
-    const auto solver = linear::makeTangentSolver();
-    outcome = path::PathFollower(problem, *solver, options, stops).run(start, steps);
-  }
-};
-
-/// Stress and strain of a bar in tension and compression, with the sense of the last plastic strain;
-/// Armstrong and Frederick's backstress in closed form: a' = C p' - b a gamma' for a = 3/2 X_xx.
-struct Uniaxial {
-  Metal m;
-  double gamma = 0, plastic = 0, back = 0;  // at the last change of sense
-  /// Of gamma from there on in this sense.
-  double backAt(double g, double sense) const {
-    if (m.recall == 0) return back + sense * m.kinematicModulus * (g - gamma);
-    const double end = sense * m.kinematicModulus / m.recall;
-    return end + (back - end) * std::exp(-m.recall * (g - gamma));
-  }
-  double stress(double g, double sense) const { return sense * m.strength(g) + backAt(g, sense); }
-  double strain(double g, double sense) const { return stress(g, sense) / E + plastic + sense * (g - gamma); }
-};
 
 /// Along a monotonic path: S_xx and E_xx are those of the closed form at the point's gamma.
 void expectUniaxial(const fem::FeProblem& problem, const Steps& steps, const Uniaxial& exact, double sense) {

@@ -2,13 +2,11 @@
 
 #include <Kokkos_Macros.hpp>
 #include <cmath>
-#include <string>
-#include <vector>
 
 #include "atrapos/fem/PointLaw.hpp"
+#include "atrapos/solid/Metal.hpp"
 #include "atrapos/solid/Rubber.hpp"
 #include "atrapos/solid/Strain.hpp"
-#include "atrapos/solid/VonMises.hpp"
 #include "atrapos/taylor/Law.hpp"
 #include "atrapos/taylor/Rate.hpp"
 
@@ -135,24 +133,12 @@ struct FiniteVonMises {
     const taylor::Matrix3<T> P = full(S) + H * S;
     P.store(out);
 
-    const T strength = metal.strength(z[0]) * (1 / metal.yieldStress);
-    const T equivalent = (1.5 / (metal.yieldStress * metal.yieldStress)) * (e.m * e.m * e.square);
-    const T within = strength * strength - equivalent;
-    const taylor::Passive<T> free = 1.0 - data[0];
-    const taylor::Passive<T> active = (3 * metal.mu / metal.yieldStress) * data[0];
-    out[9] = free * within + active * z[0];
+    const T squareOfQ = 1.5 * (e.m * e.m * e.square);
+    out[9] = metal.event(squareOfQ, z[0], data[0]);
   }
 
-  static constexpr int numObserved = 7;
-  static std::vector<std::string> observedNames() {
-    return {"stress_xx",
-            "stress_yy",
-            "stress_zz",
-            "stress_xy",
-            "stress_yz",
-            "stress_zx",
-            "equivalent_plastic_strain"};
-  }
+  static constexpr int numObserved = Metal::numObserved;
+  static auto observedNames() { return Metal::observedNames(); }
   /// Cauchy stress F S F^T / det F, and gamma.
   KOKKOS_INLINE_FUNCTION void observe(const double* H, const double* data, double* shown) const {
     double out[numOutputs];

@@ -28,7 +28,7 @@ struct ShellElements {
 /// Cubature of a shell element: Gauss points along each reference coordinate.
 struct ShellCubature {
   int inPlane = 2;           ///< along xi and eta; 2: reduced, 3: full
-  int throughThickness = 2;  ///< along zeta
+  int throughThickness = 2;  ///< along zeta, up to 10
 };
 
 /// Parameters of the enhanced thickness strain: beta in span{1, xi, eta, xi eta}.
@@ -45,5 +45,19 @@ fem::EnhancedPoints shellPoints(const ShellElements& elements, const ShellCubatu
 /// that are clamped (docs/theory/shell.md, "Assumed transverse shear"). Shape functions of the four vectors
 /// x_,xi, x_,eta, d_1, d_2, and the law's data.
 fem::EnhancedPoints assumedShearPoints(const ShellElements& elements, const ShellCubature& cubature = {});
+
+/// Points of a law that remembers and has no enhanced strain, for fem::lawTerm, with its data at the start,
+/// [entity][point][datum].
+struct ShellMetalPoints {
+  fem::PointSet points;
+  std::vector<double> data;
+};
+
+/// For ShellMetal and AssumedShearMetal with this many data: no point yields and variables are zero. The axes
+/// are the same for each point of a column through the thickness: the normal of the mid-surface, and along it
+/// the axis of space that is farthest from it, projected.
+ShellMetalPoints shellMetalPoints(const ShellElements& elements, const ShellCubature& cubature, int numData);
+ShellMetalPoints assumedShearMetalPoints(const ShellElements& elements, const ShellCubature& cubature,
+                                         int numData);
 
 }  // namespace atrapos::solid

@@ -19,8 +19,8 @@ struct ShellResultOptions {
   std::array<double, 3> axis{1, 0, 0};
 };
 
-/// Cauchy stresses, [element][in-plane point][xx yy zz xy yz zx], at the surface zeta, extrapolated along
-/// zeta from those at the cubature points (what the term's observe gives).
+/// Cauchy stresses, [element][in-plane point][xx yy zz xy yz zx], at the surface zeta, linear through the two
+/// cubature points next to it along zeta (the first six of what the term's observe gives).
 std::vector<double> surfaceStress(const fem::PointValues& stress, const ShellCubature& cubature, double zeta);
 
 /// Values at an element's in-plane cubature points taken to its nodes: [8 nodes][in-plane points], the

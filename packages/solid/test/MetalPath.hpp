@@ -1,0 +1,73 @@
+#pragma once
+
+#include <cmath>
+#include <vector>
+
+#include "atrapos/fem/FeProblem.hpp"
+#include "atrapos/fem/PointLaw.hpp"
+#include "atrapos/fem/PointSet.hpp"
+#include "atrapos/linear/MakeTangentSolver.hpp"
+#include "atrapos/path/PathFollower.hpp"
+#include "atrapos/solid/Metal.hpp"
+
+/// What tests of metals share.
+namespace atrapos::solid::test {
+
+inline constexpr double E = 200e3, nu = 0.3, yield = 250;
+
+inline Metal metal(double modulus, double saturation, double exponent, double kinematic, double recall) {
+  Metal m;
+  m.yieldStress = yield;
+  m.modulus = modulus;
+  m.saturation = saturation;
+  m.exponent = exponent;
+  m.kinematicModulus = kinematic;
+  m.recall = recall;
+  return metalFromYoung(E, nu, m);
+}
+
+/// The start of every point: free, without plastic strain.
+inline std::vector<double> virgin(const fem::PointSet& points, const fem::PointLaw& law) {
+  return std::vector<double>(static_cast<std::size_t>(points.numPoints()) * law.shape().data, 0.0);
+}
+
+struct Steps final : path::Observer {
+  std::vector<path::StepReport> reports;
+  std::vector<path::Series> series;
+  bool onStep(const path::StepReport& report, const path::Series& s) override {
+    reports.push_back(report);
+    series.push_back(s);
+    return true;
+  }
+};
+
+struct Followed {
+  Steps steps;
+  path::Outcome outcome;
+  Followed(fem::FeProblem& problem, const path::State& start, double loadFactor, double direction = 1) {
+    path::Options options;
+    options.delta = options.residualBound = 1e-9;
+    options.direction = direction;
+    path::Stops stops;
+    stops.loadFactors = {loadFactor};
+    const auto solver = linear::makeTangentSolver();
+    outcome = path::PathFollower(problem, *solver, options, stops).run(start, steps);
+  }
+};
+
+/// Stress and strain of a bar in tension and compression, with the sense of the last plastic strain;
+/// Armstrong and Frederick's backstress in closed form: a' = C p' - b a gamma' for a = 3/2 X_xx.
+struct Uniaxial {
+  Metal m;
+  double gamma = 0, plastic = 0, back = 0;  // at the last change of sense
+  /// Of gamma from there on in this sense.
+  double backAt(double g, double sense) const {
+    if (m.recall == 0) return back + sense * m.kinematicModulus * (g - gamma);
+    const double end = sense * m.kinematicModulus / m.recall;
+    return end + (back - end) * std::exp(-m.recall * (g - gamma));
+  }
+  double stress(double g, double sense) const { return sense * m.strength(g) + backAt(g, sense); }
+  double strain(double g, double sense) const { return stress(g, sense) / E + plastic + sense * (g - gamma); }
+};
+
+}  // namespace atrapos::solid::test
