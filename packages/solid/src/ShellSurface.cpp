@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 namespace atrapos::solid::detail {
 
@@ -21,7 +23,15 @@ GaussRule gaussRule(int points) {
       if (points < 2 || points > 10)
         throw std::invalid_argument(fmt::format("shell cubature: {} points; accepted are 2 to 10", points));
       const fem::Tabulation line = fem::tabulateFace(fem::Face::Line2, 2 * points - 1);
-      return {line.points, line.weights};
+      std::vector<std::pair<double, double>> sorted;
+      for (int q = 0; q < points; ++q) sorted.emplace_back(line.points[q], line.weights[q]);
+      std::sort(sorted.begin(), sorted.end());
+      GaussRule rule;
+      for (const auto& [x, w] : sorted) {
+        rule.x.push_back(x);
+        rule.w.push_back(w);
+      }
+      return rule;
     }
   }
 }

@@ -14,6 +14,7 @@
 #include "atrapos/fem/StructuredPlane.hpp"
 #include "atrapos/solid/PlaneBody.hpp"
 #include "atrapos/solid/ShellMetal.hpp"
+#include "atrapos/solid/ShellResults.hpp"
 #include "atrapos/solid/VonMises.hpp"
 #include "support/Meshes.hpp"
 #include "support/Vectors.hpp"
@@ -294,6 +295,17 @@ TEST(ThinMetal, BentStripIsABeamOfFibres) {
       // 3e-2.
       EXPECT_NEAR(strip.moment(at), fibres.to(next), 1e-3 * scale) << next / first;
       sense = -1;
+      if (next < 3 * first) continue;
+      // The fibres outside have all yielded: stress is linear there, tension on top.
+      const auto stress = strip.problem->observe(0, at);
+      const ShellCubature cubature{2, BentStrip::layers};
+      const double slope = strip.m.kinematicModulus / (E + strip.m.kinematicModulus);
+      const double surface = strip.m.yieldStress * (1 + 2 * slope);
+      EXPECT_NEAR(surfaceStress(stress, cubature, 1).at(0), surface, 1e-3 * surface);
+      EXPECT_NEAR(surfaceStress(stress, cubature, -1).at(0), -surface, 1e-3 * surface);
+      const auto resultants = shellResultants(strip.grid.elements(), stress, fem::FeProblem::values(*at.u),
+                                              {cubature, {1, 0, 0}});
+      EXPECT_NEAR(resultants.values.at(3), strip.moment(at), 1e-3 * scale);
     }
   }
 }
