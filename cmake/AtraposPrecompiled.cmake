@@ -1,12 +1,12 @@
 # Headers that most sources include, read once: they are 3 of the 7 seconds of a source of `path`. One set for
-# libraries (position-independent code), one for programs, one for tests.
+# libraries (position-independent code), one for tests.
 option(ATRAPOS_PRECOMPILE "Precompile the headers of Trilinos and of the standard library" ON)
 
 set(atrapos_precompiled_headers <Tpetra_CrsMatrix.hpp> <Tpetra_MultiVector.hpp> <Tpetra_Vector.hpp>
   <Kokkos_Core.hpp> <algorithm> <array> <cmath> <functional> <limits> <map> <memory> <stdexcept> <string> <utility>
   <vector>)
 
-# atrapos_precompiled(<target> <library|program|test>)
+# atrapos_precompiled(<target> <library|test>)
 function(atrapos_precompiled target kind)
   if(NOT ATRAPOS_PRECOMPILE OR NOT TARGET Trilinos::Tpetra)
     return()

@@ -15,19 +15,16 @@
 #include <vector>
 
 #include "Version.hpp"
-#include "atrapos/exodus/MeshFile.hpp"
 #include "atrapos/exodus/ResultReader.hpp"
 #include "atrapos/fem/Processor.hpp"
 #include "commands/ChartCommand.hpp"
-#include "commands/Check.hpp"
+#include "commands/FollowDeck.hpp"
 #include "commands/ImportCommand.hpp"
 #include "commands/JoinCommand.hpp"
 #include "commands/MapCommand.hpp"
-#include "commands/MeshCommand.hpp"
 #include "commands/ModelCase.hpp"
 #include "commands/PlotCommand.hpp"
 #include "commands/ReportCommand.hpp"
-#include "commands/Run.hpp"
 #include "commands/SceneCase.hpp"
 #include "commands/SplitCommand.hpp"
 #include "commands/Stages.hpp"
@@ -114,17 +111,10 @@ int run(const RunWords& words) {
                                                : defaultDirectory(words.deck);
   const bool quiet = words.quiet || !atrapos::ranks::isFirst();
   options.progress = quiet ? nullptr : &std::cout;
-  const std::string sharing =
-      atrapos::threads::describe(MPI_COMM_WORLD) +
-      (deck.problem && atrapos::ranks::count() > 1 ? "; the model problem runs on the first rank" : "");
-  const bool alone = atrapos::ranks::count() == 1 && Kokkos::DefaultExecutionSpace::concurrency() == 1;
-  const auto tell = [&](const std::string& line) {
-    if (!quiet) std::cout << line << std::endl;
-  };
-  const auto follow = [&](atrapos::PathCase& pathCase, const std::string& about) {
-    tell(about);
-    if (!alone) tell(sharing);
-    const auto result = atrapos::runPath(deck, pathCase, options);
+  const auto follow = [&] {
+    const auto result = atrapos::followDeck(deck, options, [&](const std::string& line) {
+      if (!quiet) std::cout << line << std::endl;
+    });
     const std::string page = options.directory + "/report.html";
     const bool toOpen = !quiet && std::filesystem::exists(page);
     if (!quiet || (!result.reachedStop && atrapos::ranks::isFirst()))
@@ -134,20 +124,8 @@ int run(const RunWords& words) {
     return result.reachedStop ? 0 : kCannotContinue;
   };
   if (deck.problem)  // small: one rank follows it
-    return atrapos::ranks::onFirst([&] {
-      return reported(words.deck + ": ", [&] {
-        atrapos::ModelCase model(deck);
-        tell(deck.title);
-        return follow(model, model.about());
-      });
-    });
-  atrapos::DeckMesh mesh = atrapos::readDeckMesh(deck);
-  tell(deck.title);  // the scene may take a while
-  const char* const came = mesh.ranks.empty() ? "" : ", a part file for each rank";
-  const atrapos::deck::Deck first = atrapos::firstDeck(deck, mesh);
-  atrapos::Scene scene(first, std::move(mesh));
-  atrapos::SceneCase pathCase(scene);
-  return follow(pathCase, atrapos::describeMesh(scene.mesh()) + came);
+    return atrapos::ranks::onFirst([&] { return reported(words.deck + ": ", follow); });
+  return follow();
 }
 
 int map(const atrapos::MapWords& words) {
@@ -177,37 +155,14 @@ int map(const atrapos::MapWords& words) {
 }
 
 int makeMesh(const std::string& deckFile, const std::string& output, bool quiet) {
-  const auto deck = atrapos::deck::readDeck(deckFile);
-  const auto mesh = atrapos::generateMesh(deck);
-  const std::string file = output.empty() ? deck.mesh.path : output;
-  std::error_code notThere;
-  if (std::filesystem::equivalent(file, deckFile, notThere)) {  // links and other spellings too
-    const std::string what =
-        file + " is the deck itself, which the mesh would replace; expected another file";
-    if (output.empty()) atrapos::deck::failAt(deck, "mesh/file", what);
-    throw atrapos::deck::DeckError(fmt::format("{}: --output: {}", deckFile, what));
-  }
-  atrapos::requireOwn(file, atrapos::Made::mesh, {});
-  if (std::filesystem::exists(file) && atrapos::exodus::ResultReader(file).numSteps() > 0)
-    throw atrapos::deck::DeckError(
-        fmt::format("{}: {} holds results, which the mesh would replace", deckFile, file));
-  atrapos::exodus::writeMesh(mesh, file);
-  if (!quiet) std::cout << fmt::format("{}: {}\n", file, atrapos::describeMesh(mesh));
+  const std::string line = atrapos::writeDeckMesh(atrapos::deck::readDeck(deckFile), output);
+  if (!quiet) std::cout << line << '\n';
   return 0;
 }
 
 int check(const std::string& deckFile) {
-  const auto deck = atrapos::deck::readDeck(deckFile);
   std::ostream nowhere(nullptr);
-  std::ostream& out = atrapos::ranks::isFirst() ? std::cout : nowhere;
-  if (deck.problem) {
-    atrapos::printCheck(atrapos::ModelCase(deck), out);
-    return 0;
-  }
-  atrapos::DeckMesh mesh = atrapos::readDeckMesh(deck);
-  const atrapos::deck::Deck first = atrapos::firstDeck(deck, mesh);
-  atrapos::Scene scene(first, std::move(mesh));
-  atrapos::printCheck(deck, scene, out);
+  atrapos::checkDeck(atrapos::deck::readDeck(deckFile), atrapos::ranks::isFirst() ? std::cout : nowhere);
   return 0;
 }
 

@@ -24,9 +24,11 @@ buildPackages=(
   # Models of others, for a test of `atrapos import`.
   calculix-ccx-test
   gnuplot-nox
+  # The Python module.
+  pybind11-dev python3-dev python3-numpy
 )
-# What tests use besides: pages of `atrapos report` are looked at in a browser.
-testPackages=(chromium chromium-driver python3-selenium)
+# What tests use besides: pages of `atrapos report` are looked at in a browser, meshes go to meshio.
+testPackages=(chromium chromium-driver python3-selenium python3-meshio)
 # What a Trilinos of our own links besides.
 openmpPackages=(libsuitesparse-dev xz-utils)
 # What fetching and building its source takes.

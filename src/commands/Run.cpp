@@ -167,6 +167,7 @@ RunResult runPath(const deck::Deck& deck, PathCase& pathCase, const RunOptions& 
     *options.progress << fmt::format("stage {}\n",
                                      deck.path.stages[continued ? continued->progress.current : 0].name);
   Recorder recorder(caseHere, problemHere, runProblem, options.directory, options.progress, continued);
+  recorder.setAfterStep(options.afterStep);
   reads.reset();
   const path::State start = pathCase.start();
   const std::optional<path::Start> behind = continued ? continued->progress.path : std::nullopt;

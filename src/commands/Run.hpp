@@ -1,10 +1,12 @@
 #pragma once
 
+#include <functional>
 #include <iosfwd>
 #include <optional>
 #include <string>
 
 #include "commands/PathCase.hpp"
+#include "output/Recorder.hpp"
 #include "restart/RestartRecord.hpp"
 
 namespace atrapos {
@@ -14,6 +16,8 @@ struct RunOptions {
   std::ostream* progress = nullptr;  ///< one line a step; none where null
   std::string restart;               ///< folder with the results of a run that goes on; empty: a new run
   std::optional<RestartPlace> from;  ///< where it goes on; empty: behind all that it has finished
+  /// Called on every rank when a step is on disk; may ask for the end of the run (Interrupt::ask).
+  std::function<void(const StepTaken&)> afterStep;
 };
 
 /// How a run ended.

@@ -25,6 +25,8 @@ Interrupt::~Interrupt() {
   std::signal(SIGTERM, terminate_);
 }
 
+void Interrupt::ask() { noted = true; }
+
 bool Interrupt::agree() { return agreed = ranks::any(noted); }
 
 bool Interrupt::came() { return agreed; }

@@ -11,6 +11,8 @@ class Interrupt {
   Interrupt(const Interrupt&) = delete;
   Interrupt& operator=(const Interrupt&) = delete;
 
+  /// As if a signal had come.
+  static void ask();
   /// Whether a signal has come on any rank; what came() says from then on, alike on all. Collective.
   static bool agree();
   static bool came();

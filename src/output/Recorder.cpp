@@ -215,6 +215,7 @@ bool Recorder::onStep(int branch, const path::StepReport& report, const path::Se
   writeStep(report, series, step, negative);
   log_.step(report, step, found);
   outputSeconds_ += seconds() - before;
+  if (afterStep_) afterStep_({branch, report, step.monitors});
   return !Interrupt::agree();
 }
 

@@ -1,10 +1,13 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <iosfwd>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "atrapos/path/Branches.hpp"
 #include "commands/PathCase.hpp"
@@ -13,6 +16,13 @@
 #include "restart/RestartFile.hpp"
 
 namespace atrapos {
+
+/// A step as a program that embeds the run sees it.
+struct StepTaken {
+  int branch = 0;
+  const path::StepReport& report;
+  const std::vector<double>& monitors;  ///< at its end, in the deck's order
+};
 
 /// Writes what a run finds, step by step: path.csv, points.csv, steps.csv, events.csv, restart.bin,
 /// results.exo and results_branch<n>.exo; one line a step for the user. Every finished step is with the
@@ -35,7 +45,9 @@ class Recorder final : public path::BranchObserver {
   /// A path of another case or problem as another branch, with a line for the user; the case and the problem,
   /// whose residual counts, must outlive its steps.
   void beginOther(PathCase& pathCase, path::Problem& problem, int branch, const std::string& line);
-  /// False after SIGINT or SIGTERM.
+  /// Gets every step when it is written.
+  void setAfterStep(std::function<void(const StepTaken&)> f) { afterStep_ = std::move(f); }
+  /// False where the run is to end (Interrupt).
   bool onStep(int branch, const path::StepReport& report, const path::Series& series) override;
   /// A line for the user where the last one is long ago.
   void onSearch(int branch, int found, int wanted) override;
@@ -103,6 +115,7 @@ class Recorder final : public path::BranchObserver {
   std::unique_ptr<StepWatch> watch_;
   path::RCP<path::Vector> residual_;
   std::chrono::steady_clock::time_point start_;
+  std::function<void(const StepTaken&)> afterStep_;
   int branch_ = 0;
   bool started_ = false;  ///< the start of the branch under way is written
   bool settled_ = false;
