@@ -6,6 +6,7 @@
 
 #include "atrapos/fem/Mesh.hpp"
 #include "atrapos/fem/PointSet.hpp"
+#include "atrapos/solid/MixedBody.hpp"
 #include "deck/Deck.hpp"
 #include "deck/DeckValue.hpp"
 
@@ -85,6 +86,7 @@ class MeshCheck {
       }
     }
     std::set<int> used;
+    std::map<int, std::string> fluidOf;
     for (const auto& entry : materialOf) {
       used.insert(entry.first);
     }
@@ -95,6 +97,17 @@ class MeshCheck {
         used.insert(found);
         if (fem::isShell(mesh_.blocks[static_cast<std::size_t>(found)].topology)) {
           fail(path, fmt::format("block '{}' has shells; balances are for solids and plane cells", name));
+        }
+        if (const auto* flow = std::get_if<FluidFlow>(&entry.law)) {
+          fluid(entry.name, *flow, found);
+          if (materialOf.count(found) != 0) {
+            fail(path, fmt::format("block '{}' has the material '{}'; a fluid has none", name,
+                                   materialOf.at(found)));
+          }
+          const auto [previous, isNew] = fluidOf.emplace(found, entry.name);
+          if (!isNew) {
+            fail(path, fmt::format("block '{}' already has the flow '{}'", name, previous->second));
+          }
         }
       }
     }
@@ -270,6 +283,24 @@ class MeshCheck {
     if (!deck_.path.series()) {
       fail("materials/" + material.name + "/law",
            "von_mises needs path/method: series, whose events are the points that begin to yield");
+    }
+  }
+
+  void fluid(const std::string& name, const FluidFlow& flow, int block) const {
+    const std::string path = "physics/" + name;
+    const fem::Block& cells = mesh_.blocks[static_cast<std::size_t>(block)];
+    if (!solid::hasPressures(cells.topology)) {
+      fail(path + "/blocks",
+           fmt::format("block '{}' has {}; a flow needs cells of degree 2: QUAD8, QUAD9, TRI6, HEX20, HEX27, "
+                       "TET10 or WEDGE15",
+                       cells.name, fem::topologyName(cells.topology)));
+    }
+    if (static_cast<int>(flow.velocity.size()) != mesh_.dimension) {
+      fail(path + "/velocity", fmt::format("has {} components; the mesh has {} dimensions",
+                                           flow.velocity.size(), mesh_.dimension));
+    }
+    if (deck_.plane && deck_.plane->kind == Plane::Kind::Stress) {
+      fail(path, "a flow is plane with kind: strain, or axisymmetric");
     }
   }
 

@@ -126,10 +126,18 @@ struct ScalarBalance {
   std::string source = "0";
 };
 
+/// Steady flow of an incompressible Newtonian fluid; velocities and pressure are scalar fields.
+struct FluidFlow {
+  std::vector<std::string> velocity;  ///< x, y, z
+  std::string pressure;
+  double viscosity = 0;  ///< dynamic, > 0
+  double density = 1;    ///< >= 0
+};
+
 /// What acts in some blocks; unknowns exist where something acts on them.
 struct Physics {
   std::string name;
-  std::variant<ScalarBalance> law;
+  std::variant<ScalarBalance, FluidFlow> law;
   std::vector<std::string> blocks;  ///< names or ids
 };
 
@@ -180,6 +188,10 @@ enum class ShellPlace { Top, Middle, Bottom };
 struct Prescribed {
   double value = 0;
   double perLoadFactor = 0;
+  /// Formulas of x, y, z in place of the numbers; empty: these.
+  std::string valueFormula = {}, perLoadFactorFormula = {};
+
+  bool driven() const { return perLoadFactor != 0 || !perLoadFactorFormula.empty(); }
 };
 
 struct Support {

@@ -95,9 +95,55 @@ void checkInField(const Value& root, const Material& material, const Deck& deck)
   const std::string& field = material.dielectric->field;
   checkFieldName(v.at("field"), field, deck);
   for (const auto& entry : deck.physics) {
-    if (std::get<ScalarBalance>(entry.law).field == field) {
+    if (const auto* balance = std::get_if<ScalarBalance>(&entry.law);
+        balance != nullptr && balance->field == field) {
       v.at("field").fail(
           fmt::format("physics/{} has a balance of '{}', whose rows are no charges", entry.name, field));
+    }
+  }
+}
+
+/// Formulas of what a support prescribes.
+void checkPrescribed(const Value& at, const Support& support, const Deck& deck) {
+  const auto check = [&](const std::string& key, const std::optional<Prescribed>& p) {
+    if (!p) {
+      return;
+    }
+    for (const auto& [inside, text] :
+         {std::pair{"value", &p->valueFormula}, {"per_load_factor", &p->perLoadFactorFormula}}) {
+      if (!text->empty()) {
+        const Value v = at.at(key);
+        const Value said = v.isMap() ? v.at(inside) : v;
+        try {
+          physics::checkFormula(*text, {}, deck.constants, physics::Place::reference);
+        } catch (const formula::FormulaError& e) {
+          said.fail(fmt::format("expected a finite number or a formula of x, y, z; this text {}", e.what()));
+        }
+      }
+    }
+  };
+  for (std::size_t i = 0; i < 3; ++i) {
+    check(std::string(1, "xyz"[i]), support.components[i]);
+    check(std::string("director_") + "xyz"[i], support.director[i]);
+  }
+  check("value", support.value);
+}
+
+/// Velocities and pressure of a flow are fields of its own.
+void checkFlowNames(const Value& at, const Physics& entry, const Deck& deck) {
+  const auto& flow = std::get<FluidFlow>(entry.law);
+  std::vector<std::string> own = flow.velocity;
+  own.push_back(flow.pressure);
+  for (std::size_t i = 0; i < own.size(); ++i) {
+    const Value v = at.at(i + 1 < own.size() ? "velocity" : "pressure");
+    checkFieldName(v, own[i], deck);
+    bool twice = std::count(own.begin(), own.end(), own[i]) > 1;
+    for (const auto& other : deck.physics) {
+      const auto* balance = std::get_if<ScalarBalance>(&other.law);
+      twice = twice || (balance != nullptr && balance->field == own[i]);
+    }
+    if (twice) {
+      v.fail(fmt::format("'{}' has a balance already; expected a field of its own for each", own[i]));
     }
   }
 }
@@ -105,16 +151,23 @@ void checkInField(const Value& root, const Material& material, const Deck& deck)
 void checkPhysics(const Value& root, const Deck& deck) {
   for (const auto& entry : deck.physics) {
     const Value at = root.at("physics").entries().at(entry.name);
-    checkFieldName(at.at("field"), std::get<ScalarBalance>(entry.law).field, deck);
+    if (const auto* balance = std::get_if<ScalarBalance>(&entry.law)) {
+      checkFieldName(at.at("field"), balance->field, deck);
+    } else {
+      checkFlowNames(at, entry, deck);
+    }
   }
   for (const auto& entry : deck.physics) {
+    const auto* balance = std::get_if<ScalarBalance>(&entry.law);
+    if (balance == nullptr) {
+      continue;
+    }
     const Value at = root.at("physics").entries().at(entry.name);
-    const auto& balance = std::get<ScalarBalance>(entry.law);
     if (at.has("conductivity")) {
-      checkFormula(at.at("conductivity"), balance.conductivity, deck, physics::Place::body);
+      checkFormula(at.at("conductivity"), balance->conductivity, deck, physics::Place::body);
     }
     if (at.has("source")) {
-      checkFormula(at.at("source"), balance.source, deck, physics::Place::body);
+      checkFormula(at.at("source"), balance->source, deck, physics::Place::body);
     }
   }
   for (const auto& material : deck.materials) {
@@ -136,6 +189,7 @@ void checkPhysics(const Value& root, const Deck& deck) {
     }
   }
   for (const auto& support : deck.supports) {
+    checkPrescribed(root.at("supports").entries().at(support.name), support, deck);
     if (!support.field.empty()) {
       requireField(root.at("supports").entries().at(support.name).at("field"), support.field, deck);
     }

@@ -60,17 +60,25 @@ const Variants<Physics, decltype(Physics::law)>& physicsVariants() {
       "type",
       &Physics::law,
       {alternative<V, ScalarBalance>(
-          "balance",
-          {name("field", required, &ScalarBalance::field, "a name", "the field whose balance it is"),
-           formula("conductivity", optional, &ScalarBalance::conductivity,
-                   "flux by negative gradient: of the fields, lambda, x, y, z"),
-           formula("source", optional, &ScalarBalance::source,
-                   "amount per volume that comes up: of the same, and of gradients")},
-          [](const Value& map, const ScalarBalance&) {
-            if (!map.has("conductivity") && !map.has("source")) {
-              map.fail("says nothing; expected conductivity, source or both");
-            }
-          })},
+           "balance",
+           {name("field", required, &ScalarBalance::field, "a name", "the field whose balance it is"),
+            formula("conductivity", optional, &ScalarBalance::conductivity,
+                    "flux by negative gradient: of the fields, lambda, x, y, z"),
+            formula("source", optional, &ScalarBalance::source,
+                    "amount per volume that comes up: of the same, and of gradients")},
+           [](const Value& map, const ScalarBalance&) {
+             if (!map.has("conductivity") && !map.has("source")) {
+               map.fail("says nothing; expected conductivity, source or both");
+             }
+           }),
+       alternative<V, FluidFlow>(
+           "flow",
+           {names("velocity", required, &FluidFlow::velocity, "the fields of its components along x, y, z"),
+            name("pressure", required, &FluidFlow::pressure, "a name", "the field of the pressure"),
+            real("viscosity", required, &FluidFlow::viscosity, check::positive,
+                 "dynamic: pressure times time"),
+            real("density", optional, &FluidFlow::density, check::natural,
+                 "mass per volume; 0: creeping flow")})},
       {names("blocks", required, &Physics::blocks, "where it acts")}};
   return variants;
 }
@@ -116,7 +124,15 @@ std::vector<std::string> scalarFields(const Deck& deck) {
     }
   };
   for (const auto& entry : deck.physics) {
-    add(std::get<ScalarBalance>(entry.law).field);
+    if (const auto* balance = std::get_if<ScalarBalance>(&entry.law)) {
+      add(balance->field);
+      continue;
+    }
+    const auto& flow = std::get<FluidFlow>(entry.law);
+    for (const std::string& component : flow.velocity) {
+      add(component);
+    }
+    add(flow.pressure);
   }
   for (const auto& material : deck.materials) {
     if (material.dielectric) {

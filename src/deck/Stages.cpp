@@ -88,7 +88,7 @@ void forEachPrescribed(Support& support, const F& f) {
 
 bool isDriven(const Support& support) {
   bool driven = false;
-  forEachPrescribed(support, [&](const Prescribed& p) { driven = driven || p.perLoadFactor != 0; });
+  forEachPrescribed(support, [&](const Prescribed& p) { driven = driven || p.driven(); });
   return driven;
 }
 
@@ -98,9 +98,24 @@ bool isDriven(const Tool& tool, const Deck& deck) {
 }
 
 bool isDriven(const Physics& physics, const Formulas& formulas) {
-  const auto& balance = std::get<ScalarBalance>(physics.law);
-  return formulas.haveLambda(balance.conductivity, physics::Place::body) ||
-         formulas.haveLambda(balance.source, physics::Place::body);
+  const auto* balance = std::get_if<ScalarBalance>(&physics.law);
+  return balance != nullptr && (formulas.haveLambda(balance->conductivity, physics::Place::body) ||
+                                formulas.haveLambda(balance->source, physics::Place::body));
+}
+
+/// What is prescribed stays as it is at this load factor.
+void hold(Prescribed& p, double loadFactor) {
+  if (p.valueFormula.empty() && p.perLoadFactorFormula.empty()) {
+    p.value += loadFactor * p.perLoadFactor;
+  } else {
+    const auto text = [](double number, const std::string& formula) {
+      return formula.empty() ? fmt::format("({:.17g})", number) : "(" + formula + ")";
+    };
+    p.valueFormula = text(p.value, p.valueFormula) + fmt::format(" + ({:.17g})*", loadFactor) +
+                     text(p.perLoadFactor, p.perLoadFactorFormula);
+  }
+  p.perLoadFactor = 0;
+  p.perLoadFactorFormula.clear();
 }
 
 /// The entry stays as it is at this load factor.
@@ -121,10 +136,7 @@ void hold(Deck& deck, const Driven& entry, double loadFactor) {
       return;
     }
     case Driven::Kind::Support:
-      return forEachPrescribed(deck.supports[entry.index], [&](Prescribed& p) {
-        p.value += loadFactor * p.perLoadFactor;
-        p.perLoadFactor = 0;
-      });
+      return forEachPrescribed(deck.supports[entry.index], [&](Prescribed& p) { hold(p, loadFactor); });
     case Driven::Kind::Tool:
       deck.tools[entry.index].motion.heldAt = loadFactor;
       return;

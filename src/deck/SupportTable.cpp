@@ -38,20 +38,45 @@ Field<Support> conditionField() {
           }};
 }
 
+/// A number, or a formula of x, y, z and constants.
+Field<Prescribed> numberOrFormula(std::string key, double Prescribed::*number, std::string Prescribed::*text,
+                                  std::string meaning) {
+  return {std::move(key),
+          false,
+          "a number or a formula of x, y, z",
+          std::move(meaning),
+          [=](const Value& v, Prescribed& p) {
+            if (v.isText()) {
+              p.*text = v.text();
+            } else {
+              p.*number = v.real();
+            }
+          },
+          [=](const Prescribed& p) {
+            if (!(p.*text).empty()) {
+              return Node{yaml(p.*text), {}};
+            }
+            return Node{yaml(p.*number), {}};
+          }};
+}
+
 const Table<Prescribed>& prescribedTable() {
   static const Table<Prescribed> table{
-      real("value", optional, &Prescribed::value, check::any, "at load factor 0"),
-      real("per_load_factor", optional, &Prescribed::perLoadFactor, check::any,
-           "added times the load factor")};
+      numberOrFormula("value", &Prescribed::value, &Prescribed::valueFormula, "at load factor 0"),
+      numberOrFormula("per_load_factor", &Prescribed::perLoadFactor, &Prescribed::perLoadFactorFormula,
+                      "added times the load factor")};
   return table;
 }
 
-constexpr const char* prescribedText = "a number, or a map with value, per_load_factor";
+constexpr const char* prescribedText =
+    "a number or a formula of x, y, z, or a map with value, per_load_factor";
 
 Prescribed prescribed(const Value& v) {
   Prescribed p;
   if (v.isMap() && !v.isEmptyMap()) {
     read(prescribedTable(), v, p);
+  } else if (v.isText()) {
+    p.valueFormula = v.text();
   } else {
     p.value = v.real();
   }
@@ -59,7 +84,8 @@ Prescribed prescribed(const Value& v) {
 }
 
 Node printed(const Prescribed& p) {
-  return p.perLoadFactor == 0 ? Node{yaml(p.value), {}} : print(prescribedTable(), p);
+  const bool plain = !p.driven() && p.valueFormula.empty();
+  return plain ? Node{yaml(p.value), {}} : print(prescribedTable(), p);
 }
 
 Field<Support> fieldValue() {

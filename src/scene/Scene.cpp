@@ -62,6 +62,7 @@ fem::FeModel Scene::makeModel() {
   model.dofs.addNodes(shells_.geometry.numDirectors(), fem::directorField());
   addMaterials(model);
   addBalances(model);
+  addFlows(model);
   giveRanks(model);
   addSupports(model);
   addCouplings(model);
@@ -95,7 +96,7 @@ std::vector<int> Scene::nodesOf(const std::string& set) const { return atrapos::
 std::vector<int> Scene::elementRanks() const {
   std::vector<int> all;
   for (const BodyBlock& body : bodies_) {
-    const std::vector<int>& ofBlock = problem_->ranksOf(body.term >= 0 ? body.term : body.balances);
+    const std::vector<int>& ofBlock = problem_->ranksOf(body.any());
     all.insert(all.end(), ofBlock.begin(), ofBlock.end());
   }
   return all;
@@ -106,8 +107,8 @@ void Scene::giveRanks(fem::FeModel& model) const {
   model.ranks.resize(model.terms.size());
   auto first = givenRanks_.begin();
   for (const BodyBlock& body : bodies_) {
-    const auto last = first + model.terms[body.term >= 0 ? body.term : body.balances]->numEntities();
-    for (const int term : {body.term, body.balances})
+    const auto last = first + model.terms[body.any()]->numEntities();
+    for (const int term : {body.term, body.balances, body.flow})
       if (term >= 0) model.ranks[term].assign(first, last);
     first = last;
   }
@@ -136,7 +137,12 @@ std::vector<fem::DofMap::Located> Scene::fields() const {
                    name, fem::topologyName(block.topology)));
         fields.push_back({solid::pressureField(block), solid::pressureNodes(block)});
       }
+  const std::vector<fem::DofMap::Located> ofFlows = flowFields();
+  fields.insert(fields.end(), ofFlows.begin(), ofFlows.end());
   for (const std::string& name : scalars) {
+    if (std::any_of(ofFlows.begin(), ofFlows.end(),
+                    [&](const fem::DofMap::Located& located) { return located.field.name == name; }))
+      continue;
     std::vector<int> blocks;
     fem::Field field = physics::scalarField(name);
     for (int b = 0; b < static_cast<int>(mesh_.blocks.size()); ++b) {
@@ -200,7 +206,10 @@ fem::PointSet Scene::materialPoints(const fem::Block& block, const fem::Tabulati
 }
 
 BodyBlock Scene::addShell(const deck::Material& material, int shells, fem::FeModel& model) const {
-  BodyBlock body{static_cast<int>(model.terms.size()), -1, shells, solid::shellPointsToNodes({})};
+  BodyBlock body;
+  body.term = static_cast<int>(model.terms.size());
+  body.shells = shells;
+  body.toNodes = solid::shellPointsToNodes({});
   model.terms.push_back(registry::shellTerm(material, shells_.elements[shells], shells_.cubature[shells],
                                             shells_.shear[shells]));
   return body;
@@ -211,10 +220,15 @@ void Scene::addSupports(fem::FeModel& model) const {
   for (const deck::Support& support : deck_.supports) {
     const auto prescribe = [&](int node, int component, const deck::Prescribed& p,
                                const std::string& of = {}) {
+      const auto there = [&](double number, const std::string& text) {
+        const double* x = &mesh_.coordinates[3 * static_cast<std::size_t>(node)];
+        return text.empty() ? number : physics::ofPlace(text, deck_.constants)(x);
+      };
       if (support.released)
         model.release(node, component, of);
       else
-        model.prescribe(node, component, p.value, p.perLoadFactor, of);
+        model.prescribe(node, component, there(p.value, p.valueFormula),
+                        there(p.perLoadFactor, p.perLoadFactorFormula), of);
     };
     const std::string& field = support.field.empty() ? displacement : support.field;
     const int number = model.dofs.find(field);

@@ -30,7 +30,10 @@ namespace atrapos {
 struct BodyBlock {
   int term = -1;      ///< of its material: its position in the problem; -1: no material
   int balances = -1;  ///< of its scalar fields; -1: none
+  int flow = -1;      ///< -1: none
   int shells = -1;    ///< position in SceneShells; -1: solids
+  /// One of its terms.
+  int any() const { return term >= 0 ? term : balances >= 0 ? balances : flow; }
   std::vector<double>
       toNodes;  ///< [node][point] of a cell: values at points (of shells: in the plane) -> nodes
 };
@@ -149,6 +152,11 @@ class Scene {
   std::vector<std::string> scalarFieldsOf(const fem::SideSet& set) const;
   physics::Expansion expansionOf(const deck::Material& material, int block) const;
   void addBalances(fem::FeModel& model);
+  void addFlows(fem::FeModel& model);
+  /// Velocities and pressures of flows.
+  std::vector<fem::DofMap::Located> flowFields() const;
+  /// Values of a field that is the pressure of a flow at the nodes between corners, [node].
+  void fillPressures(const std::string& field, std::vector<double>& nodes) const;
   void addInflows(fem::FeModel& model) const;
   void setInitialValues(fem::FeModel& model) const;
   /// Those of the mesh's parts, to the materials' terms.

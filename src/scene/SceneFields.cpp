@@ -133,6 +133,7 @@ std::vector<std::vector<double>> Scene::nodalValues(const SceneState& state) con
       std::vector<double> nodes(mesh_.numNodes(), 0.0);
       for (int n = 0; n < mesh_.numNodes(); ++n)
         if (const int dof = dofs.dof(field, n, 0); dof >= 0) nodes[n] = state.values()[dof];
+      fillPressures(name, nodes);
       result.push_back(onResultNodes(std::move(nodes)));
     }
   }

@@ -6,9 +6,11 @@
 #include "atrapos/formula/Builder.hpp"
 #include "atrapos/physics/Balance.hpp"
 #include "atrapos/physics/BalanceLaw.hpp"
+#include "atrapos/physics/Flow.hpp"
+#include "atrapos/solid/MixedBody.hpp"
 #include "scene/Scene.hpp"
 
-// Scalar fields of a scene: their balances, what flows in, where they begin.
+// Scalar fields of a scene: their balances, flows, what flows in, where they begin.
 namespace atrapos {
 
 std::vector<std::string> Scene::scalarFieldsOf(int block) const {
@@ -17,8 +19,14 @@ std::vector<std::string> Scene::scalarFieldsOf(int block) const {
                        [&](const std::string& name) { return fem::findBlock(mesh_, name) == block; });
   };
   std::set<std::string> here;
-  for (const deck::Physics& entry : deck_.physics)
-    if (isIn(entry.blocks)) here.insert(std::get<deck::ScalarBalance>(entry.law).field);
+  for (const deck::Physics& entry : deck_.physics) {
+    if (!isIn(entry.blocks)) continue;
+    if (const auto* balance = std::get_if<deck::ScalarBalance>(&entry.law))
+      here.insert(balance->field);
+    else  // without the pressure, which is not at all nodes
+      here.insert(std::get<deck::FluidFlow>(entry.law).velocity.begin(),
+                  std::get<deck::FluidFlow>(entry.law).velocity.end());
+  }
   for (const deck::Material& material : deck_.materials)
     if (material.dielectric && isIn(material.blocks)) here.insert(material.dielectric->field);
   std::vector<std::string> fields;
@@ -63,13 +71,14 @@ void Scene::addBalances(fem::FeModel& model) {
         return fem::findBlock(mesh_, name) == static_cast<int>(b);
       });
       if (!here) continue;
-      const auto& law = std::get<deck::ScalarBalance>(entry.law);
-      for (const auto& text : {law.conductivity, law.source}) try {
+      const auto* law = std::get_if<deck::ScalarBalance>(&entry.law);
+      if (law == nullptr) continue;
+      for (const auto& text : {law->conductivity, law->source}) try {
           physics::checkFormula(text, fields, deck_.constants, physics::Place::body);
         } catch (const formula::FormulaError& e) {
           fail("physics/" + entry.name, fmt::format("in block '{}' a formula {}", block.name, e.what()));
         }
-      balances.push_back({law.field, law.conductivity, law.source});
+      balances.push_back({law->field, law->conductivity, law->source});
       last = &entry;
     }
     if (balances.empty()) continue;
@@ -84,6 +93,58 @@ void Scene::addBalances(fem::FeModel& model) {
       fail("physics/" + last->name, fmt::format("with all that acts in block '{}' {}", block.name, e.what()));
     } catch (const std::runtime_error& e) {
       fail("mesh/file", e.what());
+    }
+  }
+}
+
+void Scene::addFlows(fem::FeModel& model) {
+  for (const deck::Physics& entry : deck_.physics) {
+    const auto* flow = std::get_if<deck::FluidFlow>(&entry.law);
+    if (flow == nullptr) continue;
+    for (const std::string& name : entry.blocks) {
+      const int b = fem::findBlock(mesh_, name);
+      bodies_[b].flow = static_cast<int>(model.terms.size());
+      try {
+        model.terms.push_back(
+            physics::flowTerm(mesh_, mesh_.blocks[b],
+                              {flow->velocity, flow->pressure, flow->viscosity, flow->density}, plane_));
+      } catch (const std::runtime_error& e) {
+        fail("mesh/file", e.what());
+      }
+    }
+  }
+}
+
+std::vector<fem::DofMap::Located> Scene::flowFields() const {
+  std::vector<fem::DofMap::Located> fields;
+  for (const deck::Physics& entry : deck_.physics) {
+    const auto* flow = std::get_if<deck::FluidFlow>(&entry.law);
+    if (flow == nullptr) continue;
+    std::vector<int> blocks;
+    std::set<int> corners;
+    for (const std::string& name : entry.blocks) {
+      blocks.push_back(fem::findBlock(mesh_, name));
+      const auto nodes = solid::pressureNodes(mesh_.blocks[blocks.back()]);
+      corners.insert(nodes.begin(), nodes.end());
+    }
+    for (const std::string& name : flow->velocity) {
+      fem::Field field = physics::scalarField(name);
+      field.balance = flow->velocity[0];  // forces along all axes are one balance
+      fields.push_back({field, nodesOfBlocks(blocks)});
+    }
+    fields.push_back({physics::scalarField(flow->pressure), {corners.begin(), corners.end()}});
+  }
+  return fields;
+}
+
+void Scene::fillPressures(const std::string& field, std::vector<double>& nodes) const {
+  for (const deck::Physics& entry : deck_.physics) {
+    const auto* flow = std::get_if<deck::FluidFlow>(&entry.law);
+    if (flow == nullptr || flow->pressure != field) continue;
+    for (const std::string& name : entry.blocks) {
+      const fem::Block& block = mesh_.blocks[fem::findBlock(mesh_, name)];
+      const auto values = solid::pressuresAtNodes(block, [&](int node) { return nodes[node]; });
+      for (std::size_t i = 0; i < block.nodes.size(); ++i) nodes[block.nodes[i]] = values[i];
     }
   }
 }

@@ -518,7 +518,8 @@ TEST(BadDeck, places) {
              ":19:5: contact/lower/tool: no entry 'rol' in tools (did you mean 'roll'?); there are roll");
   // Columns count characters.
   expectLine("clamp: {set: x_min, x: 0", "clamp: {\"set\": \"ä\\u00e4 ☃ 😀\", x: a",
-             ":9:36: supports/clamp/x: expected a finite number, got the text 'a'");
+             ":9:36: supports/clamp/x: expected a finite number or a formula of x, y, z; this text does not "
+             "know 'a'; known are x, y, z, pi");
   // What an alias stands for is wrong where it is written, an entry of a list where its name is.
   expectLine("total: [0, 0, -100]", "total: &t [0, 0, -100], at: *t",
              ":14:43: loads/tip/at: expected one of top, middle, bottom, got the list [0, 0, -100]");
@@ -1172,7 +1173,8 @@ TEST(BadDeck, pathKeys) {
   expectError("order: 15", "branch_depth: -1", "path/branch_depth:", {"at least 0"});
   expectError("order: 15", "restart: 3", "path/restart:", {"true or false"});
   expectError("load_factor: 0.25", "load_factor: [1, 0]", "path/stop/load_factor:", {"different from zero"});
-  expectError("load_factor: 0.25", "monitors: {tip_uz: 1}", "path/stop/monitors:", {"did you mean 'monitor'?"});
+  expectError("load_factor: 0.25", "monitors: {tip_uz: 1}",
+              "path/stop/monitors:", {"did you mean 'monitor'?"});
   expectError("{load_factor: 0.25}", "{bifurcation: 1}\n  critical_points: off",
               "path/stop/bifurcation: ", {"needs path/critical_points: automatic or every_step"});
   expectError("order: 15\n  stop: {load_factor: 0.25}", "method: newton\n  stop: {bifurcation: 1}",

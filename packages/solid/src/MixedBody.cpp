@@ -61,10 +61,26 @@ fem::Tabulation mixedTabulation(Topology cell) {
   return reduced ? fem::tabulate(cell, 5) : fem::tabulate(cell);
 }
 
+fem::Interpolation pressureValues(const fem::Field& field, const fem::PointSet& points,
+                                  const fem::Block& block, const fem::Tabulation& cell) {
+  return fem::valuesOf(field, points, fem::tabulateAt(requiredCornerCell(block), cell.points));
+}
+
 fem::PointSet withPressures(fem::PointSet points, const fem::Block& block, const fem::Tabulation& cell) {
-  points.more.push_back(
-      fem::valuesOf(pressureField(block), points, fem::tabulateAt(requiredCornerCell(block), cell.points)));
+  points.more.push_back(pressureValues(pressureField(block), points, block, cell));
   return points;
+}
+
+std::vector<double> pressuresAtNodes(const fem::Block& block, const std::function<double(int)>& atCorner) {
+  const fem::Topology corners = requiredCornerCell(block);
+  const int all = fem::nodesPerElement(block.topology), few = fem::nodesPerElement(corners);
+  const fem::Tabulation t = fem::tabulateAt(corners, fem::referenceNodes(block.topology));
+  std::vector<double> values(block.nodes.size(), 0.0);
+  for (std::size_t e = 0; e < block.nodes.size() / all; ++e)
+    for (int n = 0; n < all; ++n)
+      for (int c = 0; c < few; ++c)
+        values[e * all + n] += t.values[n * few + c] * atCorner(block.nodes[e * all + c]);
+  return values;
 }
 
 double pressureScale(const fem::Mesh& mesh, const fem::Block& block, double shearModulus) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,13 @@ std::vector<int> pressureNodes(const fem::Block& block);
 
 /// The cell with the cubature of mixed laws: full, also of Quad8 and Hex20.
 fem::Tabulation mixedTabulation(fem::Topology cell);
+
+/// The values of such a field at points of a block's cells.
+fem::Interpolation pressureValues(const fem::Field& field, const fem::PointSet& points,
+                                  const fem::Block& block, const fem::Tabulation& cell);
+
+/// Those at all nodes of the cells, [cell][node], between the corners.
+std::vector<double> pressuresAtNodes(const fem::Block& block, const std::function<double(int)>& atCorner);
 
 /// Points of displacement gradients (volumePoints, planePoints) with the pressures at them as a further
 /// field.
