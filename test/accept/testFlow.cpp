@@ -196,6 +196,30 @@ TEST(Flow, LidDrivenCavity) {
   }
 }
 
+// Fearn, Mullin, Cliffe (J. Fluid Mech. 211, 1990): a pitchfork at 40.45 by the largest velocity and half the
+// height of the inlet. Cells at the corner make it 0.9 % here, 0.7 % with a third more and 0.5 % with four
+// times these.
+TEST(Flow, SuddenExpansionLeansToAWall) {
+  const ExampleRun run("flow/expansion.yaml");
+  const auto& points = run.summary.at("points");
+  ASSERT_EQ(points.size(), 1u);
+  EXPECT_EQ(points[0].at("kind"), "pitchfork");
+  EXPECT_NEAR(points[0].at("load_factor").get<double>(), 40.45, 0.012 * 40.45);
+  const auto branch = run.column("branch"), behind = run.column("behind"),
+             negative = run.column("negative_eigenvalues");
+  double last[3] = {0, 0, 0}, unstable[3] = {0, 0, 0};
+  for (std::size_t i = 0; i < branch.size(); ++i) {
+    last[static_cast<int>(branch[i])] = behind[i];
+    unstable[static_cast<int>(branch[i])] = negative[i];
+  }
+  EXPECT_NEAR(last[0], 0, 1e-9);
+  EXPECT_GT(std::abs(last[1]), 3);
+  EXPECT_NEAR(last[1], -last[2], 1e-6 * std::abs(last[1]));  // the mesh is symmetric
+  EXPECT_EQ(unstable[0], 1);
+  EXPECT_EQ(unstable[1], 0);
+  EXPECT_EQ(unstable[2], 0);
+}
+
 TEST(Flow, Refusals) {
   const auto refuses = [](const std::string& deck, const std::string& expected) {
     const TemporaryFolder folder;
