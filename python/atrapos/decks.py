@@ -41,7 +41,10 @@ def mesh(deck, output=None):
 
 
 def check(deck):
-    """What would be solved, as `atrapos check` prints it. Raises DeckError where the deck is wrong."""
+    """What would be solved, as `atrapos check` prints it. Raises DeckError where the deck is wrong.
+
+    A dict is written to deck.yaml in the working folder, and its mesh made, where it has mesh/generate.
+    """
     return _atrapos.check(_file(deck))
 
 
