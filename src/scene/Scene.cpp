@@ -6,6 +6,8 @@
 #include <Tpetra_Map.hpp>
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <map>
 #include <set>
 
 #include "atrapos/fem/ReferenceCell.hpp"
@@ -217,18 +219,22 @@ BodyBlock Scene::addShell(const deck::Material& material, int shells, fem::FeMod
 
 void Scene::addSupports(fem::FeModel& model) const {
   const std::string displacement = fem::displacementField().name;
+  // Each formula is read once, for all nodes.
+  std::map<std::string, std::function<double(const double*)>> formulas;
+  const auto at = [&](int node, double number, const std::string& text) {
+    if (text.empty()) return number;
+    auto& formula = formulas[text];
+    if (!formula) formula = physics::ofPlace(text, deck_.constants);
+    return formula(&mesh_.coordinates[3 * static_cast<std::size_t>(node)]);
+  };
   for (const deck::Support& support : deck_.supports) {
     const auto prescribe = [&](int node, int component, const deck::Prescribed& p,
                                const std::string& of = {}) {
-      const auto there = [&](double number, const std::string& text) {
-        const double* x = &mesh_.coordinates[3 * static_cast<std::size_t>(node)];
-        return text.empty() ? number : physics::ofPlace(text, deck_.constants)(x);
-      };
       if (support.released)
         model.release(node, component, of);
       else
-        model.prescribe(node, component, there(p.value, p.valueFormula),
-                        there(p.perLoadFactor, p.perLoadFactorFormula), of);
+        model.prescribe(node, component, at(node, p.value, p.valueFormula),
+                        at(node, p.perLoadFactor, p.perLoadFactorFormula), of);
     };
     const std::string& field = support.field.empty() ? displacement : support.field;
     const int number = model.dofs.find(field);

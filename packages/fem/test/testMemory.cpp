@@ -10,6 +10,7 @@
 #include "atrapos/path/SeriesStep.hpp"
 #include "atrapos/taylor/Rate.hpp"
 #include "support/Model.hpp"
+#include "support/Steps.hpp"
 #include "support/Vectors.hpp"
 
 using namespace atrapos;
@@ -106,16 +107,6 @@ struct Truss {
   double lambda(double w, double stress) const { return -stress * (h - w) / (length * load); }
   /// S at E where the strain alone counts: S' = (1 - fading S) E'.
   double fadedStress(double E) const { return -std::expm1(-law.fading * E) / law.fading; }
-};
-
-struct Steps final : path::Observer {
-  std::vector<path::StepReport> reports;
-  std::vector<path::Series> series;
-  bool onStep(const path::StepReport& report, const path::Series& s) override {
-    reports.push_back(report);
-    series.push_back(s);
-    return true;
-  }
 };
 
 double downwards(const path::State& state) { return -FeProblem::values(*state.u)[5]; }

@@ -6,15 +6,10 @@
 namespace atrapos::solid {
 
 using detail::cross;
-using detail::dot;
+using detail::unit;
 using detail::Vec3;
 
 namespace {
-
-Vec3 unit(const Vec3& a) {
-  const double size = std::sqrt(dot(a, a));
-  return {a[0] / size, a[1] / size, a[2] / size};
-}
 
 /// Axes of which the third is along `normal`.
 std::array<Vec3, 3> axesOf(const double* normal) {

@@ -7,6 +7,7 @@
 
 namespace atrapos::solid {
 
+using detail::unit;
 using detail::Vec3;
 
 namespace {
@@ -23,11 +24,6 @@ std::vector<double> lagrange(const std::vector<double>& x, double zeta) {
 void checkStress(const fem::PointValues& stress, std::size_t multipleOf) {
   if (stress.names.size() < 6 || stress.values.size() % (stress.names.size() * multipleOf) != 0)
     throw std::logic_error("shell results: the stresses are not those of this shell's term");
-}
-
-Vec3 unit(const Vec3& a) {
-  const double size = std::sqrt(detail::dot(a, a));
-  return {a[0] / size, a[1] / size, a[2] / size};
 }
 
 /// Coefficients (a, b) with a G_1 + b G_2 = the projection of `axis` on the tangent plane, or of the axis'

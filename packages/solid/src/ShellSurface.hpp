@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <vector>
 
 #include "atrapos/fem/ReferenceCell.hpp"
@@ -15,6 +16,11 @@ inline Vec3 cross(const Vec3& a, const Vec3& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 inline double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+inline Vec3 unit(const Vec3& a) {
+  const double size = std::sqrt(dot(a, a));
+  return {a[0] / size, a[1] / size, a[2] / size};
+}
 
 struct GaussRule {
   std::vector<double> x, w;

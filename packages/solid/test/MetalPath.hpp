@@ -9,6 +9,7 @@
 #include "atrapos/linear/MakeTangentSolver.hpp"
 #include "atrapos/path/PathFollower.hpp"
 #include "atrapos/solid/Metal.hpp"
+#include "support/Steps.hpp"
 
 /// What tests of metals share.
 namespace atrapos::solid::test {
@@ -31,15 +32,7 @@ inline std::vector<double> virgin(const fem::PointSet& points, const fem::PointL
   return std::vector<double>(static_cast<std::size_t>(points.numPoints()) * law.shape().data, 0.0);
 }
 
-struct Steps final : path::Observer {
-  std::vector<path::StepReport> reports;
-  std::vector<path::Series> series;
-  bool onStep(const path::StepReport& report, const path::Series& s) override {
-    reports.push_back(report);
-    series.push_back(s);
-    return true;
-  }
-};
+using fem::test::Steps;
 
 struct Followed {
   Steps steps;

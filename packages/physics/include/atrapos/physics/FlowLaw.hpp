@@ -26,7 +26,7 @@ struct FlowLaw {
   template <class T>
   KOKKOS_INLINE_FUNCTION void operator()(const T* in, const taylor::Passive<T>*, T* out) const {
     const T& p = in[pressure];
-    T divergence = in[0] + in[gradients + 1];
+    T divergence = in[0];
     for (int i = 0; i < Components; ++i) {
       const T* gradient = in + i * gradients;
       T carried = in[firstValue] * gradient[0];
@@ -41,8 +41,8 @@ struct FlowLaw {
           out[i * gradients + j] = viscosity * gradient[j];
       }
       out[firstValue + i] = density * carried;
+      if (i > 0) divergence = divergence + gradient[i];
     }
-    if constexpr (Components == 3) divergence = divergence + in[8];
     if constexpr (Ring) divergence = divergence + in[2];
     out[pressure] = divergence;
   }

@@ -115,8 +115,7 @@ struct FiniteVonMises {
     const taylor::Matrix3<T> H(in);
     const taylor::Symmetric3<T> strain = greenLagrange(H);
     T E[6];
-    for (int i = 0; i < 3; ++i)
-      for (int j = i; j < 3; ++j) E[taylor::symmetricIndex(i, j)] = strain(i, j);
+    strain.store(E);
     T* const z = out + 10;
     for (int i = 0; i < numVariables; ++i) z[i] = T(data[1 + i]);
     taylor::solveRate<6, numVariables, 1>(detail::FiniteFlowRule{metal}, E, data, z);
