@@ -140,6 +140,19 @@ void Scene::addZones(const deck::Contact& contact, ContactPoints& entry, fem::Fe
     } catch (const std::invalid_argument& e) {
       fail(key, e.what());
     }
+  // A whole line in the tool's surface has no limits that a series could start from, unless it closes as one.
+  const double touching = 1e-9 * bodySize().thickness;
+  for (std::size_t t = 0; t < entry.lines.size(); ++t) {
+    const std::size_t onLine = entry.lines[t].shown.size();
+    const auto& gaps = entry.gaps[t];
+    for (std::size_t p = 0; p < gaps.size(); p += onLine)
+      if (std::all_of(&gaps[p], &gaps[p] + onLine, [&](double gap) { return gap < touching; })) {
+        entry.pressure.text +=
+            "; the body lies on the tool at the start: where zones find no way to begin, leave a gap "
+            "(1e-6 of the thickness does)";
+        return;
+      }
+  }
 }
 
 /// Where the points are over the tool at the start, refusing places that cannot be.
@@ -202,20 +215,24 @@ void Scene::choosePressure(const deck::Contact& contact, BodySize body, ContactP
     for (int p = 0; p < entry.points[t].numPoints(); ++p) {
       double& reference = entry.references[t][p];
       const double least = entry.pressure.leastReference;
+      const bool touches = reference < 1e-9 * body.smallestGap;
       if (contact.referenceGap) {
         reference = *contact.referenceGap;
         if (reference <= least / 2)
           fail(key + "/reference_gap",
                fmt::format("must be above eta/alpha = {:.6g}, got {:.6g}", least / 2, reference));
-      } else {
-        reference = std::max(reference, least);
+      } else if (!contact.isRigid()) {
+        // A law as hard as that of a point that touches, whose force falls over nothing, has no start in
+        // floating-point numbers: it gets a thousandth of the scene's gap, and lifts the body by less.
+        reference = std::max({reference, least, 1e-3 * body.smallestGap});
       }
-      if (!(reference > 0) && contact.isRigid()) {
+      const bool curve = contact.unknown == deck::Contact::Unknown::Curve;
+      if (!contact.referenceGap && (curve ? touches : !(reference > 0) && contact.isRigid())) {
         const double* x = &entry.points[t].positions[3 * static_cast<std::size_t>(p)];
         fail(key + "/reference_gap",
-             fmt::format("the body touches tool '{}' at ({:.6g}, {:.6g}, {:.6g}): a rigid contact needs a "
+             fmt::format("the body touches tool '{}' at ({:.6g}, {:.6g}, {:.6g}): {} needs a "
                          "positive reference_gap there, give a number",
-                         contact.tool, x[0], x[1], x[2]));
+                         contact.tool, x[0], x[1], x[2], curve ? "unknown: curve" : "a rigid contact"));
       }
       entry.attracted += contact.referenceGap && entry.gaps[t][p] > reference;
       closed.push_back(entry.pressure.closedGap < 0 ? 1e-3 * reference : entry.pressure.closedGap);

@@ -180,6 +180,12 @@ TEST(PressureLaws, SmoothedPenaltyHoldsFarInAndFarOut) {
   }
 }
 
+// Where the force is a denormal number, at some 745 lengths, there is a root all the same.
+TEST(PressureLaws, SmoothedPenaltyUnderflows) {
+  const SmoothedPenalty law{2e6, 4e-9};
+  for (double z = 700; z < 760; z += 0.1) EXPECT_NEAR(pressure(law, 4e-9 * z, 1.0), 0, 1e-290) << z;
+}
+
 // Each of them as the law of a tool: force, and a point held at h = Delta.
 TEST(PressureLaws, ServeContactLaw) {
   const Plane floor;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <stdexcept>
 #include <utility>
@@ -109,6 +110,27 @@ std::array<double, 2> changes(const SurfaceFace& face, const Tabulation& grid,
   return sum;
 }
 
+double edgeLength(const SurfaceFace& face, int edge) {
+  const Vec3 &a = face.places[kEdges[edge].from], &b = face.places[kEdges[edge].to];
+  return std::hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]);
+}
+
+/// What each of the two families of lines of faces that hang together would be.
+struct Families {
+  double change[2] = {0, 0};  ///< of the gap along the lines, in sum
+  double border[2] = {0, 0};  ///< length of the surface's border that lines cross
+  double size = 0;            ///< of the faces' edges, in sum
+
+  /// Along the second one the gap changes more; where both are alike, its lines are longer.
+  bool secondIsBetter() const {
+    // Alike to rounding: over a ball relative to the changes, over a plane, along which nothing changes, to
+    // the places.
+    const double alike = 1e-6 * std::max(change[0], change[1]) + 1e-12 * size;
+    if (std::abs(change[1] - change[0]) > alike) return change[1] > change[0];
+    return border[1] < (1 - 1e-6) * border[0];
+  }
+};
+
 /// [face] the direction of its lines. They cross an edge in both of its faces or in none, as far as that can
 /// be: from face to face through each set of faces that hangs together.
 std::vector<int> directions(const std::vector<SurfaceFace>& faces, const Corners& corners,
@@ -125,22 +147,25 @@ std::vector<int> directions(const std::vector<SurfaceFace>& faces, const Corners
     if (result[seed] >= 0) continue;
     result[seed] = 0;
     std::vector<int> part{static_cast<int>(seed)};
-    double change[2] = {0, 0};
+    Families families;
     for (std::size_t i = 0; i < part.size(); ++i) {
       const int f = part[i];
       const auto own = changes(faces[f], grid, gap);
-      for (int d = 0; d < 2; ++d) change[d] += own[d == 0 ? result[f] : 1 - result[f]];
+      for (int d = 0; d < 2; ++d) families.change[d] += own[d == 0 ? result[f] : 1 - result[f]];
       for (int edge = 0; edge < 4; ++edge) {
         const bool through = directionThrough(edge) == result[f];
-        for (const auto& [other, otherEdge] : byEdge.at(corners.ofEdge(f, edge))) {
+        const auto& sharing = byEdge.at(corners.ofEdge(f, edge));
+        const double length = edgeLength(faces[f], edge);
+        families.size += length;
+        if (sharing.size() == 1) families.border[through ? 0 : 1] += length;
+        for (const auto& [other, otherEdge] : sharing) {
           if (result[other] >= 0) continue;
           result[other] = through ? directionThrough(otherEdge) : 1 - directionThrough(otherEdge);
           part.push_back(other);
         }
       }
     }
-    // Equal changes, as over a ball, differ by rounding.
-    if (change[1] > (1 + 1e-6) * change[0])
+    if (families.secondIsBetter())
       for (const int f : part) result[f] = 1 - result[f];
   }
   return result;

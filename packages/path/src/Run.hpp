@@ -144,6 +144,7 @@ class Run {
   bool endAtBreak(const Series& series, Trial& trial);
   double startPart(double a) const;
   double shorterBy(double a, double residual, int order) const;
+  const char* whyNotFalling(double residual, double ofLonger) const;
   void correct(const Series& series, Trial& trial, StepReport& report, double above);
   Border borderAt(const Series& series, double a, const std::optional<StopHit>& stop);
 

@@ -65,6 +65,7 @@ int ordersFor(double tooLarge, double ratio) {
 /// start.
 Series Run::seriesTo(SeriesRequest request, const std::vector<int>& zero) {
   request.order = order_;
+  request.mayOverflow = true;
   request.weight = weight_;
   request.direction = options_.direction;
   request.previous = tangent_ ? &*tangent_ : nullptr;

@@ -216,6 +216,15 @@ std::optional<Run::Trial> Run::padeTrial(Series& series, StepReport& report) {
   return std::nullopt;
 }
 
+/// What keeps a residual up that would fall like a^(K+1) if the orders left out made it.
+const char* Run::whyNotFalling(double residual, double ofLonger) const {
+  if (!(residual > 0.3 * ofLonger)) return "";
+  constexpr double ofRounding = 1e3;  // bounds are met to three digits where rounding is next to them
+  return residual < ofRounding * bound()
+             ? "; it does not fall with the step: rounding limits it, ask for a larger bound"
+             : "; it does not fall with the step: forces change there in a way that the series does not know";
+}
+
 Run::Trial Run::polynomialTrial(const Series& series, StepReport& report) {
   Trial trial;
   trial.a = firstLength(report.radius);
@@ -248,15 +257,11 @@ Run::Trial Run::polynomialTrial(const Series& series, StepReport& report) {
     }
     const bool spent = trials == options_.maxCutBacks;
     if (spent || factor * trial.a < options_.minStep) {
-      const bool stagnates = trial.residual > 0.3 * previous;  // truncation would fall like a^(K+1)
-      throw PathError(
-          EndReason::stepTooSmall,
-          line(
-              "relative residual ", trial.residual, " at step length ", trial.a, " is over the bound ",
-              bound(), " (lambda = ", outcome_.final.lambda, ", ",
-              spent ? "no trial left" : "shorter than minStep",
-              stagnates ? "; it does not fall with the step: rounding limits it, ask for a larger bound" : "",
-              ')'));
+      throw PathError(EndReason::stepTooSmall,
+                      line("relative residual ", trial.residual, " at step length ", trial.a,
+                           " is over the bound ", bound(), " (lambda = ", outcome_.final.lambda, ", ",
+                           spent ? "no trial left" : "shorter than minStep",
+                           whyNotFalling(trial.residual, previous), ')'));
     }
     ++trials;
     ++report.cutBacks;

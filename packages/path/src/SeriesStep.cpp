@@ -25,6 +25,14 @@ constexpr double nearlySingular = 1e-8;
   throw PathError(EndReason::loadWithoutEffect, text.str());
 }
 
+/// Coefficients grow like the inverse radius to the power of the order: beyond what floating-point numbers
+/// hold where the radius is very small. Sums of their products overflow from about here on.
+bool overflows(const Series& series, int k) {
+  constexpr int fewest = 4;  // orders that a radius can be read off
+  constexpr double large = 1e100;
+  return k > fewest && series.norm(k - 1) > large;
+}
+
 /// x + mu y.
 Increment combine(Increment x, double mu, const Increment& y) {
   x.u->update(mu, *y.u, 1);
@@ -86,10 +94,10 @@ Series buildSeries(Calls& calls, const State& start, const SeriesRequest& reques
     const Increment Xv = calls.internalOrder(k, V, 0);
     // <X_k, D> w + lambda_k lambda_1 = [k = 1] with D = lambda_1 Xhat, (1 + w <Xhat, Xhat>) lambda_1^2 = 1.
     const double lambdaK = lambda1 * ((k == 1 ? 1.0 : 0.0) - w * lambda1 * problem.inner(Xv, Xhat));
-    if (!std::isfinite(lambdaK)) notFinite("the coefficient", k, start);
     Increment Xk = combine(Xv, lambdaK, Xhat);
     const double norm = std::sqrt(problem.inner(Xk, Xk));
-    if (!std::isfinite(norm)) notFinite("the coefficient", k, start);
+    if (!std::isfinite(norm) && request.mayOverflow && overflows(series, k)) break;
+    if (!std::isfinite(lambdaK) || !std::isfinite(norm)) notFinite("the coefficient", k, start);
     calls.completeOrder(k, *Xk.u, lambdaK);
     series.append(std::move(Xk), lambdaK, norm);
     series.appendEvents(calls.eventOrder(k));

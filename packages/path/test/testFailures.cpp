@@ -132,6 +132,24 @@ TEST(Failures, NotANumberAtTheStart) {
   EXPECT_EQ(f.outcome.reason, EndReason::notFinite) << f.outcome.text;
 }
 
+/// u = lambda/(lambda + 1e-9): at the start coefficients grow by 1e9 from order to order.
+struct Steep : Linear {
+  template <class S>
+  std::vector<S> residual(const std::vector<S>& u, const S& lambda) const {
+    return {u[0] * (1e9 * lambda + 1) - 1e9 * lambda};
+  }
+};
+
+// A series whose coefficients overflow goes on with those before.
+TEST(Failures, CoefficientsOverflow) {
+  Options options;
+  options.order = 40;
+  Followed<Steep> f(Steep{}, {0}, 0, options, load(1));
+  EXPECT_EQ(f.outcome.reason, EndReason::stopReached) << f.outcome.text;
+  EXPECT_LT(f.record.steps.front().order, 40);
+  EXPECT_NEAR(f.outcome.final.u->getData()[0], 1 / (1 + 1e-9), 1e-6);  // the residual's bound
+}
+
 /// Residual is fine, an order is not.
 TEST(Failures, NotANumberInAnOrder) {
   struct Broken : JetProblem<StvkBar> {

@@ -76,8 +76,9 @@ struct Options {
   double maxStep = 1e3;     ///< longest step; bounds series that terminate
   double firstStep = 1e-3;  ///< first trial step of order 1, which has no estimate; later trials double
   double minStep = 1e-10;   ///< a cut-back below this ends the path
-  int maxCutBacks = 12;     ///< trials of shorter lengths of one series, >= 0
-  int maxSteps = 1000;      ///< >= 0
+  int maxCutBacks = 40;     ///< trials of shorter lengths of one series, >= 0: a force that begins unseen, as
+                         ///< that of a penalty law with a corner, lies any distance within its radius
+  int maxSteps = 1000;  ///< >= 0
 
   /// Throws std::invalid_argument with one line that names the knob, its value and what is accepted.
   void validate() const;

@@ -21,6 +21,9 @@ struct SeriesRequest {
   double relaxOver = 1;
   /// A force that grows with a: the series is that of R(U(a), lambda(a)) = a * perturbation; null: none.
   const Vector* perturbation = nullptr;
+  /// Where coefficients grow beyond floating-point numbers the series ends with those before; false:
+  /// notFinite.
+  bool mayOverflow = false;
   bool factored = false;  ///< the tangent solver holds K_T of the start already
 };
 

@@ -106,7 +106,8 @@ struct LocalNewton {
   static KOKKOS_INLINE_FUNCTION double weighted(const double* r, const double* weight) {
     double size = 0;
     for (int i = 0; i < NY; ++i) {
-      if (r[i] == 0) continue;
+      // Denormal numbers, as of a force far off a tool, have no digits that an iteration could reduce.
+      if (std::fabs(r[i]) < 2.3e-308) continue;
       const double q = std::fabs(r[i]) / weight[i];
       if (!(q <= size)) size = q;
       if (std::isnan(size)) return size;
