@@ -554,6 +554,11 @@ struct ContactForceMonitor {
   std::optional<Vector3> along;  ///< direction, not zero, any length
 };
 
+/// Area of the undeformed body that is in contact.
+struct ContactAreaMonitor {
+  std::string contact;
+};
+
 /// Total force with which a support holds the body; of a scalar field what flows in there.
 struct ReactionMonitor {
   std::string support;
@@ -562,7 +567,8 @@ struct ReactionMonitor {
 
 struct Monitor {
   std::string name;
-  std::variant<DisplacementMonitor, ContactForceMonitor, ReactionMonitor, FieldMonitor> quantity;
+  std::variant<DisplacementMonitor, ContactForceMonitor, ContactAreaMonitor, ReactionMonitor, FieldMonitor>
+      quantity;
 };
 
 struct Output {

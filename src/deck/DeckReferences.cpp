@@ -292,6 +292,9 @@ void checkMonitor(const Value& v, const Monitor& monitor, const Deck& deck) {
   }
   if (const auto* force = std::get_if<ContactForceMonitor>(&monitor.quantity)) {
     find(v.at("contact"), force->contact, deck.contacts, "contact");
+  } else if (const auto* area = std::get_if<ContactAreaMonitor>(&monitor.quantity)) {
+    if (find(v.at("contact"), area->contact, deck.contacts, "contact").points == Contact::Points::Nodes)
+      v.at("contact").fail(fmt::format("contact '{}' acts at nodes, which have no area", area->contact));
   } else if (const auto* field = std::get_if<FieldMonitor>(&monitor.quantity)) {
     requireField(v.at("field"), field->field, deck);
   } else if (const auto* reaction = std::get_if<ReactionMonitor>(&monitor.quantity)) {

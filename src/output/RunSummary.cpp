@@ -113,10 +113,11 @@ const char* drivenBy(const deck::Deck& deck) {
 nlohmann::ordered_json monitorTypes(const deck::Deck& deck) {
   auto types = nlohmann::ordered_json::object();
   for (const deck::Monitor& m : deck.output.monitors)
-    types[m.name] = std::holds_alternative<deck::DisplacementMonitor>(m.quantity) ? "displacement"
-                    : std::holds_alternative<deck::FieldMonitor>(m.quantity)      ? "field"
-                    : std::holds_alternative<deck::ReactionMonitor>(m.quantity)   ? "reaction"
-                                                                                  : "contact_force";
+    types[m.name] = std::holds_alternative<deck::DisplacementMonitor>(m.quantity)  ? "displacement"
+                    : std::holds_alternative<deck::FieldMonitor>(m.quantity)       ? "field"
+                    : std::holds_alternative<deck::ReactionMonitor>(m.quantity)    ? "reaction"
+                    : std::holds_alternative<deck::ContactAreaMonitor>(m.quantity) ? "contact_area"
+                                                                                   : "contact_force";
   return types;
 }
 

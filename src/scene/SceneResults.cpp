@@ -144,7 +144,10 @@ ContactState Scene::contactState(const ContactPoints& contact, const SceneState&
   forEachContactPoint(contact, at, [&](std::size_t t, int p, const double* gapAndPressure) {
     const double gap = gapAndPressure[0], pressure = gapAndPressure[1];
     // Around an active corner the mean gap vanishes, and the gaps of its points have both signs.
-    state.active += contact.hardFaces ? pressure > 0 : gap <= contact.closedGaps[t][p];
+    const bool active = contact.hardFaces ? pressure > 0 : gap <= contact.closedGaps[t][p];
+    state.active += active;
+    // Zones say which part of a point's area is in them.
+    state.area += contact.points[t].weights[p] * (contact.lines.empty() ? active : gapAndPressure[2]);
     state.normalForce += contact.points[t].weights[p] * pressure;
   });
   return state;
@@ -186,6 +189,11 @@ std::vector<double> Scene::monitors(const SceneState& state) const {
                      ? scene.contactState(contact, state).normalForce
                      : scene.contactResultant(contact, state)[componentIndex(m.component)];
       return 0;
+    }
+    double operator()(const deck::ContactAreaMonitor& m) const {
+      const auto contact = std::find_if(scene.contacts_.begin(), scene.contacts_.end(),
+                                        [&](const ContactPoints& c) { return c.name == m.contact; });
+      return scene.contactState(*contact, state).area;
     }
     double operator()(const deck::ReactionMonitor& m) const {
       const auto& support = *std::find_if(scene.deck_.supports.begin(), scene.deck_.supports.end(),

@@ -29,4 +29,21 @@ TEST(Hertz, ForceAgainstApproach) {
   EXPECT_LE(run.summary.at("steps"), 60);
 }
 
+TEST(Hertz, WidthUnderACylinder) {
+  const ExampleRun run("contact/hertz_cylinder.yaml");
+  const auto force = run.column("force"), area = run.column("area");
+  constexpr double R = 10, E = 1000 / (1 - 0.3 * 0.3);
+  int compared = 0;
+  for (std::size_t i = 0; i < force.size(); ++i) {
+    const double b = std::sqrt(4 * 2 * force[i] * R / (std::acos(-1.0) * E));
+    if (b < 0.18) continue;
+    // Between its edges the contact is known to a part of a cell, a third to a fifth of b here, and the
+    // stiffness adds a width in which the gap is p/alpha.
+    EXPECT_NEAR(area[i], b, 0.06 * b);
+    ++compared;
+  }
+  EXPECT_GT(compared, 20);
+  EXPECT_LE(run.summary.at("steps"), 35);
+}
+
 }  // namespace atrapos::test

@@ -86,23 +86,27 @@ void ZoneForces::value(const ZoneBatch& zones, double lambda, double* forces) co
     }
 }
 
-void ZoneForces::pressures(const ZoneBatch& zones, double lambda, const std::vector<double>& places,
-                           double* shares) const {
+void ZoneForces::shares(const ZoneBatch& zones, double lambda, const std::vector<double>& places,
+                        double* forces, double* areas) const {
   const Points points = pointsOf(zones, lambda);
   const std::size_t count = places.size();
-  std::fill_n(shares, count * L, 0.0);
+  std::fill_n(forces, count * L, 0.0);
+  std::fill_n(areas, count * L, 0.0);
   for (int q = 0; q < Q; ++q)
     for (int lane = 0; lane < L; ++lane) {
-      const double xi = points.places[q * L + lane],
-                   part = points.pressure[q * L + lane] * points.weights[q * L + lane];
+      const double xi = points.places[q * L + lane], area = points.weights[q * L + lane];
+      const auto add = [&](std::size_t place, double part) {
+        forces[place * L + lane] += part * area * points.pressure[q * L + lane];
+        areas[place * L + lane] += part * area;
+      };
       const std::size_t above = std::upper_bound(places.begin(), places.end(), xi) - places.begin();
       if (above == 0 || above == count) {
-        shares[(above == 0 ? 0 : count - 1) * L + lane] += part;
+        add(above == 0 ? 0 : count - 1, 1);
         continue;
       }
       const double t = (xi - places[above - 1]) / (places[above] - places[above - 1]);
-      shares[(above - 1) * L + lane] += (1 - t) * part;
-      shares[above * L + lane] += t * part;
+      add(above - 1, 1 - t);
+      add(above, t);
     }
 }
 

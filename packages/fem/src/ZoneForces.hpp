@@ -32,10 +32,10 @@ class ZoneForces {
   /// And their derivatives, [coefficient][coefficient, lambda][lane]. The limits have no part in them: p
   /// vanishes at those that move.
   void tangent(const ZoneBatch& zones, double lambda, double* forces, double* jacobian) const;
-  /// shares[share][lane] = integral of p f_j dA, f_j the hat functions of these places xi on the line: sums
-  /// are the integral of p.
-  void pressures(const ZoneBatch& zones, double lambda, const std::vector<double>& places,
-                 double* shares) const;
+  /// forces[j][lane] = integral of p f_j dA and areas[j][lane] = integral of f_j dA, f_j the hat functions of
+  /// these places xi on the line: sums over j are the integrals of p and of 1.
+  void shares(const ZoneBatch& zones, double lambda, const std::vector<double>& places, double* forces,
+              double* areas) const;
 
   void reserve(int batches, int maxOrder);
   std::size_t bytes(int batches, int maxOrder) const;

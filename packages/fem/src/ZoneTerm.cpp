@@ -340,7 +340,10 @@ class ZoneTerm final : public EventTerm {
 
   PointValues observe(const ConstDofView& u, double lambda) const override {
     const std::size_t Q = lines_.shown.size(), E = numEntities();
-    PointValues result{{"contact_gap", "contact_pressure"}, std::vector<double>(2 * E * Q, 0.0)};
+    // The last: which part of the point's weight is in contact.
+    constexpr int M = 3;
+    PointValues result{{"contact_gap", "contact_pressure", "contact_part"},
+                       std::vector<double>(M * E * Q, 0.0)};
     std::vector<double> xi, c(laws_.coefficients() * L);
     for (const double place : lines_.shown) xi.insert(xi.end(), L, place);
     for (int b = 0; b < batches(); ++b) {
@@ -348,15 +351,16 @@ class ZoneTerm final : public EventTerm {
       gather(lines.data(), static_cast<int>(lines.size()), u, 1, c.data());
       const LineProbe at = probe(laws_, static_cast<int>(Q), xi.data(), c.data(), lambda);
       for (std::size_t lane = 0; lane < lines.size(); ++lane)
-        for (std::size_t q = 0; q < Q; ++q) result.values[2 * (lines[lane] * Q + q)] = at.gap[q * L + lane];
+        for (std::size_t q = 0; q < Q; ++q) result.values[M * (lines[lane] * Q + q)] = at.gap[q * L + lane];
     }
-    std::vector<double> shares(Q * L);
+    std::vector<double> forces(Q * L), areas(Q * L);
     forEachBatch(u, lambda, [&](const ZoneBatch& batch, const int* lines) {
-      forces_.pressures(batch, lambda, lines_.shown, shares.data());
+      forces_.shares(batch, lambda, lines_.shown, forces.data(), areas.data());
       for (int lane = 0; lane < batch.lanes; ++lane)
         for (std::size_t q = 0; q < Q; ++q) {
           const std::size_t point = lines[lane] * Q + q;
-          result.values[2 * point + 1] += shares[q * L + lane] / lines_.weights[point];
+          result.values[M * point + 1] += forces[q * L + lane] / lines_.weights[point];
+          result.values[M * point + 2] += areas[q * L + lane] / lines_.weights[point];
         }
     });
     return result;
