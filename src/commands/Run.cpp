@@ -22,6 +22,7 @@
 #include "output/PathPlot.hpp"
 #include "output/Recorder.hpp"
 #include "output/RunSummary.hpp"
+#include "output/ToolShapes.hpp"
 #include "report/Report.hpp"
 #include "restart/RestartFile.hpp"
 #include "scene/Imperfections.hpp"
@@ -105,6 +106,16 @@ std::string report(const std::string& folder) {
     return fmt::format("report.html not written: {}", e.what());
   } catch (const exodus::Error& e) {
     return fmt::format("report.html not written: {}", e.what());
+  }
+}
+
+/// The tools as surfaces, for viewers; a line where they cannot be written.
+std::string drawTools(const std::string& folder, const deck::Deck& deck) {
+  try {
+    writeToolShapes(folder, deck);
+    return {};
+  } catch (const std::runtime_error& e) {
+    return fmt::format("tools.exo not written: {}", e.what());
   }
 }
 
@@ -208,7 +219,7 @@ RunResult runPath(const deck::Deck& deck, PathCase& pathCase, const RunOptions& 
   replaceFile(options.directory + "/summary.json", summary.dump(2) + "\n");
   replaceFile(options.directory + "/branches.csv", branchTable(diagram));
   const std::string plot = plotPath({options.directory});
-  const std::string unreported = report(options.directory);
+  const std::string unreported = report(options.directory), undrawn = drawTools(options.directory, deck);
   if (options.progress) {
     *options.progress << fmt::format(
         "{} steps, {} factorizations, {} solves, {:.2f} s; worst residual {:.2e}\n",
@@ -216,7 +227,8 @@ RunResult runPath(const deck::Deck& deck, PathCase& pathCase, const RunOptions& 
         recorder.seconds(), recorder.worstResidual());
     if (!finished.empty()) *options.progress << finished << '\n';
     if (!plot.empty()) *options.progress << plot << '\n';
-    if (!unreported.empty()) *options.progress << unreported << '\n';
+    for (const std::string& line : {unreported, undrawn})
+      if (!line.empty()) *options.progress << line << '\n';
   }
   RunResult result = resultOf(deck, diagram);
   if (result.reachedStop && !trouble.empty()) result = {false, trouble};

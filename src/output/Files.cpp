@@ -86,9 +86,12 @@ void replaceFile(const std::string& file, const std::string& content) {
   renameFile(beside, file);
 }
 
-std::optional<int> branchOfFields(const std::string& name) {
-  if (name == "results.exo") return 0;
-  static const std::string before = "results_branch", after = ".exo";
+namespace {
+
+/// The branch of STEM.exo or STEM_branchN.exo.
+std::optional<int> branchOf(const std::string& name, const std::string& stem) {
+  const std::string before = stem + "_branch", after = ".exo";
+  if (name == stem + after) return 0;
   if (name.size() <= before.size() + after.size() || name.compare(0, before.size(), before) != 0) return {};
   const char *first = name.data() + before.size(), *end = name.data() + name.size() - after.size();
   int branch = 0;
@@ -97,10 +100,21 @@ std::optional<int> branchOfFields(const std::string& name) {
   return branch;
 }
 
+}  // namespace
+
+std::optional<int> branchOfFields(const std::string& name) { return branchOf(name, "results"); }
+
+std::string toolsName(int branch) {
+  return branch == 0 ? "tools.exo" : fmt::format("tools_branch{}.exo", branch);
+}
+
+bool isToolsName(const std::string& name) { return branchOf(name, "tools").has_value(); }
+
 bool isResultName(const std::string& name) {
   if (std::any_of(knownFiles.begin(), knownFiles.end(),
                   [&](const KnownFile& known) { return name == known.name; }))
     return true;
+  if (isToolsName(name)) return true;
   std::string whole = name;
   try {
     whole = exodus::parsePartName(name).file;

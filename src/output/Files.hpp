@@ -12,6 +12,10 @@ void replaceFile(const std::string& file, const std::string& content);
 /// The branch whose fields a file of this name holds, 0 for results.exo; empty: it is another file.
 std::optional<int> branchOfFields(const std::string& name);
 
+/// The file of a branch's tools, tools.exo for branch 0, and whether a file's name is such a one.
+std::string toolsName(int branch);
+bool isToolsName(const std::string& name);
+
 /// Whether runs write files of this name into their folder.
 bool isResultName(const std::string& name);
 

@@ -117,7 +117,9 @@ std::vector<contact::BezierPatch> patches(const deck::SplineSurface& s) {
   return surface.patches();
 }
 
-std::shared_ptr<const contact::PatchSet> patchSet(const deck::PatchesTool& t) {
+}  // namespace
+
+std::vector<contact::BezierPatch> bezierPatches(const deck::PatchesTool& t) {
   std::vector<contact::BezierPatch> all;
   for (const deck::SplineSurface& surface : t.surfaces) try {
       const auto pieces = patches(surface);
@@ -126,17 +128,17 @@ std::shared_ptr<const contact::PatchSet> patchSet(const deck::PatchesTool& t) {
     } catch (const std::invalid_argument& e) {
       throw std::invalid_argument("surface '" + surface.name + "': " + e.what());
     }
-  constexpr double unlimited = std::numeric_limits<double>::infinity();
-  return std::make_shared<contact::PatchSet>(std::move(all), t.reversed, t.thickness.value_or(unlimited));
+  return all;
 }
 
-}  // namespace
-
 std::unique_ptr<contact::RigidTool> makeTool(const deck::Tool& entry) {
+  constexpr double unlimited = std::numeric_limits<double>::infinity();
   std::optional<contact::Motion> moves;
   if (entry.motion.moves()) moves = motion(entry.motion);
   if (const auto* t = std::get_if<deck::PatchesTool>(&entry.surface))
-    return contact::rigidTool(patchSet(*t), moves);
+    return contact::rigidTool(
+        std::make_shared<contact::PatchSet>(bezierPatches(*t), t->reversed, t->thickness.value_or(unlimited)),
+        moves);
   const contact::AnyTool rigid = std::visit(
       [](const auto& t) -> contact::AnyTool {
         if constexpr (std::is_same_v<decltype(t), const deck::PatchesTool&>)

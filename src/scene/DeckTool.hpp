@@ -1,7 +1,9 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
+#include "atrapos/contact/BezierPatch.hpp"
 #include "atrapos/contact/RigidTool.hpp"
 #include "deck/Deck.hpp"
 
@@ -9,5 +11,8 @@ namespace atrapos {
 
 /// A deck's tool. Throws std::invalid_argument, one line, where its numbers make no surface.
 std::unique_ptr<contact::RigidTool> makeTool(const deck::Tool& tool);
+
+/// The Bezier patches that a tool's surfaces are made of. Throws std::invalid_argument likewise.
+std::vector<contact::BezierPatch> bezierPatches(const deck::PatchesTool& tool);
 
 }  // namespace atrapos
