@@ -23,6 +23,7 @@ path::Options pathOptions(const PathCase& pathCase) {
   options.pade = path.pade;
   options.criticalPoints = path.criticalPoints != deck::Path::Critical::Off;
   options.searchEveryStep = path.criticalPoints == deck::Path::Critical::EveryStep;
+  if (path.hopf) options.hopfEigenvalues = path.hopfEigenvalues;
   options.maxSteps = path.stop.steps;
   return options;
 }

@@ -124,6 +124,7 @@ struct ScalarBalance {
   std::string field;
   std::string conductivity = "0";
   std::string source = "0";
+  std::string capacity;  ///< empty: 1
 };
 
 /// Steady flow of an incompressible Newtonian fluid; velocities and pressure are scalar fields.
@@ -480,6 +481,8 @@ struct Path {
   std::optional<double> weight;             ///< w of the path parameter, > 0; empty = by the first step
   path::PadeUse pade = path::Options{}.pade;
   Critical criticalPoints = Critical::Automatic;
+  bool hopf = false;        ///< Hopf points are looked for
+  int hopfEigenvalues = 8;  ///< next to zero, that are computed for them at each step's end
   path::Follow branches = path::Follow::none;
   int branchDepth = 4;   ///< bifurcations between the first path and a branch
   int branchCount = 20;  ///< half-branches followed besides the first path

@@ -169,6 +169,9 @@ void checkPhysics(const Value& root, const Deck& deck) {
     if (at.has("source")) {
       checkFormula(at.at("source"), balance->source, deck, physics::Place::body);
     }
+    if (at.has("capacity")) {
+      checkFormula(at.at("capacity"), balance->capacity, deck, physics::Place::body);
+    }
   }
   for (const auto& material : deck.materials) {
     checkInField(root, material, deck);
@@ -283,8 +286,9 @@ void checkSections(const Value& root, const Deck& deck) {
 
 /// Columns of the tables that have the monitors beside them (PathTable).
 const std::vector<std::string> columns{
-    "step",    "branch",   "path_length",          "load_factor",     "kind",
-    "nullity", "residual", "negative_eigenvalues", "negative_change", "uncertainty"};
+    "step",       "branch",   "path_length",          "load_factor",     "kind",
+    "nullity",    "residual", "negative_eigenvalues", "negative_change", "frequency",
+    "uncertainty"};
 
 void checkMonitor(const Value& v, const Monitor& monitor, const Deck& deck) {
   if (std::find(columns.begin(), columns.end(), monitor.name) != columns.end()) {
@@ -352,6 +356,20 @@ void checkBifurcationStop(const Value& v, const Deck& deck) {
   }
 }
 
+void checkHopf(const Value& v, const Deck& deck) {
+  if (!deck.materials.empty()) {
+    v.fail(
+        "is for balances and flows alone: displacements have accelerations, not rates; expected a deck "
+        "without materials");
+  }
+  if (deck.path.criticalPoints == Path::Critical::Off) {
+    v.fail("needs path/critical_points: automatic or every_step");
+  }
+  if (deck.solver.type != Solver::Type::Mumps) {
+    v.fail("eigenvalues are found by the factored tangent, that needs solver/type: mumps");
+  }
+}
+
 }  // namespace
 
 void checkBranches(const Value& root, const Deck& deck) {
@@ -362,6 +380,9 @@ void checkBranches(const Value& root, const Deck& deck) {
   }
   if (deck.path.branches != path::Follow::none && deck.path.criticalPoints == Path::Critical::Off) {
     root.at("path").at("branches").fail("needs critical_points: automatic or every_step");
+  }
+  if (deck.path.hopf) {
+    checkHopf(root.at("path").at("hopf"), deck);
   }
   if (deck.path.stop.bifurcation) {
     checkBifurcationStop(root.at("path").at("stop").at("bifurcation"), deck);

@@ -261,6 +261,11 @@ Table<Path> pathKeys(const Table<Stop>& stops, Need needStop, bool ofModel) {
                       "where rational series stand in for polynomials")),
       ofSeries(choice("critical_points", optional, &Path::criticalPoints, searches,
                       "which bifurcation points are looked for")),
+      ofSeries(flag("hopf", &Path::hopf,
+                    "looks for Hopf points, where a pair of eigenvalues crosses the imaginary axis: of "
+                    "balances and flows with unsymmetric tangents")),
+      ofSeries(integer("hopf_eigenvalues", optional, &Path::hopfEigenvalues, check::count,
+                       "how many eigenvalues next to zero are computed for that at each step's end")),
       ofSeries(choice("branches", optional, &Path::branches, follows,
                       "which branches are followed at bifurcation points")),
       ofSeries(integer("branch_depth", optional, &Path::branchDepth, check::natural,

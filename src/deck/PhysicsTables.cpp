@@ -65,7 +65,10 @@ const Variants<Physics, decltype(Physics::law)>& physicsVariants() {
             formula("conductivity", optional, &ScalarBalance::conductivity,
                     "flux by negative gradient: of the fields, lambda, x, y, z"),
             formula("source", optional, &ScalarBalance::source,
-                    "amount per volume that comes up: of the same, and of gradients")},
+                    "amount per volume that comes up: of the same, and of gradients"),
+            formula("capacity", optional, &ScalarBalance::capacity,
+                    "amount per volume by value, of the same: what Hopf points depend on; 1 where no entry "
+                    "says it")},
            [](const Value& map, const ScalarBalance&) {
              if (!map.has("conductivity") && !map.has("source")) {
                map.fail("says nothing; expected conductivity, source or both");

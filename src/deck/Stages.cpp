@@ -149,6 +149,9 @@ void hold(Deck& deck, const Driven& entry, double loadFactor) {
       auto& balance = std::get<ScalarBalance>(deck.physics[entry.index].law);
       balance.conductivity = atLoadFactor(balance.conductivity, loadFactor);
       balance.source = atLoadFactor(balance.source, loadFactor);
+      if (!balance.capacity.empty()) {
+        balance.capacity = atLoadFactor(balance.capacity, loadFactor);
+      }
       return;
     }
   }

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "output/PathTable.hpp"
 #include "output/TableFile.hpp"
 
 namespace atrapos {
@@ -33,12 +34,15 @@ struct Located {
 /// [branch] Its limit points of the load factor and bifurcation points, along the path.
 std::map<int, std::vector<Located>> locatedIn(const TableFile& points) {
   std::map<int, std::vector<Located>> located;
+  auto nullity = points.integers("nullity");
   const auto branch = points.integers("branch"), step = points.integers("step"),
-             nullity = points.integers("nullity"), change = points.integers("negative_change");
+             change = points.integers("negative_change");
   const auto length = points.numbers("path_length"), load = points.numbers("load_factor");
   const auto kind = points.texts("kind");
   const std::size_t first = points.place("uncertainty") + 1;
   for (std::size_t i = 0; i < points.numRows(); ++i) {
+    // Bifurcation points as others, for pictures.
+    if (kind[i] == hopfKind) nullity[i] = 2;
     if (nullity[i] == 0 && kind[i] != "maximum" && kind[i] != "minimum") continue;  // of a monitor
     if (!std::isfinite(length[i]))
       throw std::invalid_argument(fmt::format("points.csv: row {} has no path length", i + 1));

@@ -128,30 +128,47 @@ std::string text(const StepRow& r) {
 }
 
 std::string pointHeader(const std::vector<std::string>& monitors) {
-  return "step,branch,path_length,load_factor,kind,negative_change,nullity,uncertainty" + joined(monitors);
+  return "step,branch,path_length,load_factor,kind,negative_change,nullity,frequency,uncertainty" +
+         joined(monitors);
 }
 
 std::string text(const PointRow& r) {
   std::string row = fmt::format("{},{}", r.step, r.branch) + exact(r.pathLength) + exact(r.loadFactor) +
-                    fmt::format(",{},{},{},{:.3e}", r.kind, r.negativeChange, r.nullity, r.uncertainty);
+                    fmt::format(",{},{},{},{:.17g},{:.3e}", r.kind, r.negativeChange, r.nullity, r.frequency,
+                                r.uncertainty);
   for (double m : r.monitors) row += exact(m);
   return row;
 }
 
-std::vector<PointRow> limitPointsOf(const std::string& file) {
+namespace {
+
+/// Those of these kinds in a points.csv.
+std::vector<PointRow> pointsOf(const std::string& file, const std::vector<std::string>& kinds) {
   const TableFile table(file);
   const auto step = table.numbers("step"), branch = table.numbers("branch"),
-             length = table.numbers("path_length"), load = table.numbers("load_factor");
+             length = table.numbers("path_length"), load = table.numbers("load_factor"),
+             change = table.numbers("negative_change"), frequency = table.numbers("frequency"),
+             uncertainty = table.numbers("uncertainty");
   const auto kind = table.texts("kind");
   const std::size_t monitors = table.place("uncertainty") + 1;
   std::vector<PointRow> rows;
   for (std::size_t i = 0; i < table.numRows(); ++i) {
-    if (kind[i] != "maximum" && kind[i] != "minimum") continue;
+    if (std::find(kinds.begin(), kinds.end(), kind[i]) == kinds.end()) continue;
     PointRow row{static_cast<int>(step[i]), static_cast<int>(branch[i]), length[i], load[i], kind[i]};
+    row.negativeChange = static_cast<int>(change[i]);
+    row.frequency = frequency[i];
+    row.uncertainty = uncertainty[i];
     for (std::size_t m = monitors; m < table.names().size(); ++m) row.monitors.push_back(table.number(i, m));
     rows.push_back(std::move(row));
   }
   return rows;
 }
+
+}  // namespace
+
+std::vector<PointRow> limitPointsOf(const std::string& file) {
+  return pointsOf(file, {"maximum", "minimum"});
+}
+std::vector<PointRow> hopfPointsOf(const std::string& file) { return pointsOf(file, {hopfKind}); }
 
 }  // namespace atrapos

@@ -49,7 +49,7 @@ struct PathRow {
 std::string pathHeader(const std::vector<std::string>& monitors);
 std::string text(const PathRow& row);
 
-/// points.csv: one row per limit or bifurcation point.
+/// points.csv: one row per limit, bifurcation or Hopf point.
 struct PointRow {
   int step = 0, branch = 0;
   double pathLength = 0, loadFactor = 0;
@@ -57,7 +57,11 @@ struct PointRow {
   int negativeChange = 0, nullity = 0;
   double uncertainty = 0;
   std::vector<double> monitors{};
+  double frequency = 0;  ///< angular, of a Hopf point
 };
+/// PointRow::kind of a Hopf point.
+constexpr const char* hopfKind = "hopf";
+
 /// steps.csv: one row per step.
 struct StepRow {
   int step = 0, branch = 0, order = 0;
@@ -74,5 +78,7 @@ std::string pointHeader(const std::vector<std::string>& monitors);
 std::string text(const PointRow& row);
 /// The limit points of the load factor in a points.csv. Throws as TableFile.
 std::vector<PointRow> limitPointsOf(const std::string& file);
+/// Its Hopf points. Throws as TableFile.
+std::vector<PointRow> hopfPointsOf(const std::string& file);
 
 }  // namespace atrapos

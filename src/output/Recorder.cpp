@@ -75,7 +75,10 @@ void Recorder::goOn(const Continued& continued) {
   path_.copyFrom(old("path.csv"), last, continued.marks.path);
   points_.copyFrom(old("points.csv"), last, continued.marks.points);
   steps_.copyFrom(old("steps.csv"), last, continued.marks.steps);
-  if (ranks::isFirst()) limitPoints_ = limitPointsOf(beside_.name("points.csv"));
+  if (ranks::isFirst()) {
+    limitPoints_ = limitPointsOf(beside_.name("points.csv"));
+    hopfPoints_ = hopfPointsOf(beside_.name("points.csv"));
+  }
   if (fields_)
     fields_->copyFrom(old(fieldsName(branch_)), 1 + numFieldStates(path->steps, !path->stop.empty()),
                       path->pathLength, continued.marks.fields);
@@ -280,6 +283,15 @@ std::vector<PointRow> Recorder::writePoints(const path::StepReport& report, cons
     row.nullity = p.nullity;
     row.uncertainty = p.uncertainty;
     row.monitors = case_->at(p.state)->monitors();
+    rows.push_back(row);
+  }
+  for (const path::HopfPoint& p : report.hopfPoints) {
+    PointRow row{report.step, branch_, report.pathLengthStart + p.a, p.state.lambda, hopfKind};
+    row.negativeChange = p.negativeChange;
+    row.uncertainty = p.uncertainty;
+    row.frequency = p.frequency;
+    row.monitors = case_->at(p.state)->monitors();
+    hopfPoints_.push_back(row);
     rows.push_back(row);
   }
   unexplained_ += report.unexplained;

@@ -34,8 +34,8 @@ constexpr Column kColumns[] = {
     {"time s", "seconds since the run began"}};
 
 constexpr const char* kBelow =
-    R"(Below a step: its limit points (the load factor turns) and bifurcation points with the
-load factor and the first monitors there, eigenvalues whose change of sign was not located,
+    R"(Below a step: its limit points (the load factor turns), bifurcation and Hopf points with
+the load factor and the first monitors there, eigenvalues whose change of sign was not located,
 jumps of contact forces. Where a run takes long: the time left at the rate of the last steps.
 )";
 
@@ -67,6 +67,11 @@ std::string describe(const PointRow& point, const std::vector<std::string>& moni
   if (point.nullity > 0) {
     text = fmt::format("bifurcation point ({}) at load factor {:.10g}", point.kind, point.loadFactor);
     if (point.nullity > 1) text += fmt::format(", {} null vectors", point.nullity);
+  } else if (point.kind == hopfKind) {
+    text = fmt::format("Hopf point at load factor {:.10g}, angular frequency {:.8g}", point.loadFactor,
+                       point.frequency);
+    if (std::abs(point.negativeChange) > 2)
+      text += fmt::format(", {} pairs of eigenvalues", std::abs(point.negativeChange) / 2);
   } else if (point.kind == "maximum" || point.kind == "minimum") {
     text = fmt::format("limit point ({}) at load factor {:.8g}", point.kind, point.loadFactor);
   } else {

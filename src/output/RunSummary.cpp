@@ -67,6 +67,20 @@ nlohmann::ordered_json limitPointsOf(const PathCase& pathCase, const Recorder& r
   return list;
 }
 
+nlohmann::ordered_json hopfPointsOf(const PathCase& pathCase, const Recorder& recorder) {
+  auto list = nlohmann::ordered_json::array();
+  const auto names = pathCase.monitorNames();
+  for (const PointRow& p : recorder.hopfPoints()) {
+    nlohmann::ordered_json json{{"branch", p.branch},          {"step", p.step},
+                                {"load_factor", p.loadFactor}, {"path_length", p.pathLength},
+                                {"frequency", p.frequency},    {"negative_change", p.negativeChange},
+                                {"uncertainty", p.uncertainty}};
+    for (std::size_t m = 0; m < names.size(); ++m) json["monitors"][names[m]] = p.monitors[m];
+    list.push_back(json);
+  }
+  return list;
+}
+
 /// How a branch ended, as files and tables name it.
 std::string endedOf(const path::Branch& b) {
   if (b.outcome.reason != path::EndReason::observerStopped) return path::toString(b.outcome.reason);
@@ -175,6 +189,10 @@ nlohmann::ordered_json runSummary(const deck::Deck& deck, const PathCase& pathCa
   json["bifurcation_points"] = diagram.points.size();
   json["unexplained_sign_changes"] = recorder.unexplained();
   json["load_limits"] = limitPointsOf(pathCase, recorder);
+  if (deck.path.hopf) {
+    json["hopf_points"] = hopfPointsOf(pathCase, recorder);
+    json["hopf_factorizations"] = sum(diagram, &Outcome::hopfFactorizations);
+  }
   json["points"] = pointsOf(pathCase, diagram);
   json["branches"] = branchesOf(diagram);
   json["branches_complete"] = diagram.complete;

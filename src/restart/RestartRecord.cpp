@@ -205,6 +205,7 @@ void plainMembers(Outcome& o, path::Outcome*, const F& f) {
   f(o.factorizations), f(o.solves), f(o.orders), f(o.reason), f(o.text), f(o.steps), f(o.startIterations);
   f(o.corrections), f(o.restarts), f(o.retreats), f(o.criticalFactorizations), f(o.events), f(o.eventTrials);
   f(o.closings), f(o.cutBacks), f(o.worstResidual), f(o.weight), f(o.pathLength), f(o.jumps), f(o.worstJump);
+  f(o.hopfFactorizations);
 }
 template <class Branch, class F>
 void plainMembers(Branch& b, path::Branch*, const F& f) {

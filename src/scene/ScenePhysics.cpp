@@ -73,12 +73,13 @@ void Scene::addBalances(fem::FeModel& model) {
       if (!here) continue;
       const auto* law = std::get_if<deck::ScalarBalance>(&entry.law);
       if (law == nullptr) continue;
-      for (const auto& text : {law->conductivity, law->source}) try {
+      for (const auto& text : {law->conductivity, law->source, law->capacity.empty() ? "1" : law->capacity})
+        try {
           physics::checkFormula(text, fields, deck_.constants, physics::Place::body);
         } catch (const formula::FormulaError& e) {
           fail("physics/" + entry.name, fmt::format("in block '{}' a formula {}", block.name, e.what()));
         }
-      balances.push_back({law->field, law->conductivity, law->source});
+      balances.push_back({law->field, law->conductivity, law->source, law->capacity});
       last = &entry;
     }
     if (balances.empty()) continue;

@@ -108,6 +108,21 @@ TEST(PhysicsDeck, BadDecksAreRefusedInOneLine) {
   expectError("value: {value: 1, per_load_factor: 2}}", "value: 1}", "no error");
 }
 
+/// Hopf points are those of balances and flows, on a path of series with MUMPS.
+TEST(PhysicsDeck, HopfPointsAreRefusedWhereTheyHaveNoMeaning) {
+  const std::string path = "path:\n";
+  ASSERT_NE(std::string(goodDeck).find(path), std::string::npos);
+  const auto with = [&](const std::string& more) { return path + "  hopf: true\n" + more; };
+  expectError(path, with("  critical_points: off\n"),
+              "path/hopf: needs path/critical_points: automatic or every_step");
+  expectError(path, with("  method: newton\n"), "path/hopf");
+  expectError(path, "solver: {type: belos}\n" + with(""),
+              "path/hopf: eigenvalues are found by the factored tangent");
+  expectError(path, with("  hopf_eigenvalues: 0\n"), "path/hopf_eigenvalues: must be at least 1, got 0");
+  expectError("conductivity: 2", "conductivity: 2, capacity: 2*W",
+              "physics/current/capacity: does not know 'W'");
+}
+
 /// Nothing in the deck says lambda.
 TEST(PhysicsDeck, SomethingDependsOnTheLoadFactor) {
   std::string text = changed("source: \"lambda*dot", "source: \"dot");

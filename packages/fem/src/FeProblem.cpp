@@ -88,7 +88,7 @@ struct FeProblem::Impl {
   std::unique_ptr<detail::Distribution> ranks;
   std::optional<EventTerms> events;
   std::optional<PieceTerms> pieces;
-  RCP<CrsMatrix> K;
+  RCP<CrsMatrix> K, M;  // M: null until it is asked for
   /// The matrix before the shared rows are added up; K's own values where there is one rank.
   View<double*> entries;
   View<std::size_t*> rowStart;
@@ -537,6 +537,18 @@ struct FeProblem::Impl {
     for (double& size : initialForces) size = std::isfinite(size) ? 1e-6 * size : 0;
   }
 
+  /// Nothing in the rows and columns of prescribed dofs.
+  void clearSupports(const View<double*>& values) const {
+    const auto start = rowStart;
+    const auto column = columns;
+    const auto isFixed = fixed;
+    Kokkos::parallel_for(
+        "no supports", Kokkos::RangePolicy<Execution>(0, numOwned()), KOKKOS_LAMBDA(int d) {
+          for (std::size_t e = start(d); e < start(d + 1); ++e)
+            if (isFixed(d) || isFixed(column(e))) values(e) = 0;
+        });
+  }
+
   /// Turns the rows of prescribed dofs into s u_d and carries their columns to F.
   void applySupports(const DofView& F) {
     const auto values = K->getLocalMatrixDevice().values;
@@ -655,6 +667,31 @@ RCP<const CrsMatrix> FeProblem::tangent(const path::State& at, Vector& F) {
   impl_->applySupports(own);
   impl_->K->fillComplete(impl_->map, impl_->map);
   return impl_->K;
+}
+
+RCP<const CrsMatrix> FeProblem::mass(const path::State& at) {
+  const auto& ranks = *impl_->ranks;
+  if (impl_->M.is_null()) impl_->M = rcp(new CrsMatrix(impl_->K->getCrsGraph()));
+  impl_->M->resumeFill();
+  const auto values = impl_->M->getLocalMatrixDevice().values;
+  const View<double*> entries =
+      ranks.alone() ? View<double*>(values) : View<double*>("capacities", impl_->columns.size());
+  Kokkos::deep_copy(entries, 0.0);
+  const DofView none("none", impl_->load.size());
+  const ConstDofView state = onRank(at);
+  bool stores = false;
+  ranks.together([&] {
+    for (const auto& term : impl_->model.terms)
+      stores = term->addCapacity(state, at.lambda, TangentSink{impl_->rowStart, entries, none}) || stores;
+    impl_->coupled.transform(impl_->rowStart, impl_->columns, entries, 0, none);
+  });
+  if (!ranks.alone()) {
+    ranks.collectRows(impl_->rowStart, entries);
+    Kokkos::deep_copy(values, Kokkos::subview(entries, std::make_pair(std::size_t{0}, values.extent(0))));
+  }
+  impl_->clearSupports(values);
+  impl_->M->fillComplete(impl_->map, impl_->map);
+  return stores ? impl_->M : Teuchos::null;
 }
 
 void FeProblem::beginSeries(const path::State& at, int maxOrder) {

@@ -19,6 +19,13 @@ std::unique_ptr<Term> lawTerm(std::unique_ptr<PointLaw> law, const PointSet& poi
   return term;
 }
 
+std::unique_ptr<Term> storingTerm(std::unique_ptr<PointLaw> law, const PointSet& points,
+                                  const std::vector<double>& data, Capacity capacity) {
+  auto term = std::make_unique<LawTermOf<Term>>(std::move(law), points, data);
+  term->setCapacity(std::move(capacity));
+  return term;
+}
+
 std::unique_ptr<Term> lawTerm(std::unique_ptr<PointLaw> law, const PointSet& points,
                               const std::vector<double>& data, PieceSearch search) {
   auto term = std::make_unique<LawTermOf<Term>>(std::move(law), points, data);

@@ -39,6 +39,7 @@ class LawTermOf : public Base {
     initialData_ = data;
   }
   void setSymmetricSum() { symmetricSum_ = true; }
+  void setCapacity(Capacity capacity) { capacity_ = std::move(capacity); }
   void setPieces(PieceSearch search, const std::vector<double>& data) {
     pieces_ = std::make_unique<PointPieces>(std::move(search), numPoints(), data);
     setUpdate(
@@ -127,6 +128,21 @@ class LawTermOf : public Base {
       }
       a_.elements.addBlocks(b, s.jacobian, O_, a_.shape.inputs, a_.shape.symmetric, {}, sink, s.moduli);
     });
+  }
+
+  bool addCapacity(const ConstDofView& u, double lambda, const TangentSink& sink) const override {
+    if (!capacity_) return false;
+    std::vector<double> room;
+    const double* data = dataAt(u, lambda, room);
+    forEachBatch("capacity", batches(), [&](int b) {
+      const ThreadMemory::Held held(a_.memory());
+      const Scratch s(*this, held);
+      inputs(b, u, lambda, true, s.in);
+      std::fill_n(s.jacobian, a_.perBatch(static_cast<std::size_t>(O_) * a_.shape.inputs), 0.0);
+      capacity_(a_.batch(b, data, held.data()), s.in, s.jacobian);
+      a_.elements.addBlocks(b, s.jacobian, O_, a_.shape.inputs, false, {}, sink, s.moduli);
+    });
+    return true;
   }
 
   void beginSeries(const ConstDofView& u, double lambda, int maxOrder) override {
@@ -267,6 +283,7 @@ class LawTermOf : public Base {
   PointVariables variables_;
   std::size_t moduliDoubles_ = 0;
   bool symmetricSum_ = false;
+  Capacity capacity_;  ///< empty: nothing is stored
   DataUpdate update_;
   std::unique_ptr<PointPieces> pieces_;  ///< null: not in pieces
   std::vector<double> initialData_;      ///< [point][datum]

@@ -38,17 +38,23 @@ class InverseOperator final : public Operator {
   RCP<const Map> map_;
 };
 
-/// Eigenvalues theta of K^-1 turned into those of K, nearest to zero first.
-std::vector<std::complex<double>> inverted(const std::vector<std::complex<double>>& theta) {
+/// Eigenvalues theta of K^-1 M turned into those of K, nearest to zero first.
+std::vector<std::complex<double>> inverted(const std::vector<std::complex<double>>& theta, Mass mass) {
+  // Zero is a multiple eigenvalue of a singular M, in chains of two where a constraint acts through another
+  // unknown (pressures): rounding makes its square root of it, 1e-8.
+  constexpr double zero = 1e-7;
+  double largest = 0;
+  for (const auto& t : theta) largest = std::max(largest, std::abs(t));
   std::vector<std::complex<double>> values;
-  for (const auto& t : theta) values.push_back(1.0 / t);
+  for (const auto& t : theta)
+    if (mass == Mass::regular || std::abs(t) > zero * largest) values.push_back(1.0 / t);
   // Of a conjugate pair the moduli are the same to the bit: which one comes first is of no account.
   std::stable_sort(values.begin(), values.end(),
                    [](const auto& a, const auto& b) { return std::norm(a) < std::norm(b); });
   return values;
 }
 
-NearestEigenvalues allOf(const Inverse& inverse, const RCP<const Map>& map) {
+NearestEigenvalues allOf(const Inverse& inverse, const RCP<const Map>& map, Mass mass) {
   const int n = static_cast<int>(map->getGlobalNumElements());
   std::vector<double> A, real(n), imaginary(n), work(4 * n);
   MultiVector unit(map, 1), column(map, 1);
@@ -67,20 +73,30 @@ NearestEigenvalues allOf(const Inverse& inverse, const RCP<const Map>& map) {
   if (info != 0) return {};
   std::vector<std::complex<double>> theta;
   for (int i = 0; i < n; ++i) theta.emplace_back(real[i], imaginary[i]);
-  return {inverted(theta), true};
+  return {inverted(theta, mass), true};
 }
 
 }  // namespace
 
-NearestEigenvalues nearestEigenvalues(const Inverse& inverse, const RCP<const Map>& map, int count) {
+NearestEigenvalues nearestEigenvalues(const Inverse& inverse, const RCP<const Map>& map, int count,
+                                      Mass mass) {
   constexpr int blockSize = 2, small = 64;
   const long long n = static_cast<long long>(map->getGlobalNumElements());
   // Twice as many directions as eigenvalues, and some: fewer restarts than with the least that would do.
   const int blocks = count + 4;
-  if (n <= small || n <= blockSize * (blocks + 2)) return allOf(inverse, map);
+  if (n <= small || n <= blockSize * (blocks + 2)) return allOf(inverse, map, mass);
 
   const auto start = Teuchos::rcp(new MultiVector(map, blockSize));
   for (int j = 0; j < blockSize; ++j) fillReference(*start->getVectorNonConst(j), j + 1);
+  if (mass == Mass::singular) {
+    // Twice: what is left of infinite eigenvalues, with chains of two, is rounding.
+    MultiVector applied(map, blockSize);
+    inverse(*start, applied);
+    inverse(applied, *start);
+    Teuchos::Array<double> norms(blockSize);
+    start->norm2(norms());
+    for (int j = 0; j < blockSize; ++j) start->getVectorNonConst(j)->scale(1 / norms[j]);
+  }
   using Problem = Anasazi::BasicEigenproblem<double, MultiVector, Operator>;
   const RCP<Operator> op = Teuchos::rcp(new InverseOperator(inverse, map));
   const auto problem = Teuchos::rcp(new Problem(op, start));
@@ -104,7 +120,7 @@ NearestEigenvalues nearestEigenvalues(const Inverse& inverse, const RCP<const Ma
   std::vector<std::complex<double>> theta;
   for (int i = 0; i < solution.numVecs; ++i)
     theta.emplace_back(solution.Evals[i].realpart, solution.Evals[i].imagpart);
-  return {inverted(theta), false};
+  return {inverted(theta, mass), false};
 }
 
 }  // namespace atrapos::linear

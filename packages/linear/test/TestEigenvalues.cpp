@@ -91,6 +91,46 @@ TEST(Eigenvalues, ConjugatePairsAndADoubleOne) {
   EXPECT_LE(solves, 120);
 }
 
+/// K x = mu M x with a pressure-like unknown for every three: [A, -B^T; B, 0] with A of 2 x 2 blocks and M of
+/// ones there, so that the eigenvalues that are left are those of A on the kernel of B, and two infinite ones
+/// come with each row of zeros in M.
+TEST(Eigenvalues, InfiniteOnesAreLeftOut) {
+  for (const int cells : {10, 100}) {
+    // Of each cell: a pair of unknowns that turn, one that B holds at zero, and its multiplier.
+    const auto pair = [](int c) { return std::complex<double>(c == 0 ? -0.5 : c, 1 + 0.5 * c); };
+    const auto K = makeMatrix(4 * cells, [&](int i) {
+      const int c = i / 4;
+      const double a = pair(c).real(), b = pair(c).imag();
+      if (i % 4 == 0) return Row{{i, a}, {i + 1, b}, {i + 2, 0.3}};
+      if (i % 4 == 1) return Row{{i - 1, -b}, {i, a}, {i + 2, 0.0}};
+      if (i % 4 == 2) return Row{{i - 2, 0.7}, {i, 2.0}, {i + 1, -3.0}};
+      return Row{{i - 1, 3.0}, {i, 0.0}};
+    });
+    const auto M = makeMatrix(4 * cells, [&](int i) { return Row{{i, i % 4 == 3 ? 0.0 : 1.0}}; });
+    TangentSolverOptions options;
+    options.symmetric = false;
+    const auto solver = makeTangentSolver(options);
+    solver->analyze(K);
+    solver->factor(K);
+    const Inverse inverse = [&](const MultiVector& x, MultiVector& y) {
+      MultiVector weighed(x.getMap(), x.getNumVectors());
+      M->apply(x, weighed);
+      solver->solve(weighed, y);
+    };
+    const auto found = nearestEigenvalues(inverse, K->getRowMap(), 6, Mass::singular);
+    EXPECT_EQ(found.complete, cells == 10);
+    ASSERT_GE(found.values.size(), 6u);
+    if (found.complete) {
+      EXPECT_EQ(found.values.size(), 2u * cells);
+    }
+    for (int k = 0; k < 6; ++k) {
+      const auto expected = pair(k / 2);
+      EXPECT_NEAR(found.values[k].real(), expected.real(), 1e-7);  // 1e-8 is asked for
+      EXPECT_NEAR(std::abs(found.values[k].imag()), expected.imag(), 1e-7);
+    }
+  }
+}
+
 /// The sign does not depend on how rows are numbered and scaled, nor on who has them.
 TEST(Eigenvalues, SignOfTheDeterminant) {
   for (const auto layout : {Layout::contiguous, Layout::scattered})

@@ -43,6 +43,11 @@ RCP<const CrsMatrix> Calls::tangent(const State& state, Vector& F) {
   return problemCall([&] { return problem_.tangent(state, F); });
 }
 
+RCP<const CrsMatrix> Calls::mass(const State& state) {
+  Stopwatch watch(work_.seconds.tangent);
+  return problemCall([&] { return problem_.mass(state); });
+}
+
 void Calls::factor(const State& state, Vector& F) { factor(tangent(state, F)); }
 
 void Calls::factor(const RCP<const CrsMatrix>& K) {

@@ -28,6 +28,7 @@ void Options::validate() const {
   require(maxStartIterations >= 0, "maxStartIterations", maxStartIterations, ">= 0");
   require(minCosine >= 0 && minCosine < 1, "minCosine", minCosine, "in [0, 1)");
   require(watchedModes >= 0, "watchedModes", watchedModes, ">= 0");
+  require(hopfEigenvalues >= 0, "hopfEigenvalues", hopfEigenvalues, ">= 0");
   require(positive(maxStep), "maxStep", maxStep, "positive and finite");
   require(positive(firstStep), "firstStep", firstStep, "positive and finite");
   require(positive(minStep) && minStep < maxStep, "minStep", minStep, "positive and less than maxStep");

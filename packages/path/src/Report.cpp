@@ -35,6 +35,10 @@ std::optional<long long> StepReport::negativeAt(double a) const {
     marks.push_back({p.a, p.negativeChange, true});
     rest -= p.negativeChange;
   }
+  for (const auto& p : hopfPoints) {
+    marks.push_back({p.a, p.negativeChange, true});
+    rest -= p.negativeChange;
+  }
   std::size_t limits = 0;
   for (const auto& p : limitPoints)
     if (p.smooth) {
@@ -44,8 +48,8 @@ std::optional<long long> StepReport::negativeAt(double a) const {
   std::sort(marks.begin(), marks.end(), [](const Mark& x, const Mark& y) { return x.a < y.a; });
   // All limit points change it the same way, or there are two and the first can only lose stability.
   const bool oneWay = inertiaEnd && static_cast<std::size_t>(std::llabs(rest)) == limits;
-  const bool thereAndBack =
-      inertiaEnd && limits == 2 && rest == 0 && criticalPoints.empty() && inertia->negative == 0;
+  const bool thereAndBack = inertiaEnd && limits == 2 && rest == 0 && criticalPoints.empty() &&
+                            hopfPoints.empty() && inertia->negative == 0;
   long long n = inertia->negative;
   std::size_t passed = 0, limitsPassed = 0;
   for (const Mark& m : marks) {

@@ -104,6 +104,7 @@ bool Run::step() {
     return end(EndReason::stopReached, passed);
   modes_ = std::move(tangent.modes);
   real_ = tangent.real;
+  spectrum_ = std::move(tangent.spectrum);
   clean(series);
   report.order = series.order();
   report.step = outcome_.steps + 1;
@@ -187,6 +188,7 @@ bool Run::settle(const EndTangent* end) {
   if (end) {
     report.inertiaEnd = end->inertia;
     explainStability(report, *end);
+    locateHopfPoints(report, *end);
   }
   outcome_.worstResidual = std::max(outcome_.worstResidual, report.residual);
   limitPoints_ += static_cast<int>(report.limitPoints.size());

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <complex>
 #include <optional>
 #include <sstream>
 #include <string>
@@ -70,6 +71,7 @@ class Run {
     double lambda1 = 0;       ///< load part of the unit tangent
     std::vector<Mode> modes;  ///< eigenvalues next to zero that are followed
     int real = 0;             ///< of an unsymmetric tangent: negative eigenvalues that are real
+    std::vector<std::complex<double>> spectrum;  ///< next to zero, where Hopf points are looked for
   };
 
   // Run.cpp: the loop.
@@ -101,6 +103,7 @@ class Run {
   void explainStability(StepReport& report, const EndTangent& end);
   std::vector<Mode> modesHere(const PathTangent& along, double weight);
   void countHere(EndTangent& tangent);
+  void locateHopfPoints(StepReport& report, const EndTangent& end);
   bool loadTurned(const EndTangent& end) const;
 
   // RunEvents.cpp: where the Problem changes.
@@ -176,11 +179,12 @@ class Run {
   int order_ = 0;                ///< of the next series
   int seriesOrders_ = 0, seriesBuilt_ = 0;  ///< orders of the accepted series in all; how many
   std::optional<double> weight_;
-  std::optional<Series> last_;          ///< the last accepted series
-  std::optional<StepReport> pending_;   ///< its step, not yet seen by the observer
-  std::vector<Mode> modes_;             ///< at the start of the pending step
-  int real_ = 0;                        ///< EndTangent::real there
-  std::optional<PathTangent> tangent_;  ///< at the current state, of what led there
+  std::optional<Series> last_;                  ///< the last accepted series
+  std::optional<StepReport> pending_;           ///< its step, not yet seen by the observer
+  std::vector<Mode> modes_;                     ///< at the start of the pending step
+  int real_ = 0;                                ///< EndTangent::real there
+  std::vector<std::complex<double>> spectrum_;  ///< EndTangent::spectrum there
+  std::optional<PathTangent> tangent_;          ///< at the current state, of what led there
   std::vector<int> due_;      ///< event functions that fell to zero at the state and are not applied yet
   std::vector<int> applied_;  ///< applied at the state: their functions start at zero
   bool turned_ = false;       ///< lambda goes the other way after the events

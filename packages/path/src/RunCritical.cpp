@@ -6,6 +6,7 @@
 
 #include "Critical.hpp"
 #include "GeometricProgression.hpp"
+#include "Hopf.hpp"
 #include "Newton.hpp"
 #include "Run.hpp"
 #include "Stability.hpp"
@@ -137,11 +138,15 @@ void Run::countHere(EndTangent& tangent) {
   if (calls_.problem().symmetric() || !options_.criticalPoints || options_.watchedModes == 0) return;
   // As many as were unstable at the last step's start, and those that may follow.
   expected_ = counted_;
+  const bool hopf = options_.hopfEigenvalues > 0;
+  const int count = std::max(expected_ + options_.watchedModes + 1, options_.hopfEigenvalues);
   try {
-    if (const auto unstable = countUnstable(calls_, expected_ + options_.watchedModes + 1)) {
+    const auto mass = hopf ? calls_.mass(outcome_.final) : Teuchos::null;
+    if (auto unstable = countUnstable(calls_, count, mass)) {
       counted_ = unstable->all;
       tangent.inertia = linear::Inertia{unstable->all, 0};
       tangent.real = unstable->real;
+      if (hopf) tangent.spectrum = std::move(unstable->nearest);
     }
   } catch (const PathError&) {
     // Next to a singular tangent: the numbers are beyond use.
@@ -203,6 +208,16 @@ void Run::explainStability(StepReport& report, const EndTangent& end) {
     if (point.kind == CriticalKind::multiple)
       point.negativeChange = after.negative > before.negative ? point.nullity : -point.nullity;
   }
+}
+
+/// Pairs that have crossed the imaginary axis inside the step. The solver's factorization is another one
+/// afterwards.
+void Run::locateHopfPoints(StepReport& report, const EndTangent& end) {
+  if (spectrum_.empty() || end.spectrum.empty()) return;
+  const int count = std::max(options_.hopfEigenvalues, static_cast<int>(end.spectrum.size()));
+  HopfFound found = findHopfPoints(calls_, *last_, {0, spectrum_}, {report.length, end.spectrum}, count);
+  outcome_.hopfFactorizations += found.factorizations;
+  report.hopfPoints = std::move(found.points);
 }
 
 }  // namespace atrapos::path

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <Tpetra_CrsMatrix.hpp>
+
 #include "atrapos/linear/Determinant.hpp"
 #include "atrapos/linear/Eigenvalues.hpp"
 
@@ -21,16 +23,21 @@ bool endStable(const linear::NearestEigenvalues& found) {
 
 }  // namespace
 
-std::optional<Unstable> countUnstable(Calls& calls, int count) {
+std::optional<Unstable> countUnstable(Calls& calls, int count, const RCP<const CrsMatrix>& mass) {
   if (calls.problem().constraintPivots() != 0) return std::nullopt;
   const auto sign = linear::determinantSign(calls.solver());
   const linear::Inverse inverse = [&](const linear::MultiVector& x, linear::MultiVector& y) {
-    calls.solve(x, y);
+    if (mass.is_null()) return calls.solve(x, y);
+    linear::MultiVector weighed(x.getMap(), x.getNumVectors());
+    mass->apply(x, weighed);
+    calls.solve(weighed, y);
   };
   // More would cost more than the step; the number is then not told.
   constexpr int most = 40;
   for (int wanted = count; wanted <= most; wanted *= 2) {
-    const auto found = linear::nearestEigenvalues(inverse, calls.problem().map(), wanted);
+    const auto found =
+        linear::nearestEigenvalues(inverse, calls.problem().map(), wanted,
+                                   mass.is_null() ? linear::Mass::regular : linear::Mass::singular);
     Unstable unstable;
     for (const auto& mu : found.values) {
       unstable.all += mu.real() < 0;
@@ -38,7 +45,10 @@ std::optional<Unstable> countUnstable(Calls& calls, int count) {
     }
     // det K is the product of all: negative real ones give its sign, conjugate pairs do not.
     const bool agrees = !sign || (unstable.real % 2 != 0) == (*sign < 0);
-    if (agrees && endStable(found)) return unstable;
+    if (agrees && endStable(found)) {
+      unstable.nearest = found.values;
+      return unstable;
+    }
     if (found.complete) return std::nullopt;
   }
   return std::nullopt;

@@ -6,11 +6,9 @@
 #include <utility>
 
 #include "FormulaInputs.hpp"
-#include "atrapos/fem/LawTerm.hpp"
-#include "atrapos/fem/ReducedLaw.hpp"
-#include "atrapos/fem/ReferenceCell.hpp"
 #include "atrapos/formula/Parse.hpp"
 #include "atrapos/physics/BalanceLaw.hpp"
+#include "atrapos/physics/FieldTerm.hpp"
 
 namespace atrapos::physics {
 namespace {
@@ -84,54 +82,6 @@ std::unique_ptr<fem::PointLaw> lawOf(int fields, const Programs& programs) {
                        : lawOf<Law<4>>(programs);
 }
 
-/// A law in space at points of a plane.
-std::unique_ptr<fem::PointLaw> inPlane(std::unique_ptr<fem::PointLaw> law, int fields) {
-  fem::Reduction r;
-  for (int f = 0; f < fields; ++f) {
-    for (const int i : {3 * f, 3 * f + 1, -1, 3 * f + 2}) r.inputs.push_back(i);
-    for (const int o : {4 * f, 4 * f + 1, 4 * f + 3}) r.outputs.push_back(o);
-  }
-  r.inputs.push_back(3 * fields);
-  r.numInputs = 3 * fields + 1;
-  return fem::reducedLaw(std::move(law), std::move(r));
-}
-
-/// Quadratic cells in full: a source is a quadratic function at least.
-fem::Tabulation cellOf(fem::Topology topology) {
-  switch (topology) {
-    case fem::Topology::Quad8:
-    case fem::Topology::Quad9:
-    case fem::Topology::Hex20:
-    case fem::Topology::Hex27:
-      return fem::tabulate(topology, 5);
-    case fem::Topology::Tri6:
-    case fem::Topology::Tet10:
-    case fem::Topology::Wedge15:
-      return fem::tabulate(topology, 4);
-    default:
-      return fem::tabulate(topology, 2);
-  }
-}
-
-fem::PointSet gradientPoints(const fem::Mesh& mesh, const fem::Block& block, const fem::Tabulation& cell,
-                             const std::optional<solid::PlaneSection>& plane) {
-  if (!plane) return fem::volumePoints(mesh, block, cell);
-  const bool ring = plane->kind == solid::PlaneSection::Kind::axisymmetric;
-  // A scalar has no part of its gradient around the axis.
-  fem::PointSet points =
-      solid::planePoints(mesh, block, cell, {solid::PlaneSection::Kind::strain, ring ? 1 : plane->thickness});
-  if (!ring) return points;
-  for (int p = 0; p < points.numPoints(); ++p) {
-    const double radius = points.positions[3 * static_cast<std::size_t>(p)];
-    if (!(radius > 0))
-      throw std::runtime_error("block '" + block.name + "', element " +
-                               std::to_string(p / points.pointsPerEntity + 1) +
-                               " (of the block): the radius x is not positive; the axis is x = 0");
-    points.weights[p] *= 2 * std::acos(-1.0) * radius;
-  }
-  return points;
-}
-
 }  // namespace
 
 fem::Field scalarField(const std::string& name) { return {name, {""}, fem::Role::primal, name}; }
@@ -173,12 +123,21 @@ std::unique_ptr<fem::Term> balanceTerm(const fem::Mesh& mesh, const fem::Block& 
                                        const std::vector<Balance>& balances, const Constants& constants,
                                        const std::optional<solid::PlaneSection>& plane) {
   const int count = static_cast<int>(fields.size());
-  Formulas formulas(fields, constants, Place::body, 2);
+  Formulas formulas(fields, constants, Place::body, 2), stored(fields, constants, Place::body, 1);
+  std::vector<char> isSaid(count, 0);
   for (const Balance& b : balances) {
     const int f = positionOf(b.field, fields);
     formulas.add(2 * f, b.conductivity);
     formulas.add(2 * f + 1, b.source);
+    if (b.capacity.empty()) continue;
+    stored.add(f, b.capacity);
+    isSaid[f] = 1;
   }
+  for (const Balance& b : balances)
+    if (const int f = positionOf(b.field, fields); !isSaid[f]) {
+      stored.add(f, "1");
+      isSaid[f] = 1;
+    }
   Programs programs;
   std::vector<int> sources;
   for (int f = 0; f < count; ++f) {
@@ -190,15 +149,10 @@ std::unique_ptr<fem::Term> balanceTerm(const fem::Mesh& mesh, const fem::Block& 
   programs.magnitudes = formulas.magnitudes(sources);
   auto law = lawOf<BalanceLaw>(count, programs);
 
-  const fem::Tabulation cell = cellOf(block.topology);
-  fem::PointSet points = gradientPoints(mesh, block, cell, plane);
-  points.components = 1;
-  points.field = fields[0];
-  for (int f = 0; f < count; ++f) {
-    if (f > 0) points.more.push_back(fem::gradientsOf(scalarField(fields[f]), points, cell));
-    points.more.push_back(fem::valuesOf(scalarField(fields[f]), points, cell));
-  }
-  return fem::lawTerm(plane ? inPlane(std::move(law), count) : std::move(law), points, points.positions);
+  const auto capacity = [program = stored.program()](const double* in, const double* data, double* c) {
+    formula::evaluate<double>(program, in, data, c);
+  };
+  return fieldTerm(mesh, block, fields, std::move(law), capacity, plane);
 }
 
 std::vector<std::unique_ptr<fem::Term>> inflowTerms(const fem::Mesh& mesh, const fem::SideSet& set,
@@ -218,20 +172,8 @@ std::vector<std::unique_ptr<fem::Term>> inflowTerms(const fem::Mesh& mesh, const
   programs.values = formulas.program();
   programs.magnitudes = formulas.magnitudes(all);
 
-  constexpr int degree = 5;  // three points along an edge of degree 2
-  std::vector<std::unique_ptr<fem::Term>> terms;
-  for (fem::PointSet& points :
-       plane ? solid::planeEdgePoints(mesh, set, *plane, degree) : fem::facePoints(mesh, set, degree)) {
-    points.components = 1;
-    points.field = fields[0];
-    for (int f = 1; f < count; ++f) {
-      fem::Interpolation of = points;
-      of.field = fields[f];
-      points.more.push_back(std::move(of));
-    }
-    terms.push_back(fem::lawTerm(lawOf<InflowLaw>(count, programs), points, points.positions));
-  }
-  return terms;
+  return sideTerms(
+      mesh, set, fields, [&] { return lawOf<InflowLaw>(count, programs); }, plane);
 }
 
 }  // namespace atrapos::physics

@@ -1,5 +1,6 @@
 #include "atrapos/physics/Flow.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 #include <utility>
 
@@ -14,6 +15,16 @@ namespace {
 template <int Components, bool Ring>
 std::unique_ptr<fem::PointLaw> lawOf(const Flow& flow) {
   return fem::pointLaw(FlowLaw<Components, Ring>{flow.viscosity, flow.density});
+}
+
+/// rho dv_i/dt beside rho v . grad v.
+fem::Capacity capacityOf(const Flow& flow, int components, int gradients) {
+  return [=, rho = flow.density](const fem::PointBatch& points, const double*, double* C) {
+    const int first = components * gradients, inputs = first + components + 1;
+    for (int q = 0; q < points.numPoints; ++q)
+      for (int i = first; i < first + components; ++i)
+        std::fill_n(C + ((q * inputs + i) * inputs + i) * fem::kLanes, fem::kLanes, rho);
+  };
 }
 
 }  // namespace
@@ -38,7 +49,8 @@ std::unique_ptr<fem::Term> flowTerm(const fem::Mesh& mesh, const fem::Block& blo
     points.more.push_back(fem::valuesOf(scalarField(name), points, cell));
   points.more.push_back(solid::pressureValues(scalarField(flow.pressure), points, block, cell));
   auto law = ring ? lawOf<2, true>(flow) : plane ? lawOf<2, false>(flow) : lawOf<3, false>(flow);
-  return fem::lawTerm(std::move(law), points);
+  const int count = static_cast<int>(components);
+  return fem::storingTerm(std::move(law), points, {}, capacityOf(flow, count, ring ? 3 : count));
 }
 
 }  // namespace atrapos::physics

@@ -1,6 +1,8 @@
 // Balances of scalar fields by formulas: patch test, manufactured solutions, derivatives.
 #include <gtest/gtest.h>
 
+#include <Tpetra_CrsMatrix.hpp>
+#include <Tpetra_Vector.hpp>
 #include <cmath>
 #include <functional>
 #include <string>
@@ -234,6 +236,59 @@ TEST(Balance, TangentAndOrders) {
       checkTangent(model());
       checkOrders(model());
     }
+}
+
+/// w . M v = int c w v dV of each field, where w and v are fields that the cells have: in space, planes and
+/// rings, with capacities of the fields themselves. Nothing in the rows and columns of supports.
+TEST(Balance, CapacitiesAreStored) {
+  for (int shape = 0; shape < 3; ++shape) {
+    SCOPED_TRACE(shape);
+    const fem::Mesh mesh = shape == 2 ? box(Topology::Hex20, {2, 2, 1}) : square(Topology::Quad9, 2, 1);
+    const Plane plane = shape == 2   ? Plane{}
+                        : shape == 1 ? Plane{solid::PlaneSection{Kind::axisymmetric, 1}}
+                                     : Plane{solid::PlaneSection{Kind::strain, 0.5}};
+    fem::FeModel model =
+        modelOf(mesh, {"a", "b", "d"},
+                {{"a", "1", "0", "2*(1 + b)"}, {"b", "1", "lambda"}, {"b", "0", "a"}, {"d", "1", "b", "0"}},
+                {}, plane);
+    const fem::DofMap dofs = model.dofs;
+    Numbers ones[3], u(dofs.numDofs());
+    for (int f = 0; f < 3; ++f) {
+      ones[f].assign(dofs.numDofs(), 0);
+      for (int n = 0; n < mesh.numNodes(); ++n) ones[f][dofs.dof(f, n, 0)] = 1;
+    }
+    for (int n = 0; n < mesh.numNodes(); ++n) u[dofs.dof(1, n, 0)] = mesh.coordinates[3 * n + 1];  // b = y
+    const auto product = [](const path::CrsMatrix& M, const Numbers& w, const Numbers& v) {
+      path::Vector x(M.getDomainMap()), y(M.getRangeMap());
+      for (std::size_t i = 0; i < v.size(); ++i) x.replaceLocalValue(static_cast<int>(i), v[i]);
+      M.apply(x, y);
+      double total = 0;
+      for (std::size_t i = 0; i < w.size(); ++i) total += w[i] * y.getData()[static_cast<int>(i)];
+      return total;
+    };
+    fem::FeProblem problem(std::move(model));
+    const auto state = [&] {
+      auto vector = Teuchos::rcp(new path::Vector(problem.map()));
+      for (std::size_t i = 0; i < u.size(); ++i) vector->replaceLocalValue(static_cast<int>(i), u[i]);
+      return path::State{vector, 0.3};
+    }();
+    const auto M = problem.mass(state);
+    ASSERT_FALSE(M.is_null());
+    // The cells are those of [1, 2] x [0, 1] (of the box [0, 1]^3), half as thick, or once around the axis.
+    const double volume = shape == 0 ? 0.5 : shape == 1 ? 3 * std::acos(-1.0) : 1;
+    EXPECT_NEAR(product(*M, ones[0], ones[0]), 3 * volume, 1e-12 * volume);  // 2 (1 + y), 3 in the mean
+    EXPECT_NEAR(product(*M, ones[1], ones[1]), volume, 1e-12 * volume);      // not said: 1
+    EXPECT_EQ(product(*M, ones[2], ones[2]), 0);                             // said to be 0
+    EXPECT_EQ(product(*M, ones[0], ones[1]), 0);
+    EXPECT_NEAR(product(*M, ones[1], u), 0.5 * volume, 1e-12 * volume);
+  }
+  const fem::Mesh mesh = square(Topology::Quad4, 2);
+  fem::FeModel held = modelOf(mesh, {"a"}, {{"a", "1", "1"}}, {}, solid::PlaneSection{Kind::strain, 1});
+  for (const int n : boundary(mesh)) held.prescribe(n, 0, 0, 1, "a");
+  fem::FeProblem problem(std::move(held));
+  const auto M = problem.mass({problem.initialState(0), 0});
+  // One node is free: the square of its shape function over four cells of 1/4, 4 (1/4) (1/3)^2.
+  EXPECT_NEAR(M->getFrobeniusNorm(), 1.0 / 9, 1e-15);
 }
 
 TEST(Balance, TooManyFieldsAreRefused) {

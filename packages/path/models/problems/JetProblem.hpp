@@ -23,7 +23,8 @@
 /// Everything else (tangent, F, orders) is read off Jets. One rank, dense graph. A law whose tangent is not
 /// symmetric has `bool symmetric() const`, false; one with Lagrange multipliers among its unknowns says how
 /// many
-/// (`int multipliers() const`): each owes a negative pivot.
+/// (`int multipliers() const`): each owes a negative pivot. One whose unknowns have rates of different
+/// weights says which (`std::vector<double> rateWeights() const`).
 template <class Law>
 class JetProblem : public atrapos::path::Problem {
  public:
@@ -93,6 +94,8 @@ class JetProblem : public atrapos::path::Problem {
     K_->fillComplete();
     return K_;
   }
+
+  Teuchos::RCP<const CrsMatrix> mass(const State&) override { return masses(law_, 0); }
 
   void beginSeries(const State& state, int maxOrder) override {
     remember(state);
@@ -164,6 +167,20 @@ class JetProblem : public atrapos::path::Problem {
   template <class L>
   static int multipliers(const L&, long) {
     return 0;
+  }
+
+  /// diag(law.rateWeights()); null where the law has none.
+  template <class L>
+  auto masses(const L& law, int) -> decltype(law.rateWeights(), Teuchos::RCP<const CrsMatrix>()) {
+    const std::vector<double> diagonal = law.rateWeights();
+    const auto M = Teuchos::rcp(new CrsMatrix(map_, 1));
+    for (long long i = 0; i < law.size(); ++i) M->insertGlobalValues(i, 1, &diagonal[i], &i);
+    M->fillComplete();
+    return M;
+  }
+  template <class L>
+  Teuchos::RCP<const CrsMatrix> masses(const L&, long) {
+    return Teuchos::null;
   }
 
   std::vector<Jet> jets(const Vector& u) const {

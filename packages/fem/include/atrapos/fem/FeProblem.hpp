@@ -42,6 +42,9 @@ class FeProblem final : public path::Problem {
   bool symmetric() const override;
   path::ResidualNorm residual(const path::State& state, path::Vector& r) override;
   linear::RCP<const path::CrsMatrix> tangent(const path::State& state, path::Vector& F) override;
+  /// What the terms store (Term::addCapacity), on the tangent's graph; nothing in the rows and columns of
+  /// prescribed dofs and of those eliminated by couplings. Null where no term stores anything.
+  linear::RCP<const path::CrsMatrix> mass(const path::State& state) override;
   void beginSeries(const path::State& state, int maxOrder) override;
   void orderRhs(int k, path::Vector& Fk) override;
   void completeOrder(int k, const path::Vector& Uk, double lambdaK) override;

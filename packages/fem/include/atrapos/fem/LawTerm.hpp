@@ -35,6 +35,15 @@ using DataUpdate = std::function<void(int numPoints, const double* in, double* d
 std::unique_ptr<Term> lawTerm(std::unique_ptr<PointLaw> law, const PointSet& points,
                               const std::vector<double>& data = {}, DataUpdate update = {});
 
+/// What is stored at the points of a batch: outputs grow by C d(in)/dt where the inputs have rates, which a
+/// path does not. C: [point][output][input][lane], zero on entry. Called where Hopf points are looked for,
+/// once a step.
+using Capacity = std::function<void(const PointBatch& points, const double* in, double* C)>;
+
+/// A law at points that store something (Term::addCapacity).
+std::unique_ptr<Term> storingTerm(std::unique_ptr<PointLaw> law, const PointSet& points,
+                                  const std::vector<double>& data, Capacity capacity);
+
 /// A law that is analytic piece by piece: which piece a point is on is part of its data.
 std::unique_ptr<Term> lawTerm(std::unique_ptr<PointLaw> law, const PointSet& points,
                               const std::vector<double>& data, PieceSearch search);

@@ -89,6 +89,12 @@ class Term {
   /// K += dF/du, load direction -= dF/dlambda.
   virtual void addTangent(const ConstDofView& u, double lambda, const TangentSink& sink) const = 0;
 
+  /// K += C, the derivative of what the term stores by the unknowns, where these have rates (fem::Capacity;
+  /// the load direction is left alone). False: it stores nothing.
+  virtual bool addCapacity(const ConstDofView& /*u*/, double /*lambda*/, const TangentSink& /*sink*/) const {
+    return false;
+  }
+
   /// Order 0 of the series at (u, lambda); histories for orders up to maxOrder. Throws taylor::DomainError,
   /// naming the point, where the law has no series.
   virtual void beginSeries(const ConstDofView& u, double lambda, int maxOrder) = 0;

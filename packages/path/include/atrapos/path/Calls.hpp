@@ -33,6 +33,9 @@ class Calls {
   /// K_T(state) without factoring it, and F.
   RCP<const CrsMatrix> tangent(const State& state, Vector& F);
 
+  /// Problem::mass.
+  RCP<const CrsMatrix> mass(const State& state);
+
   void beginSeries(const State& state, int maxOrder);
   void orderRhs(int k, Vector& Fk);
   /// (v, internal variables of order k for U_k = v, lambda_k = mu).

@@ -26,6 +26,7 @@ class ForcedProblem : public Problem {
 
   RCP<const Map> map() const override { return unforced_.map(); }
   bool symmetric() const override { return unforced_.symmetric(); }
+  RCP<const CrsMatrix> mass(const State& state) override { return unforced_.mass(state); }
   ResidualNorm residual(const State& state, Vector& r) override;
   RCP<const CrsMatrix> tangent(const State& state, Vector& F) override;
   void beginSeries(const State& state, int maxOrder) override { unforced_.beginSeries(state, maxOrder); }

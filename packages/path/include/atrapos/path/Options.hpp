@@ -73,6 +73,12 @@ struct Options {
   /// and what the last step passed, are not known.
   bool closeEnd = true;
 
+  /// Where an unsymmetric tangent has a conjugate pair of eigenvalues that crosses the imaginary axis, the
+  /// place is located (HopfPoint): as many eigenvalues next to zero as this, of K x = mu M x with
+  /// Problem::mass, are computed at each step's end, and some nine factorizations spent on each point. 0:
+  /// eigenvalues are those of K, and pairs are counted only.
+  int hopfEigenvalues = 0;
+
   double maxStep = 1e3;     ///< longest step; bounds series that terminate
   double firstStep = 1e-3;  ///< first trial step of order 1, which has no estimate; later trials double
   double minStep = 1e-10;   ///< a cut-back below this ends the path

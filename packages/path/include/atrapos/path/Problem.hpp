@@ -120,6 +120,11 @@ class Problem {
   /// say nothing about stability and are not counted.
   virtual int constraintPivots() const { return 0; }
 
+  /// M in M dU/dt = -R(U, lambda), on the graph of the tangent or a smaller one: it says which states are
+  /// stable where the unknowns have rates of different weights or none (docs/theory/stability.md). Null:
+  /// dU/dt = -R. The matrix is the Problem's own, its values hold until the next call.
+  virtual RCP<const CrsMatrix> mass(const State& /*state*/) { return Teuchos::null; }
+
   /// The inner product behind the path parameter (without its weight w and its load term):
   /// a = w <X - X0, X_1> + (lambda - lambda0) lambda_1 with X = (unknowns, internal variables).
   /// Default: the Euclidean product of the unknowns.

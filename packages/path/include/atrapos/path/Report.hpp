@@ -56,6 +56,17 @@ struct CriticalPoint {
   std::vector<RCP<Vector>> nullVectors;  ///< of K_T there, Euclidean norm 1
 };
 
+/// A point of the path at which a conjugate pair of eigenvalues of K x = mu M x crosses the imaginary axis:
+/// next to it a state that moves by M dU/dt = -R(U, lambda) turns around the path's with this frequency.
+struct HopfPoint {
+  double a = 0;            ///< on the step's series
+  State state;             ///< that of the series there
+  double frequency = 0;    ///< angular, |mu|, > 0
+  double residual = 0;     ///< relative, at `state`
+  double uncertainty = 0;  ///< of its place on the series, as a part of the step's length
+  int negativeChange = 2;  ///< of the number of unstable eigenvalues from before to behind it, +-2
+};
+
 /// An eigenvalue of the tangent next to zero, as it is followed from step to step.
 struct FollowedEigenvalue {
   RCP<Vector> vector;  ///< Euclidean norm 1
@@ -113,6 +124,7 @@ struct StepReport {
   /// needed (Options::jumpBound): the next step does not start from `end`. Else 0.
   double jump = 0;
   std::vector<CriticalPoint> criticalPoints;  ///< bifurcation points inside the step, ascending
+  std::vector<HopfPoint> hopfPoints;          ///< ascending (Options::hopfEigenvalues)
   /// Eigenvalues that changed sign inside the step and are explained by no point found: the tangent says that
   /// there is a bifurcation, its place is not known.
   int unexplained = 0;
@@ -188,8 +200,8 @@ struct Work {
 };
 
 /// How a path ended, and what it cost. factorizations = steps + startIterations + corrections + restarts +
-/// retreats + closings + criticalFactorizations + eventTrials, plus 1 where the last series did not become a
-/// step.
+/// retreats + closings + criticalFactorizations + hopfFactorizations + eventTrials, plus 1 where the last
+/// series did not become a step.
 struct Outcome : Work {
   EndReason reason = EndReason::problemFailed;
   std::string text;  ///< one line
@@ -199,6 +211,7 @@ struct Outcome : Work {
   int restarts = 0;                ///< singular tangents met at the start of a step
   int retreats = 0;                ///< steps halved because the direction at their end was another one
   int criticalFactorizations = 0;  ///< spent on locating critical points
+  int hopfFactorizations = 0;      ///< the same on Hopf points
   int events = 0;                  ///< applied
   int jumps = 0;                   ///< passed by corrections (StepReport::jump)
   int eventTrials = 0;             ///< factorizations of changes that turned out not to be admissible

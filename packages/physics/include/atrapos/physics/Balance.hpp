@@ -20,11 +20,12 @@
 /// formula::FormulaError.
 namespace atrapos::physics {
 
-/// -div(conductivity grad field) = source.
+/// capacity dfield/dt - div(conductivity grad field) = source, of which a path follows the steady states.
 struct Balance {
   std::string field;
   std::string conductivity = "0";
   std::string source = "0";
+  std::string capacity{};  ///< empty: not said; 1 where no balance of the field says it
 };
 
 /// conductivity dfield/dn = amount, per area.
