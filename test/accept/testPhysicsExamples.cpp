@@ -100,6 +100,68 @@ TEST(Schnakenberg, TuringsBifurcation) {
   EXPECT_EQ(run.summary.at("unexplained_sign_changes"), 0);
 }
 
+/// Hopf points of the rest state at l = n pi sqrt((D1 + D2)/(b - 1 - a^2)), with omega^2 the determinant of
+/// the reaction with diffusion there; the mesh's error is that of an eigenvalue of quadratic cells, of
+/// order 4.
+TEST(Brusselator, HopfPointsAlongTheLength) {
+  const double D1 = 0.008, D2 = 0.004, a2 = 4, b = 5.45;
+  const double q = (b - 1 - a2) / (D1 + D2), first = pi / std::sqrt(q);
+  const double frequency = std::sqrt((b - 1 - D1 * q) * (-a2 - D2 * q) + a2 * b);
+  double error[2][4];
+  for (int i = 0; i < 2; ++i) {
+    const ExampleRun run("reaction/brusselator.yaml", {{"[32, 1]", i == 0 ? "[16, 1]" : "[32, 1]"}});
+    const auto points = pointsIn(run, "hopf_points");
+    ASSERT_EQ(points.size(), 4u);
+    for (int n = 1; n <= 4; ++n) {
+      const auto& entry = run.summary.at("hopf_points")[n - 1];
+      error[i][n - 1] = points[n - 1].monitors.at("length") - n * first;
+      expectClose(entry.at("frequency"), frequency, i == 0 ? 1e-3 : 1e-4);
+      EXPECT_EQ(entry.at("negative_change"), 2);
+      EXPECT_LT(entry.at("uncertainty"), 1e-6);
+    }
+    EXPECT_TRUE(run.summary.at("points").empty());
+    // Two more unstable eigenvalues behind each.
+    const auto length = run.column("length"), unstable = run.column("negative_eigenvalues");
+    for (std::size_t k = 0; k < length.size(); ++k)
+      EXPECT_EQ(unstable[k], 2 * std::floor(length[k] / first)) << length[k];
+  }
+  for (int n = 1; n <= 4; ++n) EXPECT_LT(std::abs(error[1][n - 1]), 2e-5 * n * first) << n;
+  // Those of one and two half waves are off by what eigenvalues are computed to already.
+  for (int n = 3; n <= 4; ++n) EXPECT_NEAR(std::log2(error[0][n - 1] / error[1][n - 1]), 4, 0.2) << n;
+}
+
+/// A run that goes on knows the points before it.
+TEST(Brusselator, GoesOn) {
+  const ExampleRun run("reaction/brusselator.yaml", {{"load_factor: 2", "load_factor: 1"}});
+  EXPECT_EQ(pointsIn(run, "hopf_points").size(), 2u);
+  writeFile(run.folder.deck(), edited(readFile(run.folder.deck()), "{load_factor: 1}", "{load_factor: 2}"));
+  const auto result = runAtrapos({"run", "-q", "--restart", "results", "deck.yaml"}, run.folder.path());
+  ASSERT_EQ(result.exitCode, 0) << result.err;
+  const auto found = nlohmann::json::parse(readFile(run.folder.results("summary.json"))).at("hopf_points");
+  ASSERT_EQ(found.size(), 4u);
+  for (int n = 1; n <= 4; ++n) expectClose(found[n - 1].at("monitors").at("length"), 0.513020 * n, 1e-4);
+  expectClose(found[0].at("frequency"), 2.13951, 1e-4);
+}
+
+/// The same on several ranks.
+TEST(Brusselator, OnSeveralRanks) {
+  const ExampleRun one("reaction/brusselator.yaml");
+  const auto& known = one.summary.at("hopf_points");
+  for (const int ranks : {2, 3}) {
+    const auto result =
+        runAtraposOnRanks(ranks, {"run", "-q", "-o", "ranks", "deck.yaml"}, one.folder.path());
+    ASSERT_EQ(result.exitCode, 0) << result.err;
+    const auto found =
+        nlohmann::json::parse(readFile(one.folder.path() / "ranks/summary.json")).at("hopf_points");
+    ASSERT_EQ(found.size(), known.size()) << ranks;
+    for (std::size_t n = 0; n < found.size(); ++n) {
+      // A hundred times what eigenvalues are computed to.
+      expectClose(found[n].at("load_factor"), known[n].at("load_factor"), 1e-6);
+      EXPECT_EQ(found[n].at("negative_change"), 2);
+    }
+  }
+}
+
 /// Uniform temperature: the voltage is largest at T = B/2 (1 - sqrt(1 - 4 T0/B)), whatever the other numbers
 /// are, and the current is what the load says.
 TEST(Thermistor, LargestVoltage) {
