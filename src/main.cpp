@@ -35,6 +35,7 @@
 #include "machine/Threads.hpp"
 #include "output/Files.hpp"
 #include "output/RunLog.hpp"
+#include "plugin/Plugins.hpp"
 
 namespace {
 
@@ -75,6 +76,15 @@ std::string defaultDirectory(const std::string& deck) {
   return std::filesystem::path(deck).stem().string() + "_results";
 }
 
+/// They are code, and loaded because the command line says so, before any deck is read.
+void loadPlugins(const std::vector<std::string>& files) {
+  for (const std::string& file : files) try {
+      atrapos::plugins::load(file);
+    } catch (const std::invalid_argument& e) {
+      throw atrapos::deck::DeckError(fmt::format("atrapos: --plugin {}", e.what()));
+    }
+}
+
 struct RunWords {
   std::string deck, output, restart;
   std::string from;  ///< STEP or BRANCH:STEP; empty: not given
@@ -100,6 +110,7 @@ atrapos::RestartPlace placeOf(const std::string& word) {
 int run(const RunWords& words) {
   const int threads = words.threads;
   const auto deck = atrapos::deck::readDeck(words.deck);
+  atrapos::plugins::require(deck);
   if (threads > 1 && !(Kokkos::DefaultExecutionSpace::concurrency() > 1))
     throw atrapos::deck::DeckError(fmt::format("atrapos: --threads {}: this build runs on {} (one thread)",
                                                threads, Kokkos::DefaultExecutionSpace::name()));
@@ -132,7 +143,10 @@ int map(const atrapos::MapWords& words) {
   atrapos::MapOptions options = atrapos::mapOptions(words);
   options.progress = words.quiet ? nullptr : &std::cout;
   std::vector<atrapos::deck::Deck> decks;
-  for (const std::string& deck : words.decks) decks.push_back(atrapos::deck::readDeck(deck));
+  for (const std::string& deck : words.decks) {
+    decks.push_back(atrapos::deck::readDeck(deck));
+    atrapos::plugins::require(decks.back());
+  }
   // Many short runs, one after another: one rank makes them.
   return atrapos::ranks::onFirst([&] {
     return reported("atrapos: ", [&] {
@@ -162,7 +176,9 @@ int makeMesh(const std::string& deckFile, const std::string& output, bool quiet)
 
 int check(const std::string& deckFile) {
   std::ostream nowhere(nullptr);
-  atrapos::checkDeck(atrapos::deck::readDeck(deckFile), atrapos::ranks::isFirst() ? std::cout : nowhere);
+  const auto deck = atrapos::deck::readDeck(deckFile);
+  atrapos::plugins::require(deck);
+  atrapos::checkDeck(deck, atrapos::ranks::isFirst() ? std::cout : nowhere);
   return 0;
 }
 
@@ -289,6 +305,15 @@ int main(int argc, char** argv) {
   mapCommand->add_option("-o,--output", mapWords.output, "table (default: map.csv)");
   mapCommand->add_flag("-q,--quiet", mapWords.quiet, "print nothing");
 
+  std::vector<std::string> pluginFiles;
+  for (auto* const command : {runCommand, checkCommand, mapCommand})
+    command
+        ->add_option("--plugin", pluginFiles,
+                     "load this library with physics for decks that name it: a program, which you trust "
+                     "(docs/plugins.md); may be said more than once")
+        ->expected(1)
+        ->take_all();
+
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& e) {
@@ -331,7 +356,10 @@ int main(int argc, char** argv) {
       words.output = output;
       words.threads = threads;
       words.quiet = quiet;
-      return withRuntime(threads, named, [&] { return run(words); });
+      return withRuntime(threads, named, [&] {
+        loadPlugins(pluginFiles);
+        return run(words);
+      });
     }
     if (*meshCommand) return makeMesh(deck, output, quiet);
     std::ostream* const progress = quiet ? nullptr : &std::cout;
@@ -360,8 +388,16 @@ int main(int argc, char** argv) {
       atrapos::writeChart(chartFile, output.empty() ? stem + "_chart" : output, progress);
       return 0;
     }
-    if (*checkCommand) return withRuntime(0, named, [&] { return check(deck); });
-    if (*mapCommand) return withRuntime(0, named, [&] { return map(mapWords); });
+    if (*checkCommand)
+      return withRuntime(0, named, [&] {
+        loadPlugins(pluginFiles);
+        return check(deck);
+      });
+    if (*mapCommand)
+      return withRuntime(0, named, [&] {
+        loadPlugins(pluginFiles);
+        return map(mapWords);
+      });
     return kInternalError;
   });
 }

@@ -263,6 +263,8 @@ class MeshCheck {
       edges(path + "/set", edge->set);
     } else if (const auto* inflow = std::get_if<InflowLoad>(&load.load)) {
       sides(path + "/set", inflow->set);
+    } else if (const auto* own = std::get_if<PluginLoad>(&load.load)) {
+      sides(path + "/set", own->set);
     } else {
       inPlane(path, std::get<VolumeLoad>(load.load).force[2] != 0);
       for (const auto& name : std::get<VolumeLoad>(load.load).blocks) {

@@ -136,9 +136,16 @@ struct FluidFlow {
 };
 
 /// What acts in some blocks; unknowns exist where something acts on them.
+/// A law of a plug-in, for scalar fields.
+struct PluginLaw {
+  std::string law;
+  std::vector<std::string> fields;
+  std::map<std::string, double> parameters;
+};
+
 struct Physics {
   std::string name;
-  std::variant<ScalarBalance, FluidFlow> law;
+  std::variant<ScalarBalance, FluidFlow, PluginLaw> law;
   std::vector<std::string> blocks;  ///< names or ids
 };
 
@@ -281,10 +288,16 @@ struct InflowLoad {
   std::string amount;  ///< formula of the fields there, lambda, x, y, z
 };
 
+/// A law of a plug-in on the sides of a set.
+struct PluginLoad {
+  std::string set;
+  PluginLaw law;
+};
+
 struct Load {
   std::string name;
   bool constant = false;  ///< not multiplied by the load factor
-  std::variant<NodalLoad, SurfaceLoad, VolumeLoad, EdgeLoad, InflowLoad> load;
+  std::variant<NodalLoad, SurfaceLoad, VolumeLoad, EdgeLoad, InflowLoad, PluginLoad> load;
 };
 
 // ------------------------------------------------------------------------------------ tools, contact
@@ -601,6 +614,7 @@ struct Deck {
   std::string text;  ///< the whole file, for the result file's info records
   std::string title;
   std::optional<ModelProblem> problem;  ///< then of what follows only path, solver, output/points_per_step
+  std::vector<std::string> plugins;     ///< names of those that it needs
   MeshInput mesh;
   std::map<std::string, double> constants;  ///< of formulas, by name
   std::vector<Material> materials;          ///< all entries in the deck's order

@@ -95,8 +95,10 @@ void checkInField(const Value& root, const Material& material, const Deck& deck)
   const std::string& field = material.dielectric->field;
   checkFieldName(v.at("field"), field, deck);
   for (const auto& entry : deck.physics) {
+    const auto* own = std::get_if<PluginLaw>(&entry.law);
     if (const auto* balance = std::get_if<ScalarBalance>(&entry.law);
-        balance != nullptr && balance->field == field) {
+        (balance != nullptr && balance->field == field) ||
+        (own != nullptr && std::count(own->fields.begin(), own->fields.end(), field) > 0)) {
       v.at("field").fail(
           fmt::format("physics/{} has a balance of '{}', whose rows are no charges", entry.name, field));
     }
@@ -141,10 +143,25 @@ void checkFlowNames(const Value& at, const Physics& entry, const Deck& deck) {
     for (const auto& other : deck.physics) {
       const auto* balance = std::get_if<ScalarBalance>(&other.law);
       twice = twice || (balance != nullptr && balance->field == own[i]);
+      const auto* law = std::get_if<PluginLaw>(&other.law);
+      twice = twice || (law != nullptr && std::count(law->fields.begin(), law->fields.end(), own[i]) > 0);
     }
     if (twice) {
       v.fail(fmt::format("'{}' has a balance already; expected a field of its own for each", own[i]));
     }
+  }
+}
+
+/// What an entry with a plug-in's law needs, whatever the plug-in says of it.
+void checkPluginLaw(const Value& at, const PluginLaw& entry, const Deck& deck) {
+  if (deck.plugins.empty()) {
+    at.at("law").fail("needs the block plugins, with the name of the plug-in that has it");
+  }
+  for (const std::string& field : entry.fields) {
+    checkFieldName(at.at("fields"), field, deck);
+  }
+  if (entry.fields.empty()) {
+    at.at("fields").fail("is empty; expected the names of the law's fields");
   }
 }
 
@@ -153,6 +170,8 @@ void checkPhysics(const Value& root, const Deck& deck) {
     const Value at = root.at("physics").entries().at(entry.name);
     if (const auto* balance = std::get_if<ScalarBalance>(&entry.law)) {
       checkFieldName(at.at("field"), balance->field, deck);
+    } else if (const auto* own = std::get_if<PluginLaw>(&entry.law)) {
+      checkPluginLaw(at, *own, deck);
     } else {
       checkFlowNames(at, entry, deck);
     }
@@ -188,6 +207,16 @@ void checkPhysics(const Value& root, const Deck& deck) {
       checkFormula(at.at("amount"), inflow->amount, deck, physics::Place::surface);
       if (load.constant) {
         at.at("constant").fail("has no meaning with type: inflow, whose formula says lambda itself");
+      }
+    }
+    if (const auto* own = std::get_if<PluginLoad>(&load.load)) {
+      const Value at = root.at("loads").entries().at(load.name);
+      checkPluginLaw(at, own->law, deck);
+      for (const std::string& field : own->law.fields) {
+        requireField(at.at("fields"), field, deck);
+      }
+      if (load.constant) {
+        at.at("constant").fail("has no meaning with type: plugin, whose law reads the load factor itself");
       }
     }
   }
@@ -473,6 +502,9 @@ void checkStages(const Value& path, const Deck& deck) {
   refuse("branches", deck.path.branches != path::Follow::none, "");
   refuse("imperfections", !deck.path.imperfections.empty(), "");
   refuse("sharpen", deck.path.sharpen.has_value(), "");
+  if (!deck.plugins.empty()) {
+    path.at("stages").failKey("are not for decks with plug-ins, whose laws have one load factor");
+  }
   std::map<std::string, int> lastDrivenBy;
   std::vector<std::string> gone;
   const auto entries = path.at("stages").entries().children();

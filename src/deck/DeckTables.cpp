@@ -143,6 +143,7 @@ const Table<Deck>& deckTable() {
     return Table<Deck>{
         title,
         block("mesh", required, &Deck::mesh, meshTable(), "the body's mesh"),
+        pluginsField(),
         constantsField(),
         materials,
         entries("physics", optional, &Deck::physics, physicsVariants(), "each with type, blocks, ...",

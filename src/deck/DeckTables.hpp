@@ -31,6 +31,8 @@ Field<Material> expansionField();
 Field<Material> dielectricField();
 /// The load of type inflow.
 Alternative<decltype(Load::load)> inflowAlternative();
+Alternative<decltype(Load::load)> pluginLoadAlternative();
+Field<Deck> pluginsField();
 const Table<Support>& supportTable();
 const Table<Coupling>& couplingTable();
 const Variants<Load, decltype(Load::load)>& loadVariants();

@@ -356,7 +356,7 @@ const Variants<Load, decltype(Load::load)>& loadVariants() {
            [](const Value& map, const EdgeLoad&) {
              requireExactlyOne(map, {"total", "force", "moment", "follower_force", "follower_moment"});
            }),
-       inflowAlternative()},
+       inflowAlternative(), pluginLoadAlternative()},
       {flag("constant", &Load::constant, "true: not multiplied by the load factor")}};
   return variants;
 }

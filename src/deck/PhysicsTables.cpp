@@ -1,4 +1,6 @@
 // Keys of scalar fields and what acts on them: constants, fields, physics, inflow.
+#include <fmt/format.h>
+
 #include "atrapos/formula/Builder.hpp"
 #include "atrapos/physics/Balance.hpp"
 #include "deck/DeckTables.hpp"
@@ -21,7 +23,71 @@ Field<S> formula(std::string key, Need need, std::string S::*member, std::string
           }};
 }
 
+const PluginLaw& lawOf(const PluginLaw& s) { return s; }
+PluginLaw& lawOf(PluginLaw& s) { return s; }
+const PluginLaw& lawOf(const PluginLoad& s) { return s.law; }
+PluginLaw& lawOf(PluginLoad& s) { return s.law; }
+
+/// Keys of an entry with a plug-in's law.
+template <class S>
+Table<S> pluginTable() {
+  return {
+      Field<S>{"law", true, "a name", "a law of one of the deck's plug-ins",
+               [](const Value& v, S& s) { lawOf(s).law = v.name(); },
+               [](const S& s) {
+                 return lawOf(s).law.empty() ? Node{} : Node{yaml(lawOf(s).law), {}};
+               }},
+      Field<S>{"fields", true, "a list of names", "the fields that it is for, in its order",
+               [](const Value& v, S& s) { lawOf(s).fields = v.names(); },
+               [](const S& s) {
+                 return Node{yamlList(lawOf(s).fields), {}};
+               }},
+      Field<S>{"parameters", false, "a map of names to numbers", "its parameters that are not what it says",
+               [](const Value& v, S& s) {
+                 for (const Value& each : v.children()) {
+                   lawOf(s).parameters[each.key()] = each.real();
+                 }
+               },
+               [](const S& s) {
+                 Node node;
+                 for (const auto& [name, value] : lawOf(s).parameters) {
+                   node.children.emplace_back(name, Node{yaml(value), {}});
+                 }
+                 return node;
+               }}};
+}
+
 }  // namespace
+
+Field<Deck> pluginsField() {
+  return {"plugins",
+          false,
+          "a list of names",
+          "plug-ins whose laws it uses; the command line says where they are (--plugin FILE)",
+          [](const Value& v, Deck& deck) {
+            deck.plugins = v.names();
+            for (const std::string& name : deck.plugins) {
+              if (!physics::isFreeName(name)) {
+                v.fail(
+                    fmt::format("'{}' is no name of a plug-in; expected a name, whose file the command line "
+                                "says with --plugin FILE",
+                                name));
+              }
+            }
+          },
+          [](const Deck& deck) {
+            return deck.plugins.empty() ? Node{} : Node{yamlList(deck.plugins), {}};
+          }};
+}
+
+Alternative<decltype(Load::load)> pluginLoadAlternative() {
+  static const Table<PluginLoad> table = [] {
+    auto keys = pluginTable<PluginLoad>();
+    keys.push_back(name("set", required, &PluginLoad::set, "a side set, name or id", "where it acts"));
+    return keys;
+  }();
+  return alternative<decltype(Load::load), PluginLoad>("plugin", table);
+}
 
 Field<Deck> constantsField() {
   return {"constants",
@@ -81,7 +147,8 @@ const Variants<Physics, decltype(Physics::law)>& physicsVariants() {
             real("viscosity", required, &FluidFlow::viscosity, check::positive,
                  "dynamic: pressure times time"),
             real("density", optional, &FluidFlow::density, check::natural,
-                 "mass per volume; 0: creeping flow")})},
+                 "mass per volume; 0: creeping flow")}),
+       alternative<V, PluginLaw>("plugin", pluginTable<PluginLaw>())},
       {names("blocks", required, &Physics::blocks, "where it acts")}};
   return variants;
 }
@@ -129,6 +196,12 @@ std::vector<std::string> scalarFields(const Deck& deck) {
   for (const auto& entry : deck.physics) {
     if (const auto* balance = std::get_if<ScalarBalance>(&entry.law)) {
       add(balance->field);
+      continue;
+    }
+    if (const auto* own = std::get_if<PluginLaw>(&entry.law)) {
+      for (const std::string& field : own->fields) {
+        add(field);
+      }
       continue;
     }
     const auto& flow = std::get<FluidFlow>(entry.law);

@@ -64,6 +64,8 @@ bool isDriven(const Load& load, const Formulas& formulas) {
       [&](const auto& of) {
         if constexpr (std::is_same_v<decltype(of), const InflowLoad&>) {
           return formulas.haveLambda(of.amount, physics::Place::surface);
+        } else if constexpr (std::is_same_v<decltype(of), const PluginLoad&>) {
+          return true;  // its law may read the load factor
         } else {
           return !load.constant && !isZero(of);
         }
@@ -98,6 +100,9 @@ bool isDriven(const Tool& tool, const Deck& deck) {
 }
 
 bool isDriven(const Physics& physics, const Formulas& formulas) {
+  if (std::holds_alternative<PluginLaw>(physics.law)) {
+    return true;  // its law may read the load factor
+  }
   const auto* balance = std::get_if<ScalarBalance>(&physics.law);
   return balance != nullptr && (formulas.haveLambda(balance->conductivity, physics::Place::body) ||
                                 formulas.haveLambda(balance->source, physics::Place::body));
@@ -127,6 +132,8 @@ void hold(Deck& deck, const Driven& entry, double loadFactor) {
           [&](auto& of) {
             if constexpr (std::is_same_v<decltype(of), InflowLoad&>) {
               of.amount = atLoadFactor(of.amount, loadFactor);
+            } else if constexpr (std::is_same_v<decltype(of), PluginLoad&>) {
+              throw std::logic_error("stages: of a plug-in's load");  // refused with the deck
             } else {
               scale(of, loadFactor);
               load.constant = true;

@@ -13,6 +13,7 @@
 #include "deck/DeckTables.hpp"
 #include "machine/Memory.hpp"
 #include "machine/Ranks.hpp"
+#include "plugin/Plugins.hpp"
 
 namespace atrapos {
 namespace {
@@ -150,6 +151,9 @@ nlohmann::ordered_json runSummary(const deck::Deck& deck, const PathCase& pathCa
   json["title"] = deck.title;
   json["driven_by"] = drivenBy(deck);
   json["monitors"] = monitorTypes(deck);
+  for (const auto& plugin : plugins::loaded())
+    if (std::find(deck.plugins.begin(), deck.plugins.end(), plugin.name) != deck.plugins.end())
+      json["plugins"].push_back({{"name", plugin.name}, {"file", plugin.file}});
   if (inStages) json["stage"] = main.stage;
   json["ended"] = endedOf(main);
   json["why"] = whyOf(main);

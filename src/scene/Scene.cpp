@@ -17,6 +17,7 @@
 #include "atrapos/solid/MixedBody.hpp"
 #include "atrapos/solid/ShellResults.hpp"
 #include "machine/Ranks.hpp"
+#include "plugin/Plugins.hpp"
 #include "scene/FollowerLoads.hpp"
 #include "scene/Registry.hpp"
 #include "scene/Sets.hpp"
@@ -41,6 +42,7 @@ solid::PlaneSection planeSection(const deck::Plane& plane) {
 
 Scene::Scene(const deck::Deck& deck, DeckMesh mesh)
     : deck_(deck), mesh_(std::move(mesh.mesh)), givenRanks_(std::move(mesh.ranks)) {
+  plugins::require(deck_);
   deck::checkAgainstMesh(deck_, mesh_);
   shells_ = sceneShells(deck_, mesh_);
   if (mesh_.dimension == 2) plane_ = deck_.plane ? planeSection(*deck_.plane) : solid::PlaneSection{};
@@ -65,6 +67,7 @@ fem::FeModel Scene::makeModel() {
   addMaterials(model);
   addBalances(model);
   addFlows(model);
+  addPluginLaws(model);
   giveRanks(model);
   addSupports(model);
   addCouplings(model);
@@ -72,6 +75,7 @@ fem::FeModel Scene::makeModel() {
   addLoads(model);
   addFollowers(model);
   addInflows(model);
+  addPluginLoads(model);
   setInitialValues(model);
   addContacts(model);
   model.dofName = [this, dofs = model.dofs](int dof) { return dofName(dofs, dof); };
@@ -112,6 +116,7 @@ void Scene::giveRanks(fem::FeModel& model) const {
     const auto last = first + model.terms[body.any()]->numEntities();
     for (const int term : {body.term, body.balances, body.flow})
       if (term >= 0) model.ranks[term].assign(first, last);
+    for (const int term : body.own) model.ranks[term].assign(first, last);
     first = last;
   }
 }

@@ -28,12 +28,15 @@ namespace atrapos {
 
 /// The material's term of one block of the mesh.
 struct BodyBlock {
-  int term = -1;      ///< of its material: its position in the problem; -1: no material
-  int balances = -1;  ///< of its scalar fields; -1: none
-  int flow = -1;      ///< -1: none
-  int shells = -1;    ///< position in SceneShells; -1: solids
+  int term = -1;           ///< of its material: its position in the problem; -1: no material
+  int balances = -1;       ///< of its scalar fields; -1: none
+  int flow = -1;           ///< -1: none
+  std::vector<int> own{};  ///< of laws of plug-ins
+  int shells = -1;         ///< position in SceneShells; -1: solids
   /// One of its terms.
-  int any() const { return term >= 0 ? term : balances >= 0 ? balances : flow; }
+  int any() const {
+    return term >= 0 ? term : balances >= 0 ? balances : flow >= 0 ? flow : own.empty() ? -1 : own.front();
+  }
   std::vector<double>
       toNodes;  ///< [node][point] of a cell: values at points (of shells: in the plane) -> nodes
 };
@@ -154,6 +157,17 @@ class Scene {
   physics::Expansion expansionOf(const deck::Material& material, int block) const;
   void addBalances(fem::FeModel& model);
   void addFlows(fem::FeModel& model);
+  void addPluginLaws(fem::FeModel& model);
+  void addPluginLoads(fem::FeModel& model) const;
+  /// make(), what it throws being told at an entry of the deck.
+  template <class Make>
+  auto made(const std::string& path, const Make& make) const {
+    try {
+      return make();
+    } catch (const std::exception& e) {
+      fail(path, e.what());
+    }
+  }
   /// Velocities and pressures of flows.
   std::vector<fem::DofMap::Located> flowFields() const;
   /// Values of a field that is the pressure of a flow at the nodes between corners, [node].

@@ -48,6 +48,7 @@ struct DeadLoads {
   }
 
   void operator()(const deck::InflowLoad&) const {}  // no force (Scene::addInflows)
+  void operator()(const deck::PluginLoad&) const {}  // the same
 
   void operator()(const deck::EdgeLoad& load) const {
     deck::Vector3 perLength = load.vector;

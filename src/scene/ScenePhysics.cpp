@@ -6,8 +6,10 @@
 #include "atrapos/formula/Builder.hpp"
 #include "atrapos/physics/Balance.hpp"
 #include "atrapos/physics/BalanceLaw.hpp"
+#include "atrapos/physics/FieldTerm.hpp"
 #include "atrapos/physics/Flow.hpp"
 #include "atrapos/solid/MixedBody.hpp"
+#include "plugin/Plugins.hpp"
 #include "scene/Scene.hpp"
 
 // Scalar fields of a scene: their balances, flows, what flows in, where they begin.
@@ -23,6 +25,8 @@ std::vector<std::string> Scene::scalarFieldsOf(int block) const {
     if (!isIn(entry.blocks)) continue;
     if (const auto* balance = std::get_if<deck::ScalarBalance>(&entry.law))
       here.insert(balance->field);
+    else if (const auto* own = std::get_if<deck::PluginLaw>(&entry.law))
+      here.insert(own->fields.begin(), own->fields.end());
     else  // without the pressure, which is not at all nodes
       here.insert(std::get<deck::FluidFlow>(entry.law).velocity.begin(),
                   std::get<deck::FluidFlow>(entry.law).velocity.end());
@@ -113,6 +117,47 @@ void Scene::addFlows(fem::FeModel& model) {
         fail("mesh/file", e.what());
       }
     }
+  }
+}
+
+void Scene::addPluginLaws(fem::FeModel& model) {
+  for (const deck::Physics& entry : deck_.physics) {
+    const auto* own = std::get_if<deck::PluginLaw>(&entry.law);
+    if (own == nullptr) continue;
+    const std::string path = "physics/" + entry.name;
+    const auto chosen = plugins::physicsOf(deck_, path, *own);
+    physics::FieldCapacity capacity;
+    if (chosen.law->capacity)
+      capacity = [stored = chosen.law->capacity, parameters = chosen.parameters](
+                     const double* in, const double* data, double* c) { stored(parameters, in, data, c); };
+    for (const std::string& name : entry.blocks) {
+      const int b = fem::findBlock(mesh_, name);
+      bodies_[b].own.push_back(static_cast<int>(model.terms.size()));
+      model.terms.push_back(made(path, [&] {
+        return physics::fieldTerm(mesh_, mesh_.blocks[b], own->fields, plugins::lawOf(chosen), capacity,
+                                  plane_);
+      }));
+    }
+  }
+}
+
+void Scene::addPluginLoads(fem::FeModel& model) const {
+  for (const deck::Load& load : deck_.loads) {
+    const auto* own = std::get_if<deck::PluginLoad>(&load.load);
+    if (own == nullptr) continue;
+    const std::string path = "loads/" + load.name;
+    const auto chosen = plugins::loadOf(deck_, path, own->law);
+    const fem::SideSet& set = mesh_.sideSets.at(fem::findSideSet(mesh_, own->set));
+    const std::vector<std::string> there = scalarFieldsOf(set);
+    for (const std::string& field : own->law.fields)
+      if (std::find(there.begin(), there.end(), field) == there.end())
+        fail(path + "/fields",
+             fmt::format("a side of '{}' belongs to a block without the field '{}'", own->set, field));
+    auto terms = made(path, [&] {
+      return physics::sideTerms(
+          mesh_, set, own->law.fields, [&] { return plugins::lawOf(chosen); }, plane_);
+    });
+    for (auto& term : terms) model.terms.push_back(std::move(term));
   }
 }
 

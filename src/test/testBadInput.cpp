@@ -107,7 +107,7 @@ TEST_F(BadInput, MonitorsNamedAsColumns) {
                   {"output/monitors/" + name, "a column of path.csv or points.csv"});
     }
   }
-  EXPECT_EQ(columns, 6 + 8);
+  EXPECT_EQ(columns, 6 + 9);
 }
 
 TEST_F(BadInput, WhatWouldTakeTooMuch) {

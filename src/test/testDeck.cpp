@@ -510,7 +510,7 @@ TEST(BadDeck, places) {
              ":16:57: tools/roll/axis: expected a list of 3 finite numbers, got the list [0, 1]");
   expectLine(", radius: 50", "", ":16:3: tools/roll/radius: is missing; expected a number, positive");
   expectLine("path:", "ä: 1\npath:",
-             ":19:1: ä: is not a key here; allowed are title, mesh, constants, materials, "
+             ":19:1: ä: is not a key here; allowed are title, mesh, plugins, constants, materials, "
              "physics, fields, plane, shells, supports, "
              "couplings, loads, "
              "tools, contact, path, solver, output");

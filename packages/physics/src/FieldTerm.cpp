@@ -76,7 +76,7 @@ fem::Capacity inBatches(const FieldCapacity& capacity, int fields, const fem::La
           for (int i = 0; i < gradient; ++i) full[4 * f + i] = input(each * f + i);
           full[4 * f + 3] = input(each * f + gradient);
         }
-        if (I > each * fields) full[4 * fields] = input(each * fields);
+        if (I > each * fields) full.back() = input(each * fields);
         double place[3] = {};
         for (int i = 0; i < shape.data; ++i)
           place[i] = points.data[(q * shape.data + i) * fem::kLanes + lane];
