@@ -142,12 +142,17 @@ void checkFlowNames(const Value& at, const Physics& entry, const Deck& deck) {
     bool twice = std::count(own.begin(), own.end(), own[i]) > 1;
     for (const auto& other : deck.physics) {
       const auto* balance = std::get_if<ScalarBalance>(&other.law);
-      twice = twice || (balance != nullptr && balance->field == own[i]);
+      const bool force = balance != nullptr && i + 1 < own.size() && balance->conductivity == "0" &&
+                         balance->capacity.empty();
+      twice = twice || (balance != nullptr && balance->field == own[i] && !force);
       const auto* law = std::get_if<PluginLaw>(&other.law);
       twice = twice || (law != nullptr && std::count(law->fields.begin(), law->fields.end(), own[i]) > 0);
     }
     if (twice) {
-      v.fail(fmt::format("'{}' has a balance already; expected a field of its own for each", own[i]));
+      v.fail(
+          fmt::format("'{}' has a balance already; expected a field of its own for each, and of "
+                      "velocities balances with a source alone, a force",
+                      own[i]));
     }
   }
 }

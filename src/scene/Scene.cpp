@@ -65,8 +65,8 @@ fem::FeModel Scene::makeModel() {
   model.dofs = fem::DofMap(mesh_.numNodes(), fields());
   model.dofs.addNodes(shells_.geometry.numDirectors(), fem::directorField());
   addMaterials(model);
-  addBalances(model);
   addFlows(model);
+  addBalances(model);
   addPluginLaws(model);
   giveRanks(model);
   addSupports(model);

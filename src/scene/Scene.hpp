@@ -155,6 +155,7 @@ class Scene {
   std::vector<std::string> scalarFieldsOf(int block) const;
   std::vector<std::string> scalarFieldsOf(const fem::SideSet& set) const;
   physics::Expansion expansionOf(const deck::Material& material, int block) const;
+  bool isVelocity(const std::string& field) const;
   void addBalances(fem::FeModel& model);
   void addFlows(fem::FeModel& model);
   void addPluginLaws(fem::FeModel& model);

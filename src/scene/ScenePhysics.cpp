@@ -63,6 +63,14 @@ physics::Expansion Scene::expansionOf(const deck::Material& material, int block)
   }
 }
 
+bool Scene::isVelocity(const std::string& field) const {
+  return std::any_of(deck_.physics.begin(), deck_.physics.end(), [&](const deck::Physics& entry) {
+    const auto* flow = std::get_if<deck::FluidFlow>(&entry.law);
+    return flow != nullptr &&
+           std::find(flow->velocity.begin(), flow->velocity.end(), field) != flow->velocity.end();
+  });
+}
+
 void Scene::addBalances(fem::FeModel& model) {
   for (std::size_t b = 0; b < mesh_.blocks.size(); ++b) {
     const fem::Block& block = mesh_.blocks[b];
@@ -85,6 +93,12 @@ void Scene::addBalances(fem::FeModel& model) {
         }
       balances.push_back({law->field, law->conductivity, law->source, law->capacity});
       last = &entry;
+      if (!isVelocity(law->field)) continue;
+      if (bodies_[b].flow < 0)
+        fail("physics/" + entry.name + "/blocks",
+             fmt::format("block '{}' has no flow, whose velocity '{}' is; a force acts on a fluid",
+                         block.name, law->field));
+      balances.back().capacity = "0";  // the flow has its density
     }
     if (balances.empty()) continue;
     if (fields.size() > physics::mostFields)

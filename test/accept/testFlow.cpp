@@ -1,5 +1,5 @@
 // Flows against exact solutions and tables: Poiseuille, Kovasznay with the orders of Taylor and Hood's cells,
-// the lid-driven cavity of Ghia, Ghia and Shin (J. Comp. Phys. 48, 1982).
+// the lid-driven cavity of Ghia, Ghia and Shin (J. Comp. Phys. 48, 1982), heat that a flow carries.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -220,6 +220,51 @@ TEST(Flow, SuddenExpansionLeansToAWall) {
   EXPECT_EQ(unstable[2], 0);
 }
 
+/// Rigid plates: Ra = 1707.762 at the wave number 3.117 (Chandrasekhar), an eigenvalue: of order 4. Half
+/// waves of both signs, and a mode of twice the wave number behind.
+TEST(Flow, LayerHeatedFromBelow) {
+  double error[2];
+  for (int i = 0; i < 2; ++i) {
+    const ExampleRun run(
+        "flow/benard.yaml",
+        i == 0 ? Edits{} : Edits{{"[8, 8]", "[16, 16]"}, {"branches: all", "branches: none"}});
+    const auto& points = run.summary.at("points");
+    ASSERT_EQ(points.size(), 2u);
+    EXPECT_EQ(points[0].at("kind"), "pitchfork");
+    error[i] = 1000 * points[0].at("load_factor").get<double>() - 1707.762;
+    EXPECT_TRUE(run.summary.at("hopf_points").empty());
+    if (i == 1) continue;
+    ASSERT_EQ(run.summary.at("branches").size(), 5u);
+    const auto branch = run.column("branch"), rise = run.column("rise"), heat = run.column("heat"),
+               unstable = run.column("negative_eigenvalues");
+    double last[5] = {}, flux[5] = {}, number[5] = {};
+    for (std::size_t k = 0; k < branch.size(); ++k) {
+      last[static_cast<int>(branch[k])] = rise[k];
+      flux[static_cast<int>(branch[k])] = heat[k];
+      number[static_cast<int>(branch[k])] = unstable[k];
+    }
+    EXPECT_NEAR(last[1], -last[2], 1e-5 * std::abs(last[1]));  // mirrored, to the residual's bound
+    EXPECT_GT(std::abs(last[1]), 10);
+    EXPECT_GT(flux[1], 1.9 * flux[0]);  // a flow carries heat
+    EXPECT_EQ(number[0], 2);
+    EXPECT_EQ(number[1], 0);
+    EXPECT_EQ(number[2], 0);
+  }
+  EXPECT_LT(std::abs(error[1]), 0.05);
+  EXPECT_NEAR(std::log2(error[0] / error[1]), 4, 0.2);
+}
+
+/// Mean Nusselt numbers of air in a square: 1.118, 2.243, 4.519 (de Vahl Davis 1983, by extrapolation, to 1
+/// in 1000), 1.1178, 2.2448, 4.5216 in later tables.
+TEST(Flow, NaturalConvectionInACavity) {
+  const std::map<std::string, double> nusselt{{"0.01", 1.1178}, {"0.1", 2.2448}, {"1", 4.5216}};
+  for (const auto& [load, number] : nusselt) {
+    const ExampleRun run("flow/convection.yaml", {{"{load_factor: 1}", "{load_factor: " + load + "}"}});
+    EXPECT_NEAR(run.column("nusselt").back(), number, 3e-4 * number) << load;  // a mesh's at 1e5
+    EXPECT_LE(run.summary.at("steps"), 12);
+  }
+}
+
 TEST(Flow, Refusals) {
   const auto refuses = [](const std::string& deck, const std::string& expected) {
     const TemporaryFolder folder;
@@ -233,6 +278,13 @@ TEST(Flow, Refusals) {
   };
   refuses(edited(kPipe, "[u, w]", "[u, v, w]"), "has 3 components; the mesh has 2 dimensions");
   refuses(edited(kPipe, "pressure: p", "pressure: u"), "'u' has a balance already");
+  const std::string water = "density: 5, blocks: [body]}\n";
+  refuses(edited(kPipe, water,
+                 water + "  friction: {type: balance, field: w, blocks: [body], conductivity: 1}\n"),
+          "'w' has a balance already; expected a field of its own for each, and of velocities balances with "
+          "a source alone");
+  refuses(edited(kPipe, water, water + "  leak: {type: balance, field: p, blocks: [body], source: 1}\n"),
+          "'p' has a balance already");
   refuses(edited(kPipe, "kind: axisymmetric", "kind: stress"), "a flow is plane with kind: strain");
   refuses(edited(kPipe, "viscosity: 2", "viscosity: 0"), "viscosity");
   refuses(edited(kPipe, "1 - x*x", "1 - q*x"), "this text does not know 'q'");

@@ -28,6 +28,10 @@ inline formula::Symbols symbols(const std::vector<std::string>& fields, const Co
   formula::Symbols s;
   for (int i = 0; i < 3; ++i) s.scalars[std::string(1, "xyz"[i])] = builder.datum(i);
   for (const auto& [name, value] : constants) s.scalars[name] = builder.number(value);
+  // Those of the place are the axes: dot(grad(T), grad(x)) is dT/dx.
+  if (layout.place == Place::body)
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) s.gradients[std::string(1, "xyz"[i])].push_back(builder.number(i == j));
   if (layout.place == Place::reference) return s;
   s.scalars["lambda"] = builder.input(layout.loadFactor());
   for (int f = 0; f < layout.fields; ++f) {

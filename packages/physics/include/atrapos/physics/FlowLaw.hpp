@@ -60,7 +60,9 @@ struct FlowLaw {
       out[firstValue + i] = density * carried;
       sum += std::abs(gradient[i]);
     }
-    out[pressure] = sum;
+    // A fluid at rest under its weight has velocities of rounding: those that its pressures would give.
+    constexpr double rounding = 1e-8;
+    out[pressure] = sum + rounding * p / viscosity;
   }
 };
 
