@@ -167,7 +167,6 @@ class Watch final : public path::Observer {
     }
     add(report.step, report.pathLengthEnd, report.end, negative(report.length));
     for (const auto& limit : report.limitPoints) point("limit", report, series, limit.a);
-    for (const auto& hopf : report.hopfPoints) point("hopf", report, series, hopf.a);
     for (const auto& critical : report.criticalPoints) point("bifurcation", report, series, critical.a);
     const py::dict step = stepOf(0, report);
     steps_.append(step);

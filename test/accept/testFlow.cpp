@@ -254,6 +254,28 @@ TEST(Flow, LayerHeatedFromBelow) {
   EXPECT_NEAR(std::log2(error[0] / error[1]), 4, 0.2);
 }
 
+/// A Hopf point of a flow in closed form: modes sin(pi y) with cos or sin(pi x/sqrt 2), heat against salt
+/// (see the deck); eigenvalues, of order 4.
+TEST(Flow, LayerWithSaltOscillates) {
+  const double t = 0.3, Rs = 2000, pi4 = std::pow(std::acos(-1.0), 4);
+  const double Ra = Rs * (1 + t) / 2 + (1 + t) * (1 + t) * 27 * pi4 / 4;
+  const double frequency = std::sqrt((1 - t) / 2 * Rs / 3 - t * t * 9 * pi4 / 4);
+  double error[2];
+  for (int i = 0; i < 2; ++i) {
+    const ExampleRun run("flow/salt.yaml", i == 0 ? Edits{} : Edits{{"[8, 8]", "[16, 16]"}});
+    const auto& points = run.summary.at("hopf_points");
+    ASSERT_EQ(points.size(), 1u);
+    error[i] = 1000 * points[0].at("load_factor").get<double>() - Ra;
+    EXPECT_NEAR(points[0].at("frequency").get<double>(), frequency, 1e-5 * frequency);
+    EXPECT_EQ(points[0].at("negative_change"), 2);
+    EXPECT_TRUE(run.summary.at("points").empty());
+    const auto unstable = run.column("negative_eigenvalues"), load = run.column("load_factor");
+    for (std::size_t k = 0; k < load.size(); ++k) EXPECT_EQ(unstable[k], 1000 * load[k] < Ra ? 0 : 2);
+  }
+  EXPECT_LT(std::abs(error[1]), 2e-6 * Ra);
+  EXPECT_NEAR(std::log2(error[0] / error[1]), 4, 0.2);
+}
+
 /// Mean Nusselt numbers of air in a square: 1.118, 2.243, 4.519 (de Vahl Davis 1983, by extrapolation, to 1
 /// in 1000), 1.1178, 2.2448, 4.5216 in later tables.
 TEST(Flow, NaturalConvectionInACavity) {
