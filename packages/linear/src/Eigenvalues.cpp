@@ -95,6 +95,7 @@ NearestEigenvalues nearestEigenvalues(const Inverse& inverse, const RCP<const Ma
     inverse(applied, *start);
     Teuchos::Array<double> norms(blockSize);
     start->norm2(norms());
+    if (*std::min_element(norms.begin(), norms.end()) == 0) return {{}, true};  // M = 0: all are infinite
     for (int j = 0; j < blockSize; ++j) start->getVectorNonConst(j)->scale(1 / norms[j]);
   }
   using Problem = Anasazi::BasicEigenproblem<double, MultiVector, Operator>;

@@ -213,11 +213,20 @@ void Run::explainStability(StepReport& report, const EndTangent& end) {
 /// Pairs that have crossed the imaginary axis inside the step. The solver's factorization is another one
 /// afterwards.
 void Run::locateHopfPoints(StepReport& report, const EndTangent& end) {
-  if (spectrum_.empty() || end.spectrum.empty()) return;
+  if (spectrum_.empty() || end.spectrum.empty() || !report.inertia || !report.inertiaEnd) return;
   const int count = std::max(options_.hopfEigenvalues, static_cast<int>(end.spectrum.size()));
   HopfFound found = findHopfPoints(calls_, *last_, {0, spectrum_}, {report.length, end.spectrum}, count);
   outcome_.hopfFactorizations += found.factorizations;
   report.hopfPoints = std::move(found.points);
+  // What neither these nor other points explain has crossed at a place that is not known.
+  long long rest = report.inertiaEnd->negative - report.inertia->negative;
+  long long others = static_cast<long long>(report.limitPoints.size());  // one each, of unknown sign
+  for (const auto& point : report.hopfPoints) rest -= point.negativeChange;
+  for (const auto& point : report.criticalPoints) {
+    rest -= point.negativeChange;
+    others += point.negativeChange == 0;
+  }
+  report.unexplained = std::max<int>(report.unexplained, static_cast<int>(std::abs(rest) - others));
 }
 
 }  // namespace atrapos::path
