@@ -274,6 +274,15 @@ TEST(Flow, LayerWithSaltOscillates) {
   }
   EXPECT_LT(std::abs(error[1]), 2e-6 * Ra);
   EXPECT_NEAR(std::log2(error[0] / error[1]), 4, 0.2);
+
+  // The density is the mass: Pr = 7.
+  const ExampleRun water("flow/salt.yaml", {{"density: 1,", "density: 0.14285714285714285,"}});
+  const auto& points = water.summary.at("hopf_points");
+  ASSERT_EQ(points.size(), 1u);
+  EXPECT_NEAR(1000 * points[0].at("load_factor").get<double>(),
+              Rs * (7 + t) / 8 + (1 + t) * (7 + t) / 7 * 27 * pi4 / 4, 0.1);  // the mesh's, as above
+  EXPECT_NEAR(points[0].at("frequency").get<double>(),
+              std::sqrt(7 * (1 - t) / 8 * Rs / 3 - t * t * 9 * pi4 / 4), 1e-4);
 }
 
 /// Mean Nusselt numbers of air in a square: 1.118, 2.243, 4.519 (de Vahl Davis 1983, by extrapolation, to 1
