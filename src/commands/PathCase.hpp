@@ -66,6 +66,8 @@ class StepWatch {
   virtual void copyFrom(const std::string& file, const RestartPlace& last, const Mark& mark) = 0;
   virtual Mark mark() const = 0;  ///< the rows so far
   virtual void sync() const = 0;  ///< until they would outlast a loss of power
+  /// Puts the table in the place of another.
+  virtual void rename(const std::string& file) = 0;
   virtual int count() const = 0;  ///< of what was found
 };
 

@@ -62,6 +62,11 @@ void OutputFile::sync() const {
     throw FileError(file_, "cannot be written", errno);
 }
 
+void OutputFile::rename(const std::string& to) {
+  renameFile(file_, to);
+  file_ = to;
+}
+
 void syncFile(const std::string& file) {
   const int descriptor = open(file.c_str(), O_RDONLY | O_CLOEXEC);
   if (descriptor < 0) return;
@@ -72,6 +77,10 @@ void syncFile(const std::string& file) {
 
 void renameFile(const std::string& from, const std::string& to) {
   if (std::rename(from.c_str(), to.c_str()) != 0) throw FileError(to, "cannot be put in its place", errno);
+}
+
+void removeFile(const std::string& file) {
+  if (std::remove(file.c_str()) != 0 && errno != ENOENT) throw FileError(file, "cannot be removed", errno);
 }
 
 FolderLock::FolderLock(const std::string& folder, For purpose)

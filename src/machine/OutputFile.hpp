@@ -26,6 +26,8 @@ class OutputFile {
   void write(const std::string& bytes);
   /// Returns when the file would outlast a loss of power. Throws FileError.
   void sync() const;
+  /// Puts it in the place of another, whose name errors have from then on. Throws FileError.
+  void rename(const std::string& to);
 
  private:
   std::string file_;
@@ -37,6 +39,9 @@ void syncFile(const std::string& file);
 
 /// Throws FileError.
 void renameFile(const std::string& from, const std::string& to);
+
+/// Nothing where there is none. Throws FileError.
+void removeFile(const std::string& file);
 
 /// A folder that this process alone writes into, or that nobody does while it is read. Where the file system
 /// knows no locks there is none.

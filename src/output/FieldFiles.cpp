@@ -245,7 +245,7 @@ std::unique_ptr<FieldFile> makeSceneFields(const Scene& scene, const std::string
 void removeOtherFields(const std::string& folder, int last, const deck::Deck& deck) {
   const int own = writesParts(deck) ? ranks::count() : 0;
   for (const ResultFile& file : resultFiles(folder))
-    if (file.branch > last || (file.branch == last && file.parts != own)) std::filesystem::remove(file.path);
+    if (file.branch > last || (file.branch == last && file.parts != own)) removeFile(file.path);
 }
 
 void copyFields(const std::string& from, const std::string& to, int last) {

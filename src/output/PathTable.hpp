@@ -26,6 +26,9 @@ class Table {
   /// The rows so far.
   const Mark& mark() const { return mark_; }
   void sync() const { out_.sync(); }  ///< until it would outlast a loss of power
+  void rename(const std::string& file) {
+    if (writes_) out_.rename(file);
+  }
 
  private:
   void count(const std::string& row);

@@ -100,26 +100,23 @@ void Recorder::settle(int kept) {
     // A run that is killed must not leave an earlier run's files beside its own.
     for (const char* const old :
          {"summary.json", "branches.csv", "path.png", "path.svg", "report.html", "sharpen.csv"})
-      std::filesystem::remove(file(old));
+      removeFile(file(old));
     removeOtherFields(directory_, kept, case_->deck());
   }
-  const auto replace = [&](const std::string& name) {
-    if (ranks::isFirst()) renameFile(beside_.name(name), file(name));
-  };
   // The restart file first: whatever ends this in the middle, the others hold at least what it names.
   if (restart_)
-    replace("restart.bin");
+    restart_->rename(file("restart.bin"));
   else if (ranks::isFirst())
-    std::filesystem::remove(file("restart.bin"));
+    removeFile(file("restart.bin"));
   ranks::wait();
   if (fields_) fields_->rename(file(fieldsName(branch_)));
   if (watch_)
-    replace("events.csv");
+    watch_->rename(file("events.csv"));
   else if (ranks::isFirst())
-    std::filesystem::remove(file("events.csv"));
-  replace("path.csv");
-  replace("points.csv");
-  replace("steps.csv");
+    removeFile(file("events.csv"));
+  path_.rename(file("path.csv"));
+  points_.rename(file("points.csv"));
+  steps_.rename(file("steps.csv"));
   beside_.keep();
   ranks::wait();
   if (!ranks::isFirst()) return;

@@ -32,6 +32,9 @@ class RestartFile {
   /// Collective.
   void append(const path::BranchProgress& progress, const RunMarks& marks);
   void sync() const { out_.sync(); }  ///< until it would outlast a loss of power
+  void rename(const std::string& file) {
+    if (writes_) out_.rename(file);
+  }
 
  private:
   void put(const std::string& record);

@@ -42,6 +42,7 @@ class ContactEvents final : public StepWatch {
   }
   Mark mark() const override { return table_.mark(); }
   void sync() const override { table_.sync(); }
+  void rename(const std::string& file) override { table_.rename(file); }
   int count() const override { return count_; }
 
  private:

@@ -71,16 +71,16 @@ File File::open(const std::string& name) {
   return file;
 }
 
-File File::create(const std::string& name) {
+File File::create(const std::string& name, const std::string& shown) {
   silence();
   int computeWords = sizeof(double), fileWords = sizeof(double);
   errno = 0;
   const int id = ex_create(name.c_str(), EX_CLOBBER | EX_LARGE_MODEL | EX_NOSHARE | EX_ALL_INT64_API,
                            &computeWords, &fileWords);
   if (id < 0)
-    throw Error(name + ": the file cannot be created" +
+    throw Error(shown + ": the file cannot be created" +
                 (errno != 0 ? std::string(" (") + std::strerror(errno) + ")" : ""));
-  return File(id, name);
+  return File(id, shown);
 }
 
 File::File(File&& other) noexcept : id_(std::exchange(other.id_, -1)), name_(std::move(other.name_)) {}

@@ -16,13 +16,13 @@ class File {
   /// Opens for reading, after checkFile.
   static File open(const std::string& name);
 
-  /// Makes a new NetCDF 64-bit-offset file, over one with that name.
+  /// Makes a new NetCDF 64-bit-offset file, over one with that name; messages speak of it as `shown`.
   ///
   /// It is opened unshared, and must not be opened again for writing steps, where the library shares by
   /// default: a shared file counts a step in its header as soon as the first value of the step is there, an
   /// unshared one at ex_update and after all values, so that a kill in between leaves the earlier steps
   /// valid.
-  static File create(const std::string& name);
+  static File create(const std::string& name, const std::string& shown);
 
   File(File&& other) noexcept;
   File& operator=(File&& other) noexcept;

@@ -213,8 +213,7 @@ class Draft {
 File createFile(const std::string& name, const FileContents& contents) {
   checkMesh(contents.mesh, name, contents.part ? Extent::part : Extent::whole);
   Draft draft(name);
-  File file = File::create(draft.path());
-  file.rename(name);  // messages speak of the file that was asked for
+  File file = File::create(draft.path(), name);
   MeshWriter(file, contents)();
   file.check(ex_update(file.id()), "writing the mesh");
   padFile(draft.path());
