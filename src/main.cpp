@@ -1,5 +1,6 @@
 // The `atrapos` command: deck -> scene -> path -> results. Exit codes: 0 done, 1 internal error, 2 bad input,
-// 3 the path could not be continued to a stop of the deck.
+// a file that cannot be written or too little memory, 3 the path could not be continued to a stop of the
+// deck.
 
 #include <fmt/format.h>
 #include <mpi.h>
@@ -8,15 +9,19 @@
 #include <Kokkos_Core.hpp>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
+#include <exception>
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <new>
 #include <utility>
 #include <vector>
 
 #include "Version.hpp"
 #include "atrapos/exodus/ResultReader.hpp"
 #include "atrapos/fem/Processor.hpp"
+#include "atrapos/linear/NoMemory.hpp"
 #include "commands/ChartCommand.hpp"
 #include "commands/FollowDeck.hpp"
 #include "commands/ImportCommand.hpp"
@@ -41,6 +46,26 @@ namespace {
 
 constexpr int kBadInput = 2, kCannotContinue = 3, kInternalError = 1;
 
+/// Made before memory is lacking, and told once: what runs out of it may do so again on its way out.
+std::string noMemory = "atrapos: out of memory";
+bool noMemoryTold = false;
+std::terminate_handler otherTermination = nullptr;
+
+/// Where there was no memory even for what an error does on its way up: the same line, the same exit code.
+[[noreturn]] void onTermination() {
+  try {
+    if (const auto error = std::current_exception()) std::rethrow_exception(error);
+  } catch (const std::exception& e) {
+    if (atrapos::linear::isNoMemory(e)) {
+      if (!noMemoryTold) std::fprintf(stderr, "%s\n", noMemory.c_str());
+      std::_Exit(kBadInput);
+    }
+  } catch (...) {  // whatever it is, it is told below
+  }
+  otherTermination();
+  std::abort();
+}
+
 /// The exit code of f, or what its error means; its one line has been told to the user then.
 template <class F>
 int reported(const std::string& named, const F& f) {
@@ -58,9 +83,17 @@ int reported(const std::string& named, const F& f) {
     return fail(e.what(), kBadInput);
   } catch (const atrapos::FileError& e) {
     return fail(e.what(), kBadInput);
+  } catch (const std::filesystem::filesystem_error& e) {
+    return fail(fmt::format("{}: {}", e.path1().empty() ? named : e.path1().string(), e.code().message()),
+                kBadInput);
   } catch (const std::invalid_argument& e) {
     return fail(named + e.what(), kBadInput);
   } catch (const std::exception& e) {
+    if (atrapos::linear::isNoMemory(e)) {
+      if (!std::exchange(noMemoryTold, true)) fail(noMemory, kBadInput);
+      return kBadInput;
+    }
+
     return fail(named + e.what(), kInternalError);
   }
 }
@@ -185,6 +218,7 @@ int check(const std::string& deckFile) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  otherTermination = std::set_terminate(onTermination);
   std::signal(SIGXFSZ, SIG_IGN);  // a file beyond the limit of its size is an error of its writer
   CLI::App app{"Traces solution paths of nonlinear finite-element problems with high-order Taylor series"};
   bool version = false, verbose = false;
@@ -350,6 +384,7 @@ int main(int argc, char** argv) {
           reported("atrapos: ", [] { return atrapos::fem::processorLanes() > 0 ? 0 : kInternalError; }))
     return code;
   const std::string named = deck.empty() ? "atrapos: " : deck + ": ";
+  noMemory = named + "out of memory";
   return reported(named, [&] {
     if (*runCommand) {
       words.deck = deck;

@@ -2,20 +2,24 @@
 
 #include <Tpetra_CrsMatrix.hpp>
 #include <Tpetra_Vector.hpp>
+#include <new>
 
 #include "Stopwatch.hpp"
 #include "atrapos/linear/Error.hpp"
+#include "atrapos/linear/NoMemory.hpp"
 
 namespace atrapos::path {
 
 namespace {
 
-/// What the Problem throws ends the path with its message.
+/// What the Problem throws ends the path with its message; but for a lack of memory, which says nothing about
+/// the path.
 template <class Call>
 auto problemCall(Call call) {
   try {
     return call();
   } catch (const std::exception& error) {
+    if (linear::isNoMemory(error)) throw std::bad_alloc();
     throw PathError(EndReason::problemFailed, error.what());
   }
 }
@@ -27,6 +31,7 @@ void solverCall(Call call) {
   } catch (const linear::SingularTangentError& error) {
     throw PathError(EndReason::singularTangent, error.what());
   } catch (const std::exception& error) {
+    if (linear::isNoMemory(error)) throw std::bad_alloc();
     throw PathError(EndReason::solverFailed, error.what());
   }
 }
