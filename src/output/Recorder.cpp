@@ -14,6 +14,7 @@
 #include "machine/Ranks.hpp"
 #include "output/FieldFiles.hpp"
 #include "output/Files.hpp"
+#include "output/ToolShapes.hpp"
 
 namespace atrapos {
 namespace {
@@ -101,6 +102,7 @@ void Recorder::settle(int kept) {
     for (const char* const old :
          {"summary.json", "branches.csv", "path.png", "path.svg", "report.html", "sharpen.csv"})
       removeFile(file(old));
+    removeToolShapes(directory_);
     removeOtherFields(directory_, kept, case_->deck());
   }
   // The restart file first: whatever ends this in the middle, the others hold at least what it names.

@@ -287,10 +287,16 @@ void appendToolShape(const deck::Tool& tool, const Box& box, fem::Mesh& mesh) {
   std::visit(Appender{tool, box, mesh}, tool.surface);
 }
 
+void removeToolShapes(const std::string& folder) {
+  std::vector<std::string> files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    if (isToolsName(entry.path().filename().string())) files.push_back(entry.path().string());
+  for (const std::string& file : files) removeFile(file);
+}
+
 void writeToolShapes(const std::string& folder, const deck::Deck& deck) {
   if (!ranks::isFirst()) return;
-  for (const auto& entry : std::filesystem::directory_iterator(folder))
-    if (isToolsName(entry.path().filename().string())) std::filesystem::remove(entry.path());
+  removeToolShapes(folder);
   if (deck.tools.empty()) return;
   std::vector<double> ends;
   for (int branch = 0;; ++branch) {

@@ -20,6 +20,9 @@ void appendToolShape(const deck::Tool& tool, const Box& box, fem::Mesh& mesh);
 /// Where the motion takes a place at this load factor.
 deck::Vector3 moved(const deck::ToolMotion& motion, double loadFactor, const deck::Vector3& place);
 
+/// Removes the files of tools that a run wrote into the folder. Throws FileError.
+void removeToolShapes(const std::string& folder);
+
 /// For every result file in the folder a file of the surfaces of the deck's tools beside it (tools.exo,
 /// tools_branch1.exo,
 /// ...), with a displacement for each of its states, so that viewers show them moving together; none where
