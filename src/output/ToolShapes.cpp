@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <functional>
 #include <limits>
@@ -221,17 +222,13 @@ Box boxOf(const Results& results) {
   return box;
 }
 
-/// `ends`: the load factors at which the branches, or stages, before ended; this one's is appended.
-void writeBeside(const Results& files, const deck::Deck& deck, const std::string& target,
-                 std::vector<double>& ends) {
-  const exodus::ResultReader results(files.part(0));
-  if (results.numSteps() == 0) return;
+/// The tools where they stand at each of the results' states.
+void writeStates(const std::string& file, const exodus::ResultReader& results,
+                 const std::vector<deck::Tool>& tools, const Box& box) {
   fem::Mesh mesh;
   mesh.title = "rigid tools";
-  const Box box = boxOf(files);
-  const deck::Deck own = deck.path.stages.empty() ? deck : deck::stageDeck(deck, ends.size(), ends);
   std::vector<int> firstNode;
-  for (const deck::Tool& tool : own.tools) {
+  for (const deck::Tool& tool : tools) {
     firstNode.push_back(mesh.numNodes());
     appendToolShape(tool, box, mesh);
   }
@@ -239,25 +236,37 @@ void writeBeside(const Results& files, const deck::Deck& deck, const std::string
   exodus::ResultNames names;
   names.nodal = {"displ_x", "displ_y", "displ_z"};
   names.global = {"load_factor"};
-  const std::string beside = target + ".new";
-  {
-    exodus::ResultWriter writer(beside, mesh, names);
-    const auto times = results.times();
-    const auto n = static_cast<std::size_t>(mesh.numNodes());
-    std::vector<double> displacement(3 * n);
-    for (int step = 0; step < results.numSteps(); ++step) {
-      const double lambda = results.global(step, "load_factor");
-      for (std::size_t t = 0; t < own.tools.size(); ++t)
-        for (int a = firstNode[t]; a < firstNode[t + 1]; ++a) {
-          const double* x = &mesh.coordinates[3 * static_cast<std::size_t>(a)];
-          const Vector3 there = moved(own.tools[t].motion, lambda, {x[0], x[1], x[2]});
-          for (int i = 0; i < 3; ++i) displacement[i * n + a] = there[i] - x[i];
-        }
-      writer.writeStep(times[step], displacement, std::vector<double>(), std::vector<double>{lambda});
-    }
-    ends.push_back(results.global(results.numSteps() - 1, "load_factor"));
+  exodus::ResultWriter writer(file, mesh, names);
+  const auto times = results.times();
+  const auto n = static_cast<std::size_t>(mesh.numNodes());
+  std::vector<double> displacement(3 * n);
+  for (int step = 0; step < results.numSteps(); ++step) {
+    const double lambda = results.global(step, "load_factor");
+    for (std::size_t t = 0; t < tools.size(); ++t)
+      for (int a = firstNode[t]; a < firstNode[t + 1]; ++a) {
+        const double* x = &mesh.coordinates[3 * static_cast<std::size_t>(a)];
+        const Vector3 there = moved(tools[t].motion, lambda, {x[0], x[1], x[2]});
+        for (int i = 0; i < 3; ++i) displacement[i * n + a] = there[i] - x[i];
+      }
+    writer.writeStep(times[step], displacement, std::vector<double>(), std::vector<double>{lambda});
   }
-  renameFile(beside, target);
+}
+
+/// `ends`: the load factors at which the branches, or stages, before ended; this one's is appended.
+void writeBeside(const Results& files, const deck::Deck& deck, const std::string& target,
+                 std::vector<double>& ends) {
+  const exodus::ResultReader results(files.part(0));
+  if (results.numSteps() == 0) return;
+  const deck::Deck own = deck.path.stages.empty() ? deck : deck::stageDeck(deck, ends.size(), ends);
+  const std::string beside = target + ".new";
+  try {
+    writeStates(beside, results, own.tools, boxOf(files));
+    renameFile(beside, target);
+  } catch (...) {
+    std::remove(beside.c_str());
+    throw;
+  }
+  ends.push_back(results.global(results.numSteps() - 1, "load_factor"));
 }
 
 }  // namespace
