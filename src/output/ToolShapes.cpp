@@ -164,12 +164,14 @@ struct Appender {
       const std::vector<double> k = patch.coefficients(patch.degree);
       appendGrid(
           [&](double s, double r) {
-            double x[4] = {0, 0, 0, 0}, power1 = 1;
-            for (int i = 0; i <= patch.degree[0]; ++i, power1 *= 2 * s - 1) {
-              double power = power1;
-              for (int j = 0; j <= patch.degree[1]; ++j, power *= 2 * r - 1)
-                for (int c = 0; c < 4; ++c) x[c] += power * k[4 * (i * (patch.degree[1] + 1) + j) + c];
-            }
+            const auto [p, q] = patch.degree;
+            double x[4] = {0, 0, 0, 0};
+            for (int c = 0; c < 4; ++c)
+              for (int i = p; i >= 0; --i) {  // Horner's rule in either direction
+                double row = 0;
+                for (int j = q; j >= 0; --j) row = row * (2 * r - 1) + k[4 * (i * (q + 1) + j) + c];
+                x[c] = x[c] * (2 * s - 1) + row;
+              }
             return Vector3{x[0] / x[3], x[1] / x[3], x[2] / x[3]};
           },
           kOfPatch, kOfPatch, mesh);
