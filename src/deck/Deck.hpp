@@ -135,7 +135,6 @@ struct FluidFlow {
   double density = 1;    ///< >= 0
 };
 
-/// What acts in some blocks; unknowns exist where something acts on them.
 /// A law of a plug-in, for scalar fields.
 struct PluginLaw {
   std::string law;
@@ -143,6 +142,7 @@ struct PluginLaw {
   std::map<std::string, double> parameters;
 };
 
+/// What acts in some blocks; unknowns exist where something acts on them.
 struct Physics {
   std::string name;
   std::variant<ScalarBalance, FluidFlow, PluginLaw> law;

@@ -274,19 +274,13 @@ void writeBeside(const Results& files, const deck::Deck& deck, const std::string
 }  // namespace
 
 Vector3 moved(const deck::ToolMotion& motion, double loadFactor, const Vector3& place) {
-  const double l = motion.heldAt.value_or(loadFactor);
-  double power = 1, angle = 0;
-  Vector3 shift{};
-  for (std::size_t k = 0; k < std::max(motion.shift.size(), motion.angle.size()); ++k) {
-    power *= l;
-    if (k < motion.shift.size()) shift = sum(shift, power, motion.shift[k]);
-    if (k < motion.angle.size()) angle += power * motion.angle[k] * kPi / 180;
-  }
-  // Rodrigues' formula about the axis through the pivot.
-  const Vector3 axis = unit(motion.axis), x = sum(place, -1, motion.pivot);
-  const double c = std::cos(angle), s = std::sin(angle);
-  const Vector3 turned = sum(sum(sum({}, c, x), s, cross(axis, x)), (1 - c) * dot(axis, x), axis);
-  return sum(sum(motion.pivot, 1, turned), 1, shift);
+  const contact::Motion m = toolMotion(motion);
+  double shift[3], sine, cosine, x[3], turned[3];
+  m.at(loadFactor, shift, sine, cosine);
+  for (int i = 0; i < 3; ++i) x[i] = place[i] - m.pivot[i];
+  m.turn(x, sine, cosine, turned);
+  return {m.pivot[0] + shift[0] + turned[0], m.pivot[1] + shift[1] + turned[1],
+          m.pivot[2] + shift[2] + turned[2]};
 }
 
 void appendToolShape(const deck::Tool& tool, const Box& box, fem::Mesh& mesh) {

@@ -24,9 +24,9 @@ deck::Vector3 moved(const deck::ToolMotion& motion, double loadFactor, const dec
 void removeToolShapes(const std::string& folder);
 
 /// For every result file in the folder a file of the surfaces of the deck's tools beside it (tools.exo,
-/// tools_branch1.exo,
-/// ...), with a displacement for each of its states, so that viewers show them moving together; none where
-/// the deck has no tools. Files of that name are removed before. Throws exodus::Error, FileError.
+/// tools_branch1.exo, ...), with a displacement for each of its states, so that viewers show them moving
+/// together; none where the deck has no tools. Files of that name are removed before. Throws exodus::Error,
+/// FileError.
 void writeToolShapes(const std::string& folder, const deck::Deck& deck);
 
 }  // namespace atrapos

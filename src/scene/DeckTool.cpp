@@ -86,21 +86,6 @@ contact::AnyTool tool(const deck::CrownedRollTool& t) {
   return placed(roll);
 }
 
-contact::Motion motion(const deck::ToolMotion& m) {
-  contact::Motion motion;
-  double power = 1;
-  for (std::size_t k = 0; k < std::max(m.shift.size(), m.angle.size()); ++k) {
-    power *= m.heldAt.value_or(0);
-    const std::size_t at = m.heldAt ? 0 : k + 1;  // held: a constant
-    const double factor = m.heldAt ? power : 1;
-    for (int i = 0; k < m.shift.size() && i < 3; ++i) motion.shift[at][i] += factor * m.shift[k][i];
-    if (k < m.angle.size()) motion.angle[at] += factor * radians(m.angle[k]);
-  }
-  copy(unit(m.axis), motion.axis);
-  copy(m.pivot, motion.pivot);
-  return motion;
-}
-
 std::vector<contact::BezierPatch> patches(const deck::SplineSurface& s) {
   if (s.knots[0].empty() && s.knots[1].empty()) return {contact::BezierPatch{s.degree, s.points, s.weights}};
   contact::NurbsSurface surface;
@@ -119,6 +104,21 @@ std::vector<contact::BezierPatch> patches(const deck::SplineSurface& s) {
 
 }  // namespace
 
+contact::Motion toolMotion(const deck::ToolMotion& m) {
+  contact::Motion motion;
+  double power = 1;
+  for (std::size_t k = 0; k < std::max(m.shift.size(), m.angle.size()); ++k) {
+    power *= m.heldAt.value_or(0);
+    const std::size_t at = m.heldAt ? 0 : k + 1;  // held: a constant
+    const double factor = m.heldAt ? power : 1;
+    for (int i = 0; k < m.shift.size() && i < 3; ++i) motion.shift[at][i] += factor * m.shift[k][i];
+    if (k < m.angle.size()) motion.angle[at] += factor * radians(m.angle[k]);
+  }
+  copy(unit(m.axis), motion.axis);
+  copy(m.pivot, motion.pivot);
+  return motion;
+}
+
 std::vector<contact::BezierPatch> bezierPatches(const deck::PatchesTool& t) {
   std::vector<contact::BezierPatch> all;
   for (const deck::SplineSurface& surface : t.surfaces) try {
@@ -134,7 +134,7 @@ std::vector<contact::BezierPatch> bezierPatches(const deck::PatchesTool& t) {
 std::unique_ptr<contact::RigidTool> makeTool(const deck::Tool& entry) {
   constexpr double unlimited = std::numeric_limits<double>::infinity();
   std::optional<contact::Motion> moves;
-  if (entry.motion.moves()) moves = motion(entry.motion);
+  if (entry.motion.moves()) moves = toolMotion(entry.motion);
   if (const auto* t = std::get_if<deck::PatchesTool>(&entry.surface))
     return contact::rigidTool(
         std::make_shared<contact::PatchSet>(bezierPatches(*t), t->reversed, t->thickness.value_or(unlimited)),

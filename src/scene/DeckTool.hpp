@@ -12,6 +12,9 @@ namespace atrapos {
 /// A deck's tool. Throws std::invalid_argument, one line, where its numbers make no surface.
 std::unique_ptr<contact::RigidTool> makeTool(const deck::Tool& tool);
 
+/// Where a tool goes with the load factor.
+contact::Motion toolMotion(const deck::ToolMotion& motion);
+
 /// The Bezier patches that a tool's surfaces are made of. Throws std::invalid_argument likewise.
 std::vector<contact::BezierPatch> bezierPatches(const deck::PatchesTool& tool);
 
