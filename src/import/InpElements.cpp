@@ -14,7 +14,8 @@ constexpr const char* kBoxPoints = "HEX20 has 2 x 2 x 2 points of integration, a
 constexpr const char* kQuadPoints = "QUAD8 has 2 x 2 points of integration";
 constexpr const char* kOnePoint = "QUAD4 has 2 x 2 points of integration, not one";
 constexpr const char* kIncompatible = "QUAD4 has no incompatible modes: it locks in bending";
-constexpr const char* kShell4 = "SHELL4 can be in meshes, runs refuse it; S8R has an equal";
+constexpr const char* kShell4 = "SHELL4 has assumed strains of its own (MITC4)";
+constexpr const char* kShell4R = "SHELL4 has 2 x 2 points and assumed strains (MITC4), not one point";
 constexpr const char* kShell8 = "SHELL8 has 2 x 2 points of integration, as S8R";
 
 const std::vector<InpElementType>& types() {
@@ -32,7 +33,7 @@ const std::vector<InpElementType>& types() {
       {"C3D20", 20, Family::solid, Topology::Hex20, kBoxPoints},
       {"C3D20R", 20, Family::solid, Topology::Hex20, ""},
       {"S4", 4, Family::shell, Topology::Shell4, kShell4},
-      {"S4R", 4, Family::shell, Topology::Shell4, kShell4},
+      {"S4R", 4, Family::shell, Topology::Shell4, kShell4R},
       {"S8", 8, Family::shell, Topology::Shell8, kShell8},
       {"S8R", 8, Family::shell, Topology::Shell8, ""},
       {"CPS3", 3, Family::planeStress, Topology::Tri3, ""},
@@ -71,7 +72,7 @@ std::vector<int> inOrder(int count) {
 std::vector<int> topLast(int corners) {
   const int edges = corners / 2;
   std::vector<int> order = inOrder(corners + 3 * edges);
-  std::rotate(order.begin() + corners + edges, order.begin() + corners + 2 * edges, order.end());
+  std::rotate(order.begin() + corners + edges, order.begin() + corners + edges + edges, order.end());
   return order;
 }
 

@@ -8,6 +8,7 @@
 #include "atrapos/fem/LawTerm.hpp"
 #include "atrapos/physics/Dielectric.hpp"
 #include "atrapos/solid/FiniteVonMises.hpp"
+#include "atrapos/solid/Mitc4Metal.hpp"
 #include "atrapos/solid/MixedBody.hpp"
 #include "atrapos/solid/MixedLaw.hpp"
 #include "atrapos/solid/SaintVenantKirchhoff.hpp"
@@ -137,9 +138,25 @@ std::unique_ptr<fem::PointLaw> expanding(const Entry& entry, const physics::Expa
     throw std::logic_error("registry: an expansion of another material");  // decks are checked
 }
 
+// ------------------------------------------------------------------ Poisson's ratio at rest
+double poissonsRatio(double lambda, double mu) { return lambda / (2 * (lambda + mu)); }
+double poissonsRatio(const solid::SaintVenantKirchhoff& law) { return poissonsRatio(law.lambda, law.mu); }
+double poissonsRatio(const solid::NeoHookean& law) { return poissonsRatio(law.lambda, law.mu); }
+double poissonsRatio(const solid::Metal& metal) { return poissonsRatio(metal.lambda, metal.mu); }
+template <class Rubber>
+double poissonsRatio(const Rubber& law) {
+  const double mu = law.shearModulus();
+  return poissonsRatio(law.bulk - 2 * mu / 3, mu);
+}
+
 template <bool kinematic>
 std::unique_ptr<fem::Term> metalShells(const solid::Metal& metal, const solid::ShellElements& elements,
                                        const solid::ShellCubature& cubature, deck::Shear shear) {
+  if (elements.nodesPerElement == 4) {
+    using Law = solid::Mitc4Metal<kinematic>;
+    const auto at = solid::mitc4MetalPoints(elements, poissonsRatio(metal), cubature, Law::numData);
+    return fem::lawTerm(fem::pointLaw(Law{metal}), at.points, at.data);
+  }
   using Compatible = solid::ShellMetal<kinematic>;
   using Assumed = solid::AssumedShearMetal<kinematic>;
   const bool assumed = shear == deck::Shear::Assumed;
@@ -157,6 +174,11 @@ template <class Entry>
 std::unique_ptr<fem::Term> shells(const Entry& entry, const solid::ShellElements& elements,
                                   const solid::ShellCubature& cubature, deck::Shear shear) {
   using Law = decltype(law(entry));
+  if (elements.nodesPerElement == 4) {
+    const Law material = law(entry);
+    return fem::enhancedTerm(fem::pointLaw(solid::Mitc4Law<Law>{material}),
+                             solid::mitc4Points(elements, poissonsRatio(material), cubature));
+  }
   if (shear == deck::Shear::Assumed)
     return fem::enhancedTerm(fem::pointLaw(solid::AssumedShearLaw<Law>{law(entry)}),
                              solid::assumedShearPoints(elements, cubature));

@@ -216,7 +216,7 @@ BodyBlock Scene::addShell(const deck::Material& material, int shells, fem::FeMod
   BodyBlock body;
   body.term = static_cast<int>(model.terms.size());
   body.shells = shells;
-  body.toNodes = solid::shellPointsToNodes({});
+  body.toNodes = solid::shellPointsToNodes({}, shells_.elements[shells].nodesPerElement);
   model.terms.push_back(registry::shellTerm(material, shells_.elements[shells], shells_.cubature[shells],
                                             shells_.shear[shells]));
   return body;

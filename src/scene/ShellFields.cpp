@@ -27,7 +27,7 @@ std::vector<std::vector<double>> directorFields(const SceneShells& shells, const
   for (const solid::ShellElements& elements : shells.elements) {
     const auto change = solid::thicknessChange(elements, u);
     for (std::size_t i = 0; i < change.size(); ++i) {
-      const int node = elements.nodes[16 * (i / 8) + i % 8];
+      const int N = elements.nodesPerElement, node = elements.node(static_cast<int>(i) / N, i % N);
       fields[3][node] += change[i];
       ++elementsAt[node];
     }

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <map>
+#include <optional>
 #include <set>
 #include <stdexcept>
 
@@ -25,7 +28,12 @@ std::vector<fem::ShellSection> sectionsOf(const deck::Deck& deck, const fem::Mes
 deck::Shear shearOf(const deck::Deck& deck, const fem::Mesh& mesh, int block) {
   for (const deck::ShellSection& section : deck.shells.sections)
     for (const std::string& name : section.blocks)
-      if (section.shear && fem::findBlock(mesh, name) == block) return *section.shear;
+      if (section.shear && fem::findBlock(mesh, name) == block) {
+        if (*section.shear == deck::Shear::Compatible && mesh.blocks[block].topology == fem::Topology::Shell4)
+          deck::failAt(deck, "shells/sections/" + section.name + "/shear",
+                       fmt::format("block '{}' has SHELL4, whose shear is always assumed", name));
+        return *section.shear;
+      }
   return deck.shells.shear;
 }
 
@@ -38,11 +46,50 @@ solid::ShellCubature cubatureOf(const deck::Deck& deck, const fem::Mesh& mesh, i
   return cubature;
 }
 
+/// The axis of a plane of symmetry; empty where the condition is none.
+std::optional<int> symmetryAxis(deck::Support::Condition condition) {
+  using Condition = deck::Support::Condition;
+  if (condition == Condition::SymmetryX) return 0;
+  if (condition == Condition::SymmetryY) return 1;
+  if (condition == Condition::SymmetryZ) return 2;
+  return std::nullopt;
+}
+
+/// Directors of SHELL4 at planes of symmetry, in these planes: the mean of the normals there is that of the
+/// facets on one side alone, off by half the angle between neighbours.
+std::vector<fem::PrescribedDirector> directorsInSymmetry(const deck::Deck& deck, const fem::Mesh& mesh,
+                                                         const fem::ShellGeometry& geometry) {
+  std::set<int> facetNodes;
+  for (const fem::Block& block : mesh.blocks)
+    if (block.topology == fem::Topology::Shell4) facetNodes.insert(block.nodes.begin(), block.nodes.end());
+  const double largest =
+      std::sin(deck.shells.foldAngle * M_PI / 180);  // beyond it the surface meets itself in a fold
+  std::map<int, fem::PrescribedDirector> directors;
+  for (const deck::Support& support : deck.supports) {
+    const auto axis = symmetryAxis(support.condition);
+    if (!axis) continue;
+    for (const int node : nodesOf(mesh, support.set)) {
+      if (facetNodes.count(node) == 0 || geometry.directorNodes(node).size() != 1) continue;
+      const double* D = &geometry.directors[3 * static_cast<std::size_t>(geometry.firstDirector[node])];
+      const double length = std::hypot(D[0], D[1], D[2]);
+      if (std::abs(D[*axis]) > largest * length) continue;
+      auto& director =
+          directors.try_emplace(node, fem::PrescribedDirector{node, {D[0], D[1], D[2]}}).first->second;
+      director.direction[*axis] = 0;
+    }
+  }
+  std::vector<fem::PrescribedDirector> result;
+  for (const auto& entry : directors) result.push_back(entry.second);
+  return result;
+}
+
 fem::ShellGeometry geometryOf(const deck::Deck& deck, const fem::Mesh& mesh) {
   fem::ShellGeometryOptions options;
   options.foldAngle = deck.shells.foldAngle;
   try {
-    return fem::shellGeometry(mesh, sectionsOf(deck, mesh), options);
+    fem::ShellGeometry geometry = fem::shellGeometry(mesh, sectionsOf(deck, mesh), options);
+    options.directors = directorsInSymmetry(deck, mesh, geometry);
+    return options.directors.empty() ? geometry : fem::shellGeometry(mesh, sectionsOf(deck, mesh), options);
   } catch (const std::invalid_argument& e) {
     deck::failAt(deck, "shells", e.what());
   }
@@ -58,15 +105,14 @@ int SceneShells::find(int block) const {
 
 SceneShells sceneShells(const deck::Deck& deck, fem::Mesh& mesh) {
   for (const fem::Block& block : mesh.blocks)
-    if (fem::isShell(block.topology) && block.topology != fem::Topology::Shell8)
+    if (block.topology == fem::Topology::Shell9)
       deck::failAt(deck, "mesh/file",
-                   fmt::format("block '{}' has {}: the shell element has eight nodes; accepted is SHELL8",
-                               block.name, fem::topologyName(block.topology)));
+                   fmt::format("block '{}' has SHELL9; accepted are SHELL8 and SHELL4", block.name));
   SceneShells shells;
   shells.parts = fem::orientShells(mesh, deck.shells.foldAngle);
   shells.geometry = geometryOf(deck, mesh);
   for (const fem::ShellBlock& b : shells.geometry.blocks) {
-    shells.elements.push_back({b.nodes, b.midsurface, b.directors, b.directorScale});
+    shells.elements.push_back({b.nodes, b.midsurface, b.directors, b.directorScale, b.nodesPerElement});
     shells.shear.push_back(shearOf(deck, mesh, b.block));
     shells.cubature.push_back(cubatureOf(deck, mesh, b.block));
   }

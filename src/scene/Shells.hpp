@@ -25,7 +25,7 @@ struct SceneShells {
 
 /// All shells of a deck's mesh; empty where it has none. Blocks without a section have their thickness in
 /// their attributes. Turns shells over in the mesh where the normals of neighbours do not agree. Throws
-/// deck::DeckError for shells that cannot be, and for cells other than SHELL8.
+/// deck::DeckError for shells that cannot be, and for SHELL9.
 SceneShells sceneShells(const deck::Deck& deck, fem::Mesh& mesh);
 
 /// Makes the folds and branches of the shells rigid joints, those excepted that the deck has as hinges; after

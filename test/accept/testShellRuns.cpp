@@ -93,6 +93,15 @@ TEST(ShellRuns, TubeUnderPressure) {
   EXPECT_NEAR(outside.hoop, 20 * 1.05, 2e-3 * outside.hoop);
 }
 
+// Four nodes: 32 chords of an arc of 90 degrees, whose sagitta is 3e-4 of the radius. At the plane of
+// symmetry the director stands in it all the same.
+TEST(ShellRuns, TubeOfFourNodesUnderPressure) {
+  const Ring ring(edited(kTube, "divisions: [8, 1]", "divisions: [32, 1], cell: SHELL4"));
+  const Ring fine(edited(kTube, "divisions: [8, 1]", "divisions: [32, 1]"));
+  EXPECT_NEAR(ring.radius, fine.radius, 5e-4);
+  EXPECT_NEAR(ring.hoop, 20 * (ring.radius - ring.halfThickness), 2e-3 * ring.hoop);
+}
+
 // A side that pushes from the top pushes the other way.
 TEST(ShellRuns, PressureOnTheOtherSide) {
   const std::string small = edited(kTube, "pressure: 20", "pressure: 0.01");

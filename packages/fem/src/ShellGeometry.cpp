@@ -154,6 +154,12 @@ class Builder {
     atBranch_.assign(mesh_.numNodes(), 0);
     for (const auto& edge : edges) {
       const std::vector<Use>& uses = edge.second;
+      for (const Use& use : uses)
+        if ((perElement(use.from.section) == 4) != (perElement(uses[0].from.section) == 4))
+          fail(fmt::format(
+              "{} and {} have a common edge that is straight for one and has a middle node for the "
+              "other: shells of 4 and of 8 nodes may share corners alone",
+              label(uses[0].from.section, uses[0].from.element), label(use.from.section, use.from.element)));
       if (uses.size() > 2)
         for (const Corner& c : {uses[0].from, uses[0].to}) atBranch_[node(c.section, c.element, c.local)] = 1;
       if (uses.size() > 2 && perElement(uses[0].from.section) > 4)

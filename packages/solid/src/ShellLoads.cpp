@@ -18,18 +18,20 @@ constexpr double sqrt06 = 0.7745966692414834;  // sqrt(0.6), three Gauss points
 constexpr std::array<double, 3> lineX{-sqrt06, 0, sqrt06}, lineW{5.0 / 9, 8.0 / 9, 5.0 / 9};
 
 /// 3 x 3 points of the surface: N_a N_b J is integrated exactly for parallelograms.
-fem::Tabulation surfaceTable() { return fem::tabulateFace(fem::Face::Quad8, 5); }
+fem::Tabulation surfaceTable(const ShellElements& elements) {
+  return fem::tabulateFace(detail::faceOf(elements.nodesPerElement), 5);
+}
 
 /// X_xi and X_eta of the surface zeta at a point.
 void surfaceTangents(const ShellElements& elements, int e, const fem::Tabulation& t, int q, double zeta,
                      Vec3& g1, Vec3& g2) {
   g1 = g2 = {0, 0, 0};
-  for (int a = 0; a < 8; ++a)
+  const double *R = elements.R(e), *D = elements.D(e);
+  for (int a = 0; a < t.numNodes; ++a)
     for (int i = 0; i < 3; ++i) {
-      const std::size_t at = 24 * static_cast<std::size_t>(e) + 3 * a + i;
-      const double X = elements.midsurface[at] + zeta * elements.directors[at];
-      g1[i] += t.gradients[(q * 8 + a) * 2] * X;
-      g2[i] += t.gradients[(q * 8 + a) * 2 + 1] * X;
+      const double X = R[3 * a + i] + zeta * D[3 * a + i];
+      g1[i] += detail::gradientAt(t, q, a)[0] * X;
+      g2[i] += detail::gradientAt(t, q, a)[1] * X;
     }
 }
 
@@ -49,22 +51,29 @@ void forEachSurfacePoint(const ShellElements& elements, double zeta, const fem::
 
 void addAt(const ShellElements& elements, int e, const double* N, double zeta, const Vec3& f,
            std::vector<double>& force) {
-  for (int a = 0; a < 8; ++a)
+  for (int a = 0; a < elements.nodesPerElement; ++a)
     for (int i = 0; i < 3; ++i) {
-      force[3 * elements.nodes[16 * static_cast<std::size_t>(e) + a] + i] += N[a] * f[i];
-      if (zeta != 0)
-        force[3 * elements.nodes[16 * static_cast<std::size_t>(e) + 8 + a] + i] +=
-            zeta * elements.scale(e, a) * N[a] * f[i];
+      force[3 * elements.node(e, a) + i] += N[a] * f[i];
+      if (zeta != 0) force[3 * elements.directorNode(e, a) + i] += zeta * elements.scale(e, a) * N[a] * f[i];
     }
 }
 
-/// Nodes of an edge within the element (start, end, middle) and their quadratic shape functions.
-std::array<int, 3> nodesOf(const ShellEdge& edge) { return {edge.edge, (edge.edge + 1) % 4, 4 + edge.edge}; }
+/// Nodes of an edge within the element: start, end, and the middle where it has one.
+std::vector<int> nodesOf(const ShellElements& elements, const ShellEdge& edge) {
+  std::vector<int> nodes{edge.edge, (edge.edge + 1) % 4};
+  if (elements.nodesPerElement == 8) nodes.push_back(4 + edge.edge);
+  return nodes;
+}
 
+/// Their shape functions at s in [-1, 1].
 struct EdgeShape {
   std::array<double, 3> N, dN;
-  explicit EdgeShape(double s)
-      : N{s * (s - 1) / 2, s * (s + 1) / 2, 1 - s * s}, dN{s - 0.5, s + 0.5, -2 * s} {}
+  EdgeShape(const ShellElements& elements, double s) : N{(1 - s) / 2, (1 + s) / 2, 0}, dN{-0.5, 0.5, 0} {
+    if (elements.nodesPerElement == 8) {
+      N = {s * (s - 1) / 2, s * (s + 1) / 2, 1 - s * s};
+      dN = {s - 0.5, s + 0.5, -2 * s};
+    }
+  }
 };
 
 void checkEdges(const ShellElements& elements, const std::vector<ShellEdge>& edges) {
@@ -77,37 +86,35 @@ void checkEdges(const ShellElements& elements, const std::vector<ShellEdge>& edg
 
 Vec3 edgeTangent(const ShellElements& elements, const ShellEdge& edge, const EdgeShape& shape) {
   Vec3 T{};
-  const auto local = nodesOf(edge);
-  for (int a = 0; a < 3; ++a)
-    for (int i = 0; i < 3; ++i)
-      T[i] +=
-          shape.dN[a] * elements.midsurface[24 * static_cast<std::size_t>(edge.element) + 3 * local[a] + i];
+  const auto local = nodesOf(elements, edge);
+  for (std::size_t a = 0; a < local.size(); ++a)
+    for (int i = 0; i < 3; ++i) T[i] += shape.dN[a] * elements.R(edge.element)[3 * local[a] + i];
   return T;
 }
 
-/// Points of edges, law inputs (v, v_s, w): three nodes of v, three of w; and the laws' data.
+/// Points of edges, law inputs (v, v_s, w): the nodes of v, then those of w; and the laws' data.
 fem::PointSet edgePoints(const ShellElements& elements, const std::vector<ShellEdge>& edges,
                          std::vector<double>& data) {
   checkEdges(elements, edges);
   fem::PointSet p;
   p.numEntities = static_cast<int>(edges.size());
-  p.nodesPerEntity = 6;
+  p.nodesPerEntity = elements.nodesPerElement == 8 ? 6 : 4;
   p.pointsPerEntity = 3;
   p.shapeComponents = 3;
   for (const ShellEdge& edge : edges) {
-    const std::size_t e = edge.element;
-    const auto local = nodesOf(edge);
-    for (int half = 0; half < 2; ++half)
-      for (int a : local) p.nodes.push_back(elements.nodes[16 * e + 8 * half + a]);
+    const auto local = nodesOf(elements, edge);
+    for (int a : local) p.nodes.push_back(elements.node(edge.element, a));
+    for (int a : local) p.nodes.push_back(elements.directorNode(edge.element, a));
     for (int q = 0; q < 3; ++q) {
-      const EdgeShape shape(lineX[q]);
+      const EdgeShape shape(elements, lineX[q]);
       const Vec3 T = edgeTangent(elements, edge, shape);
       Vec3 D{};
-      for (int a = 0; a < 3; ++a)
-        for (int i = 0; i < 3; ++i) D[i] += shape.N[a] * elements.directors[24 * e + 3 * local[a] + i];
+      for (std::size_t a = 0; a < local.size(); ++a)
+        for (int i = 0; i < 3; ++i) D[i] += shape.N[a] * elements.D(edge.element)[3 * local[a] + i];
       p.weights.push_back(lineW[q] * std::sqrt(detail::dot(T.data(), T.data())));
-      for (int a = 0; a < 3; ++a) p.shape.insert(p.shape.end(), {shape.N[a], shape.dN[a], 0});
-      for (int a = 0; a < 3; ++a)
+      for (std::size_t a = 0; a < local.size(); ++a)
+        p.shape.insert(p.shape.end(), {shape.N[a], shape.dN[a], 0});
+      for (std::size_t a = 0; a < local.size(); ++a)
         p.shape.insert(p.shape.end(), {0, 0, elements.scale(edge.element, local[a]) * shape.N[a]});
       data.insert(data.end(), D.begin(), D.end());
       data.insert(data.end(), T.begin(), T.end());
@@ -120,34 +127,34 @@ fem::PointSet edgePoints(const ShellElements& elements, const std::vector<ShellE
 
 void addShellAreaForce(const ShellElements& elements, double zeta, const std::array<double, 3>& perArea,
                        std::vector<double>& force) {
-  const fem::Tabulation t = surfaceTable();
+  const fem::Tabulation t = surfaceTable(elements);
   forEachSurfacePoint(elements, zeta, t, [&](int e, int q, const Vec3& n) {
     const double area = std::sqrt(detail::dot(n.data(), n.data()));
-    addAt(elements, e, &t.values[q * 8], zeta, {area * perArea[0], area * perArea[1], area * perArea[2]},
-          force);
+    addAt(elements, e, detail::valuesAt(t, q), zeta,
+          {area * perArea[0], area * perArea[1], area * perArea[2]}, force);
   });
 }
 
 void addShellBodyForce(const ShellElements& elements, const std::array<double, 3>& perVolume,
                        std::vector<double>& force) {
-  const fem::Tabulation t = surfaceTable();
+  const fem::Tabulation t = surfaceTable(elements);
   for (int e = 0; e < elements.count(); ++e)
     for (int q = 0; q < t.numPoints; ++q)
       for (std::size_t layer = 0; layer < lineX.size(); ++layer) {  // N zeta J has degree 3 in zeta
         const double zeta = lineX[layer];
-        const double* R = &elements.midsurface[24 * static_cast<std::size_t>(e)];
-        const double* D = &elements.directors[24 * static_cast<std::size_t>(e)];
-        const double volume = t.weights[q] * lineW[layer] * detail::baseAt(t, q, zeta, R, D).jacobian();
-        addAt(elements, e, &t.values[q * 8], zeta,
+        const double volume =
+            t.weights[q] * lineW[layer] * detail::baseAt(t, q, zeta, elements.R(e), elements.D(e)).jacobian();
+        addAt(elements, e, detail::valuesAt(t, q), zeta,
               {volume * perVolume[0], volume * perVolume[1], volume * perVolume[2]}, force);
       }
 }
 
 void addShellPressure(const ShellElements& elements, double zeta, double pressure,
                       std::vector<double>& force) {
-  const fem::Tabulation t = surfaceTable();
+  const fem::Tabulation t = surfaceTable(elements);
   forEachSurfacePoint(elements, zeta, t, [&](int e, int q, const Vec3& n) {
-    addAt(elements, e, &t.values[q * 8], zeta, {-pressure * n[0], -pressure * n[1], -pressure * n[2]}, force);
+    addAt(elements, e, detail::valuesAt(t, q), zeta, {-pressure * n[0], -pressure * n[1], -pressure * n[2]},
+          force);
   });
 }
 
@@ -156,13 +163,13 @@ void addShellEdgeForce(const ShellElements& elements, const std::vector<ShellEdg
   checkEdges(elements, edges);
   for (const ShellEdge& edge : edges)
     for (int q = 0; q < 3; ++q) {
-      const EdgeShape shape(lineX[q]);
+      const EdgeShape shape(elements, lineX[q]);
       const Vec3 T = edgeTangent(elements, edge, shape);
       const double length = lineW[q] * std::sqrt(detail::dot(T.data(), T.data()));
-      for (int a = 0; a < 3; ++a)
+      const auto local = nodesOf(elements, edge);
+      for (std::size_t a = 0; a < local.size(); ++a)
         for (int i = 0; i < 3; ++i)
-          force[3 * elements.nodes[16 * static_cast<std::size_t>(edge.element) + nodesOf(edge)[a]] + i] +=
-              length * shape.N[a] * perLength[i];
+          force[3 * elements.node(edge.element, local[a]) + i] += length * shape.N[a] * perLength[i];
     }
 }
 
@@ -171,7 +178,7 @@ double lengthOf(const ShellElements& elements, const std::vector<ShellEdge>& edg
   double length = 0;
   for (const ShellEdge& edge : edges)
     for (int q = 0; q < 3; ++q) {
-      const Vec3 T = edgeTangent(elements, edge, EdgeShape(lineX[q]));
+      const Vec3 T = edgeTangent(elements, edge, EdgeShape(elements, lineX[q]));
       length += lineW[q] * std::sqrt(detail::dot(T.data(), T.data()));
     }
   return length;
@@ -179,10 +186,10 @@ double lengthOf(const ShellElements& elements, const std::vector<ShellEdge>& edg
 
 std::unique_ptr<fem::Term> followerPressure(const ShellElements& elements, const std::vector<int>& loaded,
                                             double zeta, LoadAmount pressure) {
-  const fem::Tabulation t = surfaceTable();
+  const fem::Tabulation t = surfaceTable(elements);
   fem::PointSet p;
   p.numEntities = static_cast<int>(loaded.size());
-  p.nodesPerEntity = 16;
+  p.nodesPerEntity = 2 * t.numNodes;
   p.pointsPerEntity = t.numPoints;
   p.shapeComponents = 3;
   std::vector<double> data;
@@ -190,15 +197,14 @@ std::unique_ptr<fem::Term> followerPressure(const ShellElements& elements, const
     if (e < 0 || e >= elements.count())
       throw std::invalid_argument(
           fmt::format("pressure on shell element {}: there are {} elements", e + 1, elements.count()));
-    const auto first = elements.nodes.begin() + 16 * static_cast<std::ptrdiff_t>(e);
-    p.nodes.insert(p.nodes.end(), first, first + 16);
+    for (int a = 0; a < p.nodesPerEntity; ++a) p.nodes.push_back(elements.node(e, a));
     for (int q = 0; q < t.numPoints; ++q) {
       p.weights.push_back(t.weights[q]);
       for (int half = 0; half < 2; ++half)
-        for (int a = 0; a < 8; ++a) {
-          const double* dN = &t.gradients[(q * 8 + a) * 2];
+        for (int a = 0; a < t.numNodes; ++a) {
+          const double* dN = detail::gradientAt(t, q, a);
           const double scale = half == 0 ? 1.0 : zeta * elements.scale(e, a);
-          p.shape.insert(p.shape.end(), {scale * t.values[q * 8 + a], scale * dN[0], scale * dN[1]});
+          p.shape.insert(p.shape.end(), {scale * detail::valuesAt(t, q)[a], scale * dN[0], scale * dN[1]});
         }
       Vec3 g1, g2;
       surfaceTangents(elements, e, t, q, zeta, g1, g2);

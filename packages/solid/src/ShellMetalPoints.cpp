@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "ShellSurface.hpp"
+#include "atrapos/solid/Mitc4Base.hpp"
 #include "atrapos/solid/ShellPoints.hpp"
 
 namespace atrapos::solid {
@@ -35,6 +36,13 @@ ShellMetalPoints pointsOf(fem::EnhancedPoints enhanced, int numData, const Geome
   return result;
 }
 
+/// The contravariant base [component][i] in the axes, [axis][i].
+void turnBase(const double* base, const std::array<Vec3, 3>& axes, double* to) {
+  for (int k = 0; k < 3; ++k)
+    for (int i = 0; i < 3; ++i)
+      to[3 * k + i] = axes[k][0] * base[i] + axes[k][1] * base[3 + i] + axes[k][2] * base[6 + i];
+}
+
 }  // namespace
 
 ShellMetalPoints shellMetalPoints(const ShellElements& elements, const ShellCubature& cubature, int numData) {
@@ -50,11 +58,17 @@ ShellMetalPoints assumedShearMetalPoints(const ShellElements& elements, const Sh
   return pointsOf(assumedShearPoints(elements, cubature), numData,
                   [](const double* from, const std::array<Vec3, 3>& axes, double* to) {
                     std::copy_n(from, 12, to);
-                    const double* base = from + 12;
-                    for (int k = 0; k < 3; ++k)
-                      for (int i = 0; i < 3; ++i)
-                        to[12 + 3 * k + i] =
-                            axes[k][0] * base[i] + axes[k][1] * base[3 + i] + axes[k][2] * base[6 + i];
+                    turnBase(from + 12, axes, to + 12);
+                  });
+}
+
+ShellMetalPoints mitc4MetalPoints(const ShellElements& elements, double poissonRatio,
+                                  const ShellCubature& cubature, int numData) {
+  constexpr int before = 21 + Mitc4Place<double>::numData;
+  return pointsOf(mitc4Points(elements, poissonRatio, cubature), numData,
+                  [](const double* from, const std::array<Vec3, 3>& axes, double* to) {
+                    std::copy_n(from, before, to);
+                    turnBase(from + before, axes, to + before);
                   });
 }
 

@@ -71,11 +71,11 @@ std::vector<double> surfaceStress(const fem::PointValues& stress, const ShellCub
   return result;
 }
 
-std::vector<double> shellPointsToNodes(const ShellCubature& cubature) {
+std::vector<double> shellPointsToNodes(const ShellCubature& cubature, int nodes) {
   constexpr double xi[8] = {-1, 1, 1, -1, 0, 1, 0, -1}, eta[8] = {-1, -1, 1, 1, -1, 0, 1, 0};
   const detail::GaussRule line = detail::gaussRule(cubature.inPlane);
   std::vector<double> result;
-  for (int a = 0; a < 8; ++a)
+  for (int a = 0; a < nodes; ++a)
     for (double byEta : lagrange(line.x, eta[a]))
       for (double byXi : lagrange(line.x, xi[a])) result.push_back(byXi * byEta);
   return result;
@@ -87,7 +87,8 @@ std::vector<std::string> ShellResultants::names() {
 
 ShellResultants shellResultants(const ShellElements& elements, const fem::PointValues& stress,
                                 const std::vector<double>& u, const ShellResultOptions& options) {
-  const detail::PlanePoints plane(options.cubature.inPlane);
+  const int N = elements.nodesPerElement;
+  const detail::PlanePoints plane(options.cubature.inPlane, N);
   const detail::GaussRule through = detail::gaussRule(options.cubature.throughThickness);
   const int Q = plane.count(), Z = static_cast<int>(through.x.size());
   checkStress(stress, static_cast<std::size_t>(Q) * Z);
@@ -95,14 +96,12 @@ ShellResultants shellResultants(const ShellElements& elements, const fem::PointV
     throw std::logic_error("shell results: the stresses are not those of these elements");
   ShellResultants result;
   for (int e = 0; e < elements.count(); ++e) {
-    const double* R = &elements.midsurface[24 * static_cast<std::size_t>(e)];
-    const double* D = &elements.directors[24 * static_cast<std::size_t>(e)];
+    const double *R = elements.R(e), *D = elements.D(e);
     double r[24], d[24];
-    for (int a = 0; a < 8; ++a)
+    for (int a = 0; a < N; ++a)
       for (int i = 0; i < 3; ++i) {
-        const std::size_t at = 16 * static_cast<std::size_t>(e) + a;
-        r[3 * a + i] = R[3 * a + i] + u[3 * elements.nodes[at] + i];
-        d[3 * a + i] = D[3 * a + i] + elements.scale(e, a) * u[3 * elements.nodes[at + 8] + i];
+        r[3 * a + i] = R[3 * a + i] + u[3 * elements.node(e, a) + i];
+        d[3 * a + i] = D[3 * a + i] + elements.scale(e, a) * u[3 * elements.directorNode(e, a) + i];
       }
     for (int q = 0; q < Q; ++q) {
       const auto [c1, c2] = inPlane(detail::baseAt(plane.table, q, 0, R, D), options.axis);
@@ -128,7 +127,7 @@ ShellResultants shellResultants(const ShellElements& elements, const fem::PointV
       result.values.insert(result.values.end(), sums, sums + 8);
       for (int i = 0; i < 3; ++i) {
         double x = 0;
-        for (int a = 0; a < 8; ++a) x += plane.table.values[q * 8 + a] * R[3 * a + i];
+        for (int a = 0; a < N; ++a) x += detail::valuesAt(plane.table, q)[a] * R[3 * a + i];
         result.positions.push_back(x);
       }
     }
@@ -139,9 +138,9 @@ ShellResultants shellResultants(const ShellElements& elements, const fem::PointV
 std::vector<double> thicknessChange(const ShellElements& elements, const std::vector<double>& u) {
   std::vector<double> result;
   for (int e = 0; e < elements.count(); ++e)
-    for (int a = 0; a < 8; ++a) {
-      const double* D = &elements.directors[24 * static_cast<std::size_t>(e) + 3 * a];
-      const double* w = &u[3 * elements.nodes[16 * static_cast<std::size_t>(e) + 8 + a]];
+    for (int a = 0; a < elements.nodesPerElement; ++a) {
+      const double* D = elements.D(e) + 3 * static_cast<std::size_t>(a);
+      const double* w = &u[3 * static_cast<std::size_t>(elements.directorNode(e, a))];
       const double own = elements.scale(e, a);
       const Vec3 before{D[0], D[1], D[2]}, after{D[0] + own * w[0], D[1] + own * w[1], D[2] + own * w[2]};
       result.push_back(2 * (std::sqrt(detail::dot(after, after)) - std::sqrt(detail::dot(before, before))));

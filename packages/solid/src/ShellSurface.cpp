@@ -36,21 +36,23 @@ GaussRule gaussRule(int points) {
   }
 }
 
-PlanePoints::PlanePoints(int perDirection) {
+fem::Face faceOf(int nodes) { return nodes == 4 ? fem::Face::Quad4 : fem::Face::Quad8; }
+
+PlanePoints::PlanePoints(int perDirection, int nodes) {
   const GaussRule line = gaussRule(perDirection);
   for (int j = 0; j < perDirection; ++j)
     for (int i = 0; i < perDirection; ++i) {
       xi.insert(xi.end(), {line.x[i], line.x[j]});
       weights.push_back(line.w[i] * line.w[j]);
     }
-  table = fem::tabulateFaceAt(fem::Face::Quad8, xi);
+  table = fem::tabulateFaceAt(faceOf(nodes), xi);
 }
 
 Base baseAt(const fem::Tabulation& t, int point, double zeta, const double* R, const double* D) {
   Base base;
-  for (int a = 0; a < 8; ++a) {
-    const double N = t.values[point * 8 + a];
-    const double* dN = &t.gradients[(point * 8 + a) * 2];
+  for (int a = 0; a < t.numNodes; ++a) {
+    const double N = valuesAt(t, point)[a];
+    const double* dN = gradientAt(t, point, a);
     for (int i = 0; i < 3; ++i) {
       const double X = R[3 * a + i] + zeta * D[3 * a + i];
       base.g1[i] += dN[0] * X;

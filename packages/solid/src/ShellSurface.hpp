@@ -22,6 +22,17 @@ inline Vec3 unit(const Vec3& a) {
   return {a[0] / size, a[1] / size, a[2] / size};
 }
 
+/// The surface of an element of 8 or 4 nodes.
+fem::Face faceOf(int nodes);
+
+/// The shape functions of all nodes at a point, and the derivatives of one's by xi and eta.
+inline const double* valuesAt(const fem::Tabulation& t, int point) {
+  return &t.values[static_cast<std::size_t>(point) * t.numNodes];
+}
+inline const double* gradientAt(const fem::Tabulation& t, int point, int node) {
+  return &t.gradients[2 * (static_cast<std::size_t>(point) * t.numNodes + node)];
+}
+
 struct GaussRule {
   std::vector<double> x, w;
 };
@@ -34,11 +45,12 @@ struct PlanePoints {
   std::vector<double> xi, weights;  ///< [point][2], [point]
   fem::Tabulation table;
 
-  explicit PlanePoints(int perDirection);
+  /// nodes: of the element, 8 or 4.
+  PlanePoints(int perDirection, int nodes);
   int count() const { return static_cast<int>(weights.size()); }
 };
 
-/// Covariant base vectors of R + zeta D at an in-plane point; R, D: [8][3].
+/// Covariant base vectors of R + zeta D at an in-plane point; R, D: [node][3].
 struct Base {
   Vec3 g1{}, g2{}, g3{};
   double jacobian() const { return dot(cross(g1, g2), g3); }

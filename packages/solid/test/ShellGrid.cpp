@@ -26,10 +26,11 @@ std::vector<int> ShellGrid::lineJ(int j) const {
 ShellElements ShellGrid::elements() const {
   constexpr int di[8] = {0, 2, 2, 0, 1, 2, 1, 0}, dj[8] = {0, 0, 2, 2, 0, 1, 2, 1};
   ShellElements result;
+  result.nodesPerElement = nodesPerElement;
   for (int ej = 0; ej < nv; ++ej)
     for (int ei = 0; ei < nu; ++ei) {
-      int nodes[8];
-      for (int a = 0; a < 8; ++a) nodes[a] = node(2 * ei + di[a], 2 * ej + dj[a]);
+      std::vector<int> nodes;
+      for (int a = 0; a < nodesPerElement; ++a) nodes.push_back(node(2 * ei + di[a], 2 * ej + dj[a]));
       for (int n : nodes) result.nodes.push_back(n);
       for (int n : nodes) result.nodes.push_back(director(n));
       for (int n : nodes) {
@@ -41,14 +42,16 @@ ShellElements ShellGrid::elements() const {
   return result;
 }
 
-ShellGrid shellGrid(int nu, int nv, double thickness, const Surface& surface, const Distortion& distortion) {
+ShellGrid shellGrid(int nu, int nv, double thickness, const Surface& surface, const Distortion& distortion,
+                    int nodesPerElement) {
   ShellGrid grid;
   grid.nu = nu;
   grid.nv = nv;
   grid.thickness = thickness;
+  grid.nodesPerElement = nodesPerElement;
   for (int j = 0; j <= 2 * nv; ++j)
     for (int i = 0; i <= 2 * nu; ++i) {
-      const bool exists = i % 2 == 0 || j % 2 == 0;
+      const bool exists = nodesPerElement == 8 ? i % 2 == 0 || j % 2 == 0 : i % 2 == 0 && j % 2 == 0;
       grid.lattice.push_back(exists ? grid.numNodes() : -1);
       if (!exists) continue;
       const auto [s, t] = distortion(i / (2.0 * nu), j / (2.0 * nv));

@@ -19,10 +19,10 @@ using Surface = std::function<SurfacePoint(double s, double t)>;
 /// A map from [0, 1]^2 to parameters: distorts a grid within its surface.
 using Distortion = std::function<std::array<double, 2>(double s, double t)>;
 
-/// nu x nv eight-node elements on a mid-surface. Nodes have indices (i, j), 0 <= i <= 2 nu, 0 <= j <= 2 nv,
-/// on the lattice of half elements; both odd: no node.
+/// nu x nv elements of eight or four nodes on a mid-surface. Nodes have indices (i, j), 0 <= i <= 2 nu,
+/// 0 <= j <= 2 nv, on the lattice of half elements; both odd, with four nodes one of them: no node.
 struct ShellGrid {
-  int nu = 0, nv = 0;
+  int nu = 0, nv = 0, nodesPerElement = 8;
   std::vector<int> lattice;  ///< [j][i] node, -1 where there is none
   std::vector<Vec3> x, normal;
   double thickness = 0;
@@ -43,9 +43,11 @@ struct ShellGrid {
 
 ShellGrid shellGrid(
     int nu, int nv, double thickness, const Surface& surface,
-    const Distortion& distortion = [](double s, double t) {
-      return std::array<double, 2>{s, t};
-    });
+    const Distortion& distortion =
+        [](double s, double t) {
+          return std::array<double, 2>{s, t};
+        },
+    int nodesPerElement = 8);
 
 /// Moves the nodes inside a flat grid by up to `amount` in its plane, edges between corners kept straight
 /// (the nodes between corners at the middle); the grid's outer edge stays.

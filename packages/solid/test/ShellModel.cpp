@@ -10,6 +10,10 @@ namespace atrapos::solid::test {
 
 std::unique_ptr<fem::Term> shellTerm(const ShellGrid& grid, const SaintVenantKirchhoff& material,
                                      const ShellCubature& cubature, Shear shear) {
+  if (shear == Shear::mitc4)
+    return fem::enhancedTerm(
+        fem::pointLaw(Mitc4Law<SaintVenantKirchhoff>{material}),
+        mitc4Points(grid.elements(), material.lambda / (2 * (material.lambda + material.mu)), cubature));
   if (shear == Shear::assumed)
     return fem::enhancedTerm(fem::pointLaw(AssumedShearLaw<SaintVenantKirchhoff>{material}),
                              assumedShearPoints(grid.elements(), cubature));

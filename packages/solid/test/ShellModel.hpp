@@ -12,8 +12,14 @@ namespace atrapos::solid::test {
 
 using fem::test::Numbers;
 
-/// The paper's element, or the one with assumed transverse shear strains.
-enum class Shear { compatible, assumed };
+/// The paper's element, the one with assumed transverse shear strains, the one of four nodes.
+enum class Shear { compatible, assumed, mitc4 };
+
+/// Nodes of such an element.
+inline int nodesOf(Shear shear) { return shear == Shear::mitc4 ? 4 : 8; }
+
+/// A distortion that is none.
+inline std::array<double, 2> undistorted(double s, double t) { return {s, t}; }
 
 std::unique_ptr<fem::Term> shellTerm(const ShellGrid& grid, const SaintVenantKirchhoff& material,
                                      const ShellCubature& cubature = {}, Shear shear = Shear::compatible);

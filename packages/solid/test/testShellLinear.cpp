@@ -15,7 +15,8 @@ constexpr double degree = M_PI / 180;
 
 /// Scordelis-Lo roof, one quarter, n x n: downward displacement of the middle of the free edge.
 double scordelisLo(int n, Shear shear = Shear::compatible) {
-  const ShellGrid grid = shellGrid(n, n, 0.25, cylinder(25, 0, 40 * degree, 0, 25));
+  const ShellGrid grid =
+      shellGrid(n, n, 0.25, cylinder(25, 0, 40 * degree, 0, 25), undistorted, nodesOf(shear));
   fem::FeModel model = shellModel(grid, SaintVenantKirchhoff::fromYoung(4.32e8, 0), {}, shear);
   symmetric(model, grid, grid.lineI(0), 'x');  // crown
   symmetric(model, grid, grid.lineJ(0), 'y');  // mid-length
@@ -28,7 +29,8 @@ double scordelisLo(int n, Shear shear = Shear::compatible) {
 
 /// Pinched cylinder with end diaphragms, one octant: displacement under the load.
 double pinchedCylinder(int n, Shear shear = Shear::compatible) {
-  const ShellGrid grid = shellGrid(n, n, 3, cylinder(300, 0, 90 * degree, 0, 300));
+  const ShellGrid grid =
+      shellGrid(n, n, 3, cylinder(300, 0, 90 * degree, 0, 300), undistorted, nodesOf(shear));
   fem::FeModel model = shellModel(grid, SaintVenantKirchhoff::fromYoung(3e6, 0.3), {}, shear);
   symmetric(model, grid, grid.lineI(0), 'x');
   symmetric(model, grid, grid.lineI(2 * n), 'z');
@@ -48,7 +50,7 @@ double hemisphere(int n, const ShellCubature& cubature = {}, Shear shear = Shear
     const Vec3 r{std::cos(lat) * std::cos(lon), std::cos(lat) * std::sin(lon), std::sin(lat)};
     return SurfacePoint{{10 * r[0], 10 * r[1], 10 * r[2]}, r};
   };
-  const ShellGrid grid = shellGrid(n, n, 0.04, sphere);
+  const ShellGrid grid = shellGrid(n, n, 0.04, sphere, undistorted, nodesOf(shear));
   fem::FeModel model = shellModel(grid, SaintVenantKirchhoff::fromYoung(6.825e7, 0.3), cubature, shear);
   symmetric(model, grid, grid.lineI(0), 'y');
   symmetric(model, grid, grid.lineI(2 * n), 'x');
@@ -80,7 +82,8 @@ double morley(int n, double thickness, double p, Shear shear = Shear::compatible
       },
       [=](double s, double t) {
         return std::array<double, 2>{place(s), place(t)};
-      });
+      },
+      nodesOf(shear));
   fem::FeModel model = shellModel(grid, SaintVenantKirchhoff::fromYoung(1, 0.3), {}, shear);
   std::vector<char> edge(grid.numNodes(), 0);
   for (const auto& line : {grid.lineI(0), grid.lineI(2 * n), grid.lineJ(0), grid.lineJ(2 * n)})
@@ -100,7 +103,7 @@ double morley(int n, double thickness, double p, Shear shear = Shear::compatible
 /// digits by Taylor and Govindjee 2004).
 double clampedPlateError(int n, double t, Shear shear = Shear::compatible) {
   const double E = 1e12;
-  const ShellGrid grid = shellGrid(n, n, t, flat(0.5, 0.5));
+  const ShellGrid grid = shellGrid(n, n, t, flat(0.5, 0.5), undistorted, nodesOf(shear));
   fem::FeModel model = shellModel(grid, SaintVenantKirchhoff::fromYoung(E, 0.3), {}, shear);
   symmetric(model, grid, grid.lineI(0), 'x');
   symmetric(model, grid, grid.lineJ(0), 'y');
@@ -115,6 +118,54 @@ double clampedPlateError(int n, double t, Shear shear = Shear::compatible) {
   fem::FeProblem problem(std::move(model));
   const double D = E * t * t * t / (12 * (1 - 0.09));
   return linearSolution(problem)[3 * grid.node(0, 0) + 2] * D / 1.265319087e-3 - 1;
+}
+
+/// Cook's membrane by shells in their plane, n x n, plane stress, E = 1, nu = 1/3: deflection of the middle
+/// of the loaded end under a unit force.
+double cook(int n, Shear shear) {
+  const ShellGrid grid = shellGrid(
+      n, n, 1,
+      [](double s, double t) {
+        return SurfacePoint{{48 * s, 44 * s + t * (44 - 28 * s), 0}, {0, 0, 1}};
+      },
+      undistorted, nodesOf(shear));
+  fem::FeModel model = shellModel(grid, SaintVenantKirchhoff::fromYoung(1, 1.0 / 3), {}, shear);
+  clamp(model, grid, grid.lineI(0));
+  for (int k = 0; k < grid.numNodes(); ++k)
+    for (int d : {k, grid.director(k)})
+      for (int i = 0; i < 3; ++i)
+        if ((d == k) == (i == 2) && !model.supports.fixed(3 * d + i)) model.prescribe(d, i, 0, 0);
+  addShellEdgeForce(grid.elements(), grid.side(1), {0, 1.0 / 16, 0}, model.load);
+  fem::FeProblem problem(std::move(model));
+  return linearSolution(problem)[3 * grid.node(2 * n, n) + 1];
+}
+
+/// A strip of n x 1 elements bent in its plane by an end moment: curvature over that of the beam, M/(E t
+/// h^3/12).
+double bentInPlane(int n, double skew, Shear shear) {
+  const double L = 10, h = 1, t = 0.01;
+  const ShellGrid grid = shellGrid(
+      n, 1, t,
+      [=](double s, double y) {
+        return SurfacePoint{{L * s + skew * y, h * y, 0}, {0, 0, 1}};
+      },
+      undistorted, nodesOf(shear));
+  fem::FeModel model = shellModel(grid, SaintVenantKirchhoff::fromYoung(1, 0.3), {}, shear);
+  const int low = grid.node(0, 0), high = grid.node(0, 2), endLow = grid.node(2 * n, 0),
+            endHigh = grid.node(2 * n, 2);
+  for (int k = 0; k < grid.numNodes(); ++k) {
+    hold(model, {k}, "z");
+    holdDirector(model, grid, {k}, "xy");
+  }
+  hold(model, {low}, "xy");
+  // The end's section turns about its middle; a couple at either end.
+  hold(model, {endLow}, "y");
+  for (const auto& [node, force] : {std::pair{endHigh, -1.0}, {endLow, 1.0}, {high, 1.0}, {low, -1.0}})
+    model.load[3 * node] += force;
+  fem::FeProblem problem(std::move(model));
+  const Numbers u = linearSolution(problem);
+  const double turn = (u[3 * endLow] - u[3 * endHigh] - (u[3 * low] - u[3 * high])) / h;
+  return turn / L * (t * h * h * h / 12) / h;
 }
 
 }  // namespace
@@ -233,4 +284,40 @@ TEST(AssumedShear, OtherBenchmarks) {
   EXPECT_NEAR(pinchedCylinder(16, Shear::assumed), 1.8248e-5, 0.01 * 1.8248e-5);
   EXPECT_NEAR(hemisphere(8, {}, Shear::assumed), 0.0935, 0.01 * 0.0935);
   EXPECT_NEAR(hemisphere(16, {}, Shear::assumed), 0.0935, 0.005 * 0.0935);
+}
+
+// Four nodes: the same meshes of nodes have twice the elements along a side. Bounds: the error of a bilinear
+// element of a quarter of the side's length, and a fifth of it on half the size.
+TEST(FourNodes, Benchmarks) {
+  const Shear four = Shear::mitc4;
+  EXPECT_NEAR(scordelisLo(16, four), 0.3014, 0.002 * 0.3014);
+  EXPECT_NEAR(scordelisLo(32, four), 0.3014, 0.001 * 0.3014);
+  EXPECT_NEAR(pinchedCylinder(16, four), 1.8248e-5, 0.07 * 1.8248e-5);
+  EXPECT_NEAR(pinchedCylinder(32, four), 1.8248e-5, 0.013 * 1.8248e-5);
+  EXPECT_NEAR(hemisphere(16, {}, four), 0.0935, 0.005 * 0.0935);
+  EXPECT_NEAR(hemisphere(32, {}, four), 0.0935, 0.005 * 0.0935);
+  // Singular at the clamped corner, and thickness strains are continuous where those in the plane are not.
+  EXPECT_NEAR(cook(16, four), 23.96, 0.01 * 23.96);
+  EXPECT_NEAR(cook(32, four), 23.96, 0.005 * 23.96);
+}
+
+// No locking whatever the thickness, and order 2.
+TEST(FourNodes, ClampedPlate) {
+  for (double t : {1e-3, 1e-5}) {
+    const double e4 = clampedPlateError(4, t, Shear::mitc4), e8 = clampedPlateError(8, t, Shear::mitc4),
+                 e16 = clampedPlateError(16, t, Shear::mitc4);
+    EXPECT_NEAR(e4, 0, 0.02) << t;
+    EXPECT_NEAR(std::log2(e4 / e8), 2, 0.1) << t;
+    EXPECT_NEAR(std::log2(e8 / e16), 2, 0.1) << t;
+  }
+}
+
+// Bending in the plane by one row of elements: the beam's curvature, where a bilinear element of that shape
+// is 12 times too stiff; on skew ones as Pian and Sumihara's.
+TEST(FourNodes, BendingInThePlane) {
+  // The section's thickness changes across it: (t/h)^2 nu^2.
+  for (double skew : {0.0, 0.5}) {
+    EXPECT_NEAR(bentInPlane(1, skew, Shear::mitc4), 1, 1e-5) << skew;
+    EXPECT_NEAR(bentInPlane(5, skew, Shear::mitc4), 1, 1e-5) << skew;
+  }
 }

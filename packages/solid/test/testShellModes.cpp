@@ -47,14 +47,21 @@ int zeros(const Numbers& eigenvalues) {
   return count;
 }
 
-ShellGrid flatGrid(int nu, int nv, double thickness = 0.1) {
-  return shellGrid(nu, nv, thickness, flat(nu, nv));
+ShellGrid flatGrid(int nu, int nv, double thickness = 0.1, int nodes = 8) {
+  return shellGrid(nu, nv, thickness, flat(nu, nv), undistorted, nodes);
 }
 
-ShellGrid skewQuadrilateral() {
-  return shellGrid(1, 1, 0.1, [](double s, double t) {
-    return SurfacePoint{{s + 0.3 * t + 0.2 * s * t, t - 0.1 * s * t, 0}, {0, 0, 1}};
-  });
+ShellGrid skewQuadrilateral(int nodes = 8) {
+  return shellGrid(
+      1, 1, 0.1,
+      [](double s, double t) {
+        return SurfacePoint{{s + 0.3 * t + 0.2 * s * t, t - 0.1 * s * t, 0}, {0, 0, 1}};
+      },
+      undistorted, nodes);
+}
+
+ShellGrid arc(int n, int nodes = 8) {
+  return shellGrid(n, n, 0.1, cylinder(1, 0, 0.6 * n, 0, 0.8 * n), undistorted, nodes);
 }
 
 constexpr int rigid = 6;
@@ -68,7 +75,7 @@ TEST(ShellModes, OneElementHasTwoHourglassModes) {
   for (double nu : {0.0, 0.3}) {
     EXPECT_EQ(zeros(eigenvalues(flatGrid(1, 1), reduced, nu)), rigid + 2);
     EXPECT_EQ(zeros(eigenvalues(skewQuadrilateral(), reduced, nu)), rigid + 2);
-    EXPECT_EQ(zeros(eigenvalues(shellGrid(1, 1, 0.1, cylinder(1, 0, 0.6, 0, 0.8)), reduced, nu)), rigid + 2);
+    EXPECT_EQ(zeros(eigenvalues(arc(1), reduced, nu)), rigid + 2);
     EXPECT_EQ(zeros(eigenvalues(flatGrid(1, 1), full, nu)), rigid);
     EXPECT_EQ(zeros(eigenvalues(skewQuadrilateral(), full, nu)), rigid);
   }
@@ -82,7 +89,7 @@ TEST(ShellModes, TwoElementsHaveRigidModesOnly) {
     EXPECT_EQ(zeros(eigenvalues(flatGrid(2, 2), reduced, nu)), rigid);
     EXPECT_EQ(zeros(eigenvalues(flatGrid(3, 3, 0.01), reduced, nu)), rigid);
     EXPECT_EQ(zeros(eigenvalues(shaken(flatGrid(2, 2), 0.2), reduced, nu)), rigid);
-    EXPECT_EQ(zeros(eigenvalues(shellGrid(2, 2, 0.1, cylinder(1, 0, 1.2, 0, 1)), reduced, nu)), rigid);
+    EXPECT_EQ(zeros(eigenvalues(arc(2), reduced, nu)), rigid);
   }
 }
 
@@ -98,6 +105,22 @@ TEST(ShellModes, AssumedShear) {
     EXPECT_EQ(count(flatGrid(2, 2)), rigid);
     EXPECT_EQ(count(flatGrid(3, 3, 0.01)), rigid);
     EXPECT_EQ(count(shaken(flatGrid(2, 2), 0.2)), rigid);
-    EXPECT_EQ(count(shellGrid(2, 2, 0.1, cylinder(1, 0, 1.2, 0, 1))), rigid);
+    EXPECT_EQ(count(arc(2)), rigid);
+  }
+}
+
+// Four nodes: one element alone has no others either.
+TEST(ShellModes, FourNodes) {
+  for (double nu : {0.0, 0.3}) {
+    const auto count = [&](const ShellGrid& grid) {
+      return zeros(eigenvalues(grid, reduced, nu, Shear::mitc4));
+    };
+    EXPECT_EQ(count(flatGrid(1, 1, 0.1, 4)), rigid);
+    EXPECT_EQ(count(skewQuadrilateral(4)), rigid);
+    EXPECT_EQ(count(arc(1, 4)), rigid);
+    EXPECT_EQ(count(flatGrid(2, 1, 0.1, 4)), rigid);
+    EXPECT_EQ(count(flatGrid(3, 3, 0.01, 4)), rigid);
+    EXPECT_EQ(count(shaken(flatGrid(2, 2, 0.1, 4), 0.2)), rigid);
+    EXPECT_EQ(count(arc(2, 4)), rigid);
   }
 }

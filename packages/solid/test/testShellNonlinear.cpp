@@ -60,28 +60,29 @@ struct BentStrip {
 
 /// Rolled up by an end moment that follows the section, M = 2 pi EI/L = 50 pi/3 at load factor 1: a full
 /// circle.
-ShellPath endMoment(int n, double thickness, int& tip) {
-  const ShellGrid grid = shellGrid(n, 1, thickness, flat(12, 1));
+ShellPath endMoment(int n, double thickness, int& tip, Shear shear = Shear::compatible) {
+  const ShellGrid grid = shellGrid(n, 1, thickness, flat(12, 1), undistorted, nodesOf(shear));
   const double EI = 100;
-  fem::FeModel model = shellModel(grid, SaintVenantKirchhoff::fromYoung(12 * EI / std::pow(thickness, 3), 0));
+  fem::FeModel model =
+      shellModel(grid, SaintVenantKirchhoff::fromYoung(12 * EI / std::pow(thickness, 3), 0), {}, shear);
   clamp(model, grid, grid.lineI(0));
   FollowerEdgeLoad load;
   load.moment.rate = -50 * M_PI / 3;  // about -y: the tip rises
   model.terms.push_back(followerEdgeLoad(grid.elements(), grid.side(1), load));
-  tip = grid.node(2 * n, 1);
+  tip = grid.lineI(2 * n)[grid.nodesPerElement == 8 ? 1 : 0];
   fem::FeProblem problem(std::move(model));
   path::Stops stops;
   stops.loadFactors = {1.0};
   return followPath(problem, stops);
 }
 
-ShellPath annulus(int radial, int around, int& inner, int& outer) {
+ShellPath annulus(int radial, int around, int& inner, int& outer, Shear shear = Shear::compatible) {
   const Surface surface = [](double s, double t) {
     const double r = 6 + 4 * s, a = 2 * M_PI * t;
     return SurfacePoint{{r * std::cos(a), r * std::sin(a), 0}, {0, 0, 1}};
   };
-  const ShellGrid grid = shellGrid(radial, around, 0.03, surface);
-  fem::FeModel model = shellModel(grid, SaintVenantKirchhoff::fromYoung(21e6, 0));
+  const ShellGrid grid = shellGrid(radial, around, 0.03, surface, undistorted, nodesOf(shear));
+  fem::FeModel model = shellModel(grid, SaintVenantKirchhoff::fromYoung(21e6, 0), {}, shear);
   clamp(model, grid, grid.lineJ(2 * around));
   addShellEdgeForce(grid.elements(), grid.side(0), {0, 0, 0.8}, model.load);
   inner = grid.lineJ(0).front();
@@ -92,14 +93,14 @@ ShellPath annulus(int radial, int around, int& inner, int& outer) {
   return followPath(problem, stops);
 }
 
-ShellPath hemisphere(int n, int& a, int& b) {
+ShellPath hemisphere(int n, int& a, int& b, Shear shear = Shear::compatible) {
   const Surface sphere = [](double s, double t) {
     const double lon = 90 * degree * s, lat = 72 * degree * t;
     const Vec3 r{std::cos(lat) * std::cos(lon), std::cos(lat) * std::sin(lon), std::sin(lat)};
     return SurfacePoint{{10 * r[0], 10 * r[1], 10 * r[2]}, r};
   };
-  const ShellGrid grid = shellGrid(n, n, 0.04, sphere);
-  fem::FeModel model = shellModel(grid, SaintVenantKirchhoff::fromYoung(6.825e7, 0.3));
+  const ShellGrid grid = shellGrid(n, n, 0.04, sphere, undistorted, nodesOf(shear));
+  fem::FeModel model = shellModel(grid, SaintVenantKirchhoff::fromYoung(6.825e7, 0.3), {}, shear);
   symmetric(model, grid, grid.lineI(0), 'y');
   symmetric(model, grid, grid.lineI(2 * n), 'x');
   a = grid.node(0, 0);
@@ -113,9 +114,10 @@ ShellPath hemisphere(int n, int& a, int& b) {
   return followPath(problem, stops);
 }
 
-ShellPath roof(int n, double thickness, double lastDeflection, int& centre) {
-  const ShellGrid grid = shellGrid(n, n, thickness, cylinder(2540, 0, 0.1, 0, 254));
-  fem::FeModel model = shellModel(grid, SaintVenantKirchhoff::fromYoung(3102.75, 0.3));
+ShellPath roof(int n, double thickness, double lastDeflection, int& centre, Shear shear = Shear::compatible) {
+  const ShellGrid grid =
+      shellGrid(n, n, thickness, cylinder(2540, 0, 0.1, 0, 254), undistorted, nodesOf(shear));
+  fem::FeModel model = shellModel(grid, SaintVenantKirchhoff::fromYoung(3102.75, 0.3), {}, shear);
   symmetric(model, grid, grid.lineI(0), 'x');
   symmetric(model, grid, grid.lineJ(0), 'y');
   hold(model, grid.lineI(2 * n), "xyz");  // hinged: directors free
@@ -244,6 +246,52 @@ TEST(ShellNonlinear, HemisphereWithHole) {
 TEST(ShellNonlinear, SlitAnnulus) {
   int inner = 0, outer = 0;
   const ShellPath path = annulus(6, 30, inner, outer);
+  EXPECT_EQ(path.outcome.reason, path::EndReason::stopReached) << path.outcome.text;
+  EXPECT_LT(worstDeviation(path, "sze33_slit_annulus.csv", {3 * inner + 2, 3 * outer + 2}, {1, 1}), 0.015);
+}
+
+// Four nodes, on the meshes of nodes of the tests above. The end moment's strip converges with h^2 to its
+// closed form.
+TEST(FourNodes, CantileverEndMoment) {
+  const double thickness = 0.1, L = 12, M = 50 * M_PI / 3;
+  const BentStrip strip(M, 100, thickness);
+  const double x = strip.s * std::sin(strip.k * L) / strip.k - L,
+               z = strip.s * (1 - std::cos(strip.k * L)) / strip.k;
+  const auto error = [&](int n) {
+    int tip = 0;
+    const ShellPath path = endMoment(n, thickness, tip, Shear::mitc4);
+    EXPECT_EQ(path.outcome.reason, path::EndReason::stopReached) << path.outcome.text;
+    const PathPoint p = atLoad(path, 1, {3 * tip, 3 * tip + 2});
+    return std::hypot(p.u[0] - x, p.u[1] - z) / L;
+  };
+  const double coarse = error(32), fine = error(64);
+  EXPECT_LT(coarse, 0.01);
+  EXPECT_NEAR(std::log2(coarse / fine), 2, 0.1);
+}
+
+TEST(FourNodes, HingedRoofs) {
+  int centre = 0;
+  const ShellPath thick = roof(8, 12.7, 30, centre, Shear::mitc4);
+  EXPECT_EQ(thick.outcome.reason, path::EndReason::stopReached) << thick.outcome.text;
+  EXPECT_LT(worstDistance(thick, "sze38_roof_iso_h12p7.csv", 3 * centre + 2, -1), 0.015);
+  const ShellPath thin = roof(16, 6.35, 38.6, centre, Shear::mitc4);
+  EXPECT_EQ(thin.outcome.reason, path::EndReason::stopReached) << thin.outcome.text;
+  EXPECT_LT(worstDistance(thin, "sze38_roof_iso_h6p35.csv", 3 * centre + 2, -1), 0.015);
+  ASSERT_EQ(thin.limitPoints.size(), 2u);
+  EXPECT_NEAR(thin.limitPoints[0].lambda, 585.9 / 3000, 0.015 * 585.9 / 3000);
+  EXPECT_NEAR(thin.limitPoints[1].lambda, -386.4 / 3000, 0.015 * 585.9 / 3000);
+}
+
+TEST(FourNodes, HemisphereWithHole) {
+  int a = 0, b = 0;
+  const ShellPath path = hemisphere(32, a, b, Shear::mitc4);
+  EXPECT_EQ(path.outcome.reason, path::EndReason::stopReached) << path.outcome.text;
+  EXPECT_LT(worstDeviation(path, "sze34_hemisphere18.csv", {3 * a, 3 * b + 1}, {1, -1}), 0.015);
+}
+
+TEST(FourNodes, SlitAnnulus) {
+  int inner = 0, outer = 0;
+  const ShellPath path = annulus(12, 60, inner, outer, Shear::mitc4);
   EXPECT_EQ(path.outcome.reason, path::EndReason::stopReached) << path.outcome.text;
   EXPECT_LT(worstDeviation(path, "sze33_slit_annulus.csv", {3 * inner + 2, 3 * outer + 2}, {1, 1}), 0.015);
 }

@@ -59,15 +59,21 @@ struct KinkedMaterial : SaintVenantKirchhoff {
 constexpr double thickness = 0.2;
 
 /// Five curved elements: no multiple of the lanes.
-ShellGrid curvedGrid() { return shellGrid(5, 1, thickness, cylinder(1, 0, 1.5, 0, 0.7)); }
+ShellGrid curvedGrid(int nodes = 8) {
+  return shellGrid(5, 1, thickness, cylinder(1, 0, 1.5, 0, 0.7), undistorted, nodes);
+}
 
 template <class Material>
-fem::FeModel curvedModel(const Material& material) {
-  const ShellGrid grid = curvedGrid();
+fem::FeModel curvedModel(const Material& material, int nodes = 8) {
+  const ShellGrid grid = curvedGrid(nodes);
   fem::FeModel model;
   model.dofs = fem::DofMap::displacements(2 * grid.numNodes());
-  model.terms.push_back(
-      fem::enhancedTerm(fem::pointLaw(ShellLaw<Material>{material}), shellPoints(grid.elements())));
+  if (nodes == 4)
+    model.terms.push_back(
+        fem::enhancedTerm(fem::pointLaw(Mitc4Law<Material>{material}), mitc4Points(grid.elements(), 0.3)));
+  else
+    model.terms.push_back(
+        fem::enhancedTerm(fem::pointLaw(ShellLaw<Material>{material}), shellPoints(grid.elements())));
   clamp(model, grid, grid.lineI(0));
   const Numbers load = randomNumbers(model.dofs.numDofs(), 0.002, 3);
   model.load = load;
@@ -123,6 +129,29 @@ TEST(AssumedShearOrders, TangentAndOrders) {
   fem::FeProblem problem(std::move(model));
   expectTangent(problem, u, direction, 0);
   expectOrders(problem, u, 0.4);
+}
+
+TEST(Mitc4Orders, TangentAndOrders) {
+  fem::FeModel model = curvedModel(UnsymmetricMaterial{}, 4);
+  const Numbers u = randomState(model, 0.02, 17), direction = randomState(model, 0.02, 18);
+  fem::FeProblem problem(std::move(model));
+  expectTangent(problem, u, direction, 0);
+  expectOrders(problem, u, 0.4);
+}
+
+// The tangent of a material with an energy is symmetric on any quadrilaterals, warped ones too.
+TEST(Mitc4Orders, TangentIsSymmetric) {
+  ShellGrid grid = curvedGrid(4);
+  const Numbers moves = randomNumbers(3 * grid.numNodes(), 0.05, 9);
+  for (int n = 0; n < grid.numNodes(); ++n)
+    for (int i = 0; i < 3; ++i) grid.x[n][i] += moves[3 * n + i];
+  fem::FeProblem problem(shellModel(grid, SaintVenantKirchhoff::fromYoung(1, 0.3), {}, Shear::mitc4));
+  const Numbers u = randomNumbers(6 * grid.numNodes(), 0.02, 1), a = randomNumbers(u.size(), 1, 2),
+                b = randomNumbers(u.size(), 1, 3);
+  const Tangent K = tangent(problem, u, 0);
+  const double aKb = dot(a, K.times(b)), bKa = dot(b, K.times(a));
+  EXPECT_NEAR(aKb, bKa, 1e-13 * norm(a) * norm(K.times(b)));  // rounding of the sums
+  EXPECT_GT(std::abs(aKb), 1e-6);
 }
 
 // The enhanced parameters depend on the state alone: the same bits after any other state.

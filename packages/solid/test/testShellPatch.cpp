@@ -27,13 +27,18 @@ std::vector<char> outline(const ShellGrid& grid) {
 }
 
 /// Distorted quadrilaterals in a unit square, edges straight.
-ShellGrid quadrilaterals() { return shaken(shellGrid(3, 3, thickness, flat(1, 1)), 0.08); }
+ShellGrid quadrilaterals(Shear shear = Shear::compatible) {
+  return shaken(shellGrid(3, 3, thickness, flat(1, 1), undistorted, nodesOf(shear)), 0.08);
+}
 
 /// Equal parallelograms.
-ShellGrid parallelograms() {
-  return shellGrid(3, 3, thickness, [](double s, double t) {
-    return SurfacePoint{{s + 0.4 * t, 0.1 * s + 0.9 * t, 0}, {0, 0, 1}};
-  });
+ShellGrid parallelograms(Shear shear = Shear::compatible) {
+  return shellGrid(
+      3, 3, thickness,
+      [](double s, double t) {
+        return SurfacePoint{{s + 0.4 * t, 0.1 * s + 0.9 * t, 0}, {0, 0, 1}};
+      },
+      undistorted, nodesOf(shear));
 }
 
 /// v = A R, w = A D: u = A X in the whole body.
@@ -117,7 +122,7 @@ Matrix membraneState() {
 // Membrane patch test at finite strain and rotation: a homogeneous state with free faces. The thickness finds
 // its stretch, the enhanced strain stays zero.
 void expectHomogeneousState(Shear shear) {
-  const ShellGrid grid = quadrilaterals();
+  const ShellGrid grid = quadrilaterals(shear);
   const Matrix A = membraneState();
   const Numbers exact = homogeneous(grid, A);
   fem::FeModel model = shellModel(grid, material, {}, shear);
@@ -149,12 +154,13 @@ void expectHomogeneousState(Shear shear) {
 
 TEST(ShellPatch, HomogeneousStateOnQuadrilaterals) { expectHomogeneousState(Shear::compatible); }
 TEST(ShellPatch, HomogeneousStateWithAssumedShear) { expectHomogeneousState(Shear::assumed); }
+TEST(ShellPatch, HomogeneousStateWithFourNodes) { expectHomogeneousState(Shear::mitc4); }
 
 // Constant bending and twist: exact on parallelograms.
 TEST(ShellPatch, BendingAndTwistOnParallelograms) {
-  const ShellGrid grid = parallelograms();
   // Linear solutions on a thin mesh: rounding times (1/thickness)^2 times a few nodes.
-  for (Shear shear : {Shear::compatible, Shear::assumed}) {
+  for (Shear shear : {Shear::compatible, Shear::assumed, Shear::mitc4}) {
+    const ShellGrid grid = parallelograms(shear);
     EXPECT_LT(patchError(grid, bent(grid, {1, 0, 0}), shear), 1e-11);
     EXPECT_LT(patchError(grid, bent(grid, {0, 1, 0}), shear), 1e-11);
     EXPECT_LT(patchError(grid, bent(grid, {0, 0, 1}), shear), 1e-11);
@@ -178,6 +184,14 @@ TEST(ShellPatch, BendingOnQuadrilateralsConverges) {
   }
 }
 
+// Four nodes: curvatures constant along x and y are exact on any quadrilaterals, as for Bathe and Dvorkin's
+// element.
+TEST(ShellPatch, BendingOfFourNodesOnQuadrilaterals) {
+  const ShellGrid grid = quadrilaterals(Shear::mitc4);
+  for (const Vec3& k : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}})
+    EXPECT_LT(patchError(grid, bent(grid, k), Shear::mitc4), 1e-11);
+}
+
 // Energy of constant bending = that of the plate, D ((kx + ky)^2 - 2 (1 - nu)(kx ky - kxy^2))/2 per area,
 // D = E t^3/(12 (1 - nu^2)). Without the enhanced strain the thickness would lock: the factor (1 - nu)^2/(1 -
 // 2 nu) = 1.225 at nu = 0.3.
@@ -193,8 +207,9 @@ TEST(ShellPatch, PlateStiffness) {
 
 // Rotations of any angle cost nothing, on curved and distorted elements.
 TEST(ShellPatch, FiniteRotationCostsNoForce) {
-  for (const ShellGrid& grid : {quadrilaterals(), shellGrid(2, 2, thickness, cylinder(1, 0, 1, 0, 1))}) {
-    for (Shear shear : {Shear::compatible, Shear::assumed}) {
+  for (Shear shear : {Shear::compatible, Shear::assumed, Shear::mitc4}) {
+    for (const ShellGrid& grid : {quadrilaterals(shear), shellGrid(2, 2, thickness, cylinder(1, 0, 1, 0, 1),
+                                                                   undistorted, nodesOf(shear))}) {
       fem::FeProblem problem(shellModel(grid, material, {}, shear));
       for (double angle : {0.4, 2.0, M_PI}) {
         const Numbers u = homogeneous(grid, rotation(angle));

@@ -12,8 +12,9 @@ namespace {
 
 constexpr double kSamePlace = 1e-9;  // of meshes of sizes 1 to 1000: far above rounding, far below elements
 
-Mesh plateOf(const Wall& wall, double length, int along) {
+Mesh plateOf(const Wall& wall, double length, int along, Topology cell) {
   ShellPlateOptions o;
+  o.topology = cell;
   o.width = length;
   o.divisions = {wall.divisions, along};
   Mesh mesh = shellPlateMesh(o);
@@ -28,10 +29,10 @@ Mesh plateOf(const Wall& wall, double length, int along) {
 
 }  // namespace
 
-Mesh profileMesh(const std::vector<Wall>& walls, double length, int divisionsAlong) {
+Mesh profileMesh(const std::vector<Wall>& walls, double length, int divisionsAlong, Topology cell) {
   std::vector<Mesh> plates;
   for (std::size_t w = 0; w < walls.size(); ++w) {
-    plates.push_back(plateOf(walls[w], length, divisionsAlong));
+    plates.push_back(plateOf(walls[w], length, divisionsAlong, cell));
     plates.back().blocks[0].name = "wall" + std::to_string(w + 1);
     plates.back().blocks[0].id = static_cast<long long>(w) + 1;
   }

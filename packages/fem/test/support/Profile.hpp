@@ -14,9 +14,10 @@ struct Wall {
   int divisions = 1;
 };
 
-/// A block of SHELL8 for every wall, along z from 0 to `length`; nodes at the same place are one, where walls
+/// A block of shells for every wall, along z from 0 to `length`; nodes at the same place are one, where walls
 /// meet at their ends. Node sets: foot (z = 0), head (z = length).
-Mesh profileMesh(const std::vector<Wall>& walls, double length, int divisionsAlong);
+Mesh profileMesh(const std::vector<Wall>& walls, double length, int divisionsAlong,
+                 Topology cell = Topology::Shell8);
 
 /// The nodes above a point of the section, ascending in z.
 std::vector<int> nodesAbove(const Mesh& mesh, const std::array<double, 2>& point);

@@ -2,6 +2,7 @@
 
 #include "atrapos/fem/PointLaw.hpp"
 #include "atrapos/solid/AssumedShearLaw.hpp"
+#include "atrapos/solid/Mitc4Law.hpp"
 #include "atrapos/solid/ShellLaw.hpp"
 
 /// A material of solids is a law of the displacement gradient (taylor/Law.hpp: H to the first Piola-Kirchhoff
@@ -9,12 +10,14 @@
 /// taylor::Symmetric3<T>& E) const`, from which shells are made. Its header ends with
 /// ATRAPOS_DECLARE_MATERIAL(Material), its source is ATRAPOS_MATERIAL(Material) behind fem/PointLawOf.hpp;
 /// both outside of namespaces.
-#define ATRAPOS_DECLARE_MATERIAL(M)                      \
-  ATRAPOS_DECLARE_POINT_LAW(M)                           \
-  ATRAPOS_DECLARE_POINT_LAW(atrapos::solid::ShellLaw<M>) \
-  ATRAPOS_DECLARE_POINT_LAW(atrapos::solid::AssumedShearLaw<M>)
+#define ATRAPOS_DECLARE_MATERIAL(M)                             \
+  ATRAPOS_DECLARE_POINT_LAW(M)                                  \
+  ATRAPOS_DECLARE_POINT_LAW(atrapos::solid::ShellLaw<M>)        \
+  ATRAPOS_DECLARE_POINT_LAW(atrapos::solid::AssumedShearLaw<M>) \
+  ATRAPOS_DECLARE_POINT_LAW(atrapos::solid::Mitc4Law<M>)
 
-#define ATRAPOS_MATERIAL(M)                      \
-  ATRAPOS_POINT_LAW(M)                           \
-  ATRAPOS_POINT_LAW(atrapos::solid::ShellLaw<M>) \
-  ATRAPOS_POINT_LAW(atrapos::solid::AssumedShearLaw<M>)
+#define ATRAPOS_MATERIAL(M)                             \
+  ATRAPOS_POINT_LAW(M)                                  \
+  ATRAPOS_POINT_LAW(atrapos::solid::ShellLaw<M>)        \
+  ATRAPOS_POINT_LAW(atrapos::solid::AssumedShearLaw<M>) \
+  ATRAPOS_POINT_LAW(atrapos::solid::Mitc4Law<M>)

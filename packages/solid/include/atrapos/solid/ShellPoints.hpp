@@ -6,23 +6,32 @@
 
 namespace atrapos::solid {
 
-/// Eight-node shell elements as FeProblem sees them: every node of the mid-surface has a node for its
-/// displacement v and one for the displacement w of its director, x = X + v + zeta w.
+/// Shell elements of eight or four nodes as FeProblem sees them: every node of the mid-surface has a node for
+/// its displacement v and one for the displacement w of its director, x = X + v + zeta w.
 ///
-/// Nodes in Exodus' order of SHELL8: corners, then the middles of the edges 1-2, 2-3, 3-4, 4-1.
+/// Nodes in Exodus' order of SHELL8 and SHELL4: corners, then the middles of the edges 1-2, 2-3, 3-4, 4-1.
 struct ShellElements {
-  std::vector<int> nodes;          ///< [element][16]: eight nodes of v, then those of w
-  std::vector<double> midsurface;  ///< [element][8][3] R, length
+  std::vector<int> nodes;          ///< [element][2 N]: N nodes of v, then those of w
+  std::vector<double> midsurface;  ///< [element][N][3] R, length
   std::vector<double>
-      directors;  ///< [element][8][3] D = (thickness/2) N of the element, N the normal, length
-  /// [element][8] the element's own director over that of the node, whose displacement is w: elements of
+      directors;  ///< [element][N][3] D = (thickness/2) N of the element, N the normal, length
+  /// [element][N] the element's own director over that of the node, whose displacement is w: elements of
   /// different thickness may share a director. Empty: 1 everywhere.
   std::vector<double> directorScale;
+  int nodesPerElement = 8;  ///< N, 8 or 4
 
-  int count() const { return static_cast<int>(nodes.size() / 16); }
+  int count() const { return static_cast<int>(nodes.size()) / (2 * nodesPerElement); }
   double scale(int element, int a) const {
-    return directorScale.empty() ? 1.0 : directorScale[8 * static_cast<std::size_t>(element) + a];
+    return directorScale.empty() ? 1.0 : directorScale[at(element) + a];
   }
+  const double* R(int element) const { return &midsurface[3 * at(element)]; }
+  const double* D(int element) const { return &directors[3 * at(element)]; }
+  /// The node of v at corner or middle a, and that of w.
+  int node(int element, int a) const { return nodes[2 * at(element) + a]; }
+  int directorNode(int element, int a) const { return node(element, nodesPerElement + a); }
+
+ private:
+  std::size_t at(int element) const { return static_cast<std::size_t>(element) * nodesPerElement; }
 };
 
 /// Cubature of a shell element: Gauss points along each reference coordinate.
@@ -46,6 +55,12 @@ fem::EnhancedPoints shellPoints(const ShellElements& elements, const ShellCubatu
 /// x_,xi, x_,eta, d_1, d_2, and the law's data.
 fem::EnhancedPoints assumedShearPoints(const ShellElements& elements, const ShellCubature& cubature = {});
 
+/// The same for Mitc4Law<Material>: elements of four nodes, 2 x 2 points in the plane. poissonRatio: of the
+/// material at rest; it shapes the strains of bending in the plane. Throws std::invalid_argument for other
+/// points.
+fem::EnhancedPoints mitc4Points(const ShellElements& elements, double poissonRatio,
+                                const ShellCubature& cubature = {});
+
 /// Points of a law that remembers and has no enhanced strain, for fem::lawTerm, with its data at the start,
 /// [entity][point][datum].
 struct ShellMetalPoints {
@@ -53,11 +68,13 @@ struct ShellMetalPoints {
   std::vector<double> data;
 };
 
-/// For ShellMetal and AssumedShearMetal with this many data: no point yields and variables are zero. The axes
-/// are the same for each point of a column through the thickness: the normal of the mid-surface, and along it
-/// the axis of space that is farthest from it, projected.
+/// For ShellMetal, AssumedShearMetal and Mitc4Metal with this many data: no point yields and variables are
+/// zero. The axes are the same for each point of a column through the thickness: the normal of the
+/// mid-surface, and along it the axis of space that is farthest from it, projected.
 ShellMetalPoints shellMetalPoints(const ShellElements& elements, const ShellCubature& cubature, int numData);
 ShellMetalPoints assumedShearMetalPoints(const ShellElements& elements, const ShellCubature& cubature,
                                          int numData);
+ShellMetalPoints mitc4MetalPoints(const ShellElements& elements, double poissonRatio,
+                                  const ShellCubature& cubature, int numData);
 
 }  // namespace atrapos::solid

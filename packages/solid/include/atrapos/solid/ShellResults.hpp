@@ -23,9 +23,9 @@ struct ShellResultOptions {
 /// cubature points next to it along zeta (the first six of what the term's observe gives).
 std::vector<double> surfaceStress(const fem::PointValues& stress, const ShellCubature& cubature, double zeta);
 
-/// Values at an element's in-plane cubature points taken to its nodes: [8 nodes][in-plane points], the
+/// Values at an element's in-plane cubature points taken to its 8 or 4 nodes: [node][in-plane points], the
 /// polynomial through the points (bilinear with 2 x 2).
-std::vector<double> shellPointsToNodes(const ShellCubature& cubature);
+std::vector<double> shellPointsToNodes(const ShellCubature& cubature, int nodes = 8);
 
 /// Stress resultants per deformed length at the in-plane points: forces and moments on the section whose
 /// normal on the mid-surface is e_a,
@@ -41,7 +41,7 @@ struct ShellResultants {
 ShellResultants shellResultants(const ShellElements& elements, const fem::PointValues& stress,
                                 const std::vector<double>& u, const ShellResultOptions& options = {});
 
-/// Change of the thickness, 2 (|D + w| - |D|) with the element's own director, [element][8 nodes], length.
+/// Change of the thickness, 2 (|D + w| - |D|) with the element's own director, [element][node], length.
 std::vector<double> thicknessChange(const ShellElements& elements, const std::vector<double>& u);
 
 }  // namespace atrapos::solid
