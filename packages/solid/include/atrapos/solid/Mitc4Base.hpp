@@ -8,16 +8,9 @@
 ///     a = x_,xi and b = x_,eta at the centre, m = x_,xi eta of its middle surface, directors d_1 ... d_4 of
 ///     its corners,
 ///
-/// of which every point makes fourteen, and thirteen products of these are all its strains.
+/// of which every point makes fourteen, and thirteen products of these are all its strains. Sums over
+/// Cartesian components are made one component at a time: more would not stay in registers.
 namespace atrapos::solid {
-
-/// The seven vectors by their Cartesian components, [component][vector].
-template <class T>
-struct Mitc4Vectors : taylor::detail::Tensor<T, 21> {
-  Mitc4Vectors() = default;
-  KOKKOS_FORCEINLINE_FUNCTION explicit Mitc4Vectors(const T* entries)
-      : taylor::detail::Tensor<T, 21>(entries) {}
-};
 
 /// What a law of a four-node shell keeps of a point.
 template <class P>
@@ -43,62 +36,55 @@ constexpr int mitc4Pairs[mitc4Products][2] = {{0, 0}, {1, 1}, {0, 1}, {0, 4},   
 constexpr bool mitc4Square(int product) { return mitc4Pairs[product][0] == mitc4Pairs[product][1]; }
 
 constexpr auto listMitc4ProductTerms() {
-  taylor::detail::TermList<3 * mitc4Products> t;
-  for (int k = 0; k < 3; ++k)
-    for (int m = 0; m < mitc4Products; ++m)
-      t.add(m, mitc4Vectors * k + mitc4Pairs[m][0], mitc4Vectors * k + mitc4Pairs[m][1]);
+  taylor::detail::TermList<mitc4Products> t;
+  for (int m = 0; m < mitc4Products; ++m) t.add(m, mitc4Pairs[m][0], mitc4Pairs[m][1]);
   return t.terms;
 }
+/// Of one component.
 struct Mitc4ProductTerms {
   static constexpr bool ofOneBlock = true;
-  static constexpr int numLeft = 3 * mitc4Vectors, numRight = 3 * mitc4Vectors, numOut = mitc4Products;
+  static constexpr int numLeft = mitc4Vectors, numRight = mitc4Vectors, numOut = mitc4Products;
   static constexpr bool onlySquares(int out) { return mitc4Square(out); }
   static constexpr auto list = listMitc4ProductTerms();
 };
 
 /// sum over the pairs (a, b) of s_m (a_p at b, a_q at a); a square counts once
 constexpr auto listMitc4ForceTerms() {
-  taylor::detail::TermList<60> t;
-  for (int k = 0; k < 3; ++k)
-    for (int m = 0; m < mitc4Products; ++m) {
-      const int a = mitc4Vectors * k + mitc4Pairs[m][0], b = mitc4Vectors * k + mitc4Pairs[m][1];
-      t.add(a, b, m);
-      if (a != b) t.add(b, a, m);
-    }
+  taylor::detail::TermList<20> t;
+  for (int m = 0; m < mitc4Products; ++m) {
+    const int a = mitc4Pairs[m][0], b = mitc4Pairs[m][1];
+    t.add(a, b, m);
+    if (a != b) t.add(b, a, m);
+  }
   return t.terms;
 }
 struct Mitc4ForceTerms {
   static constexpr bool ofOneBlock = false;
-  static constexpr int numLeft = 3 * mitc4Vectors, numRight = mitc4Products, numOut = 3 * mitc4Vectors;
+  static constexpr int numLeft = mitc4Vectors, numRight = mitc4Products, numOut = mitc4Vectors;
   static constexpr auto list = listMitc4ForceTerms();
 };
 
-/// From the element's seven vectors to the point's fourteen.
+/// From the element's seven vectors to the point's fourteen, of one component.
 template <class P>
 struct Mitc4Spread {
   Mitc4Place<P> at;
   template <class V>
-  KOKKOS_FORCEINLINE_FUNCTION void operator()(const V* in, V* out) const {
+  KOKKOS_FORCEINLINE_FUNCTION void operator()(const V* x, V* v) const {
     const P xi = at.xi(), eta = at.eta(), zeta = at.zeta();
+    const V d = 0.25 * (x[3] + x[4] + x[5] + x[6]), dXi = 0.25 * (x[4] + x[5] - x[3] - x[6]),
+            dEta = 0.25 * (x[5] + x[6] - x[3] - x[4]), n = 0.25 * (x[3] + x[5] - x[4] - x[6]);
+    v[0] = x[0] + eta * x[2] + zeta * (dXi + eta * n);
+    v[1] = x[1] + xi * x[2] + zeta * (dEta + xi * n);
+    v[2] = x[2] + zeta * n;
+    v[3] = dEta;
+    v[4] = d + eta * dEta;
+    v[5] = d + xi * dXi;
     ATRAPOS_UNROLL
-    for (int k = 0; k < 3; ++k) {
-      const V* x = in + 7 * k;
-      V* v = out + mitc4Vectors * k;
-      const V d = 0.25 * (x[3] + x[4] + x[5] + x[6]), dXi = 0.25 * (x[4] + x[5] - x[3] - x[6]),
-              dEta = 0.25 * (x[5] + x[6] - x[3] - x[4]), n = 0.25 * (x[3] + x[5] - x[4] - x[6]);
-      v[0] = x[0] + eta * x[2] + zeta * (dXi + eta * n);
-      v[1] = x[1] + xi * x[2] + zeta * (dEta + xi * n);
-      v[2] = x[2] + zeta * n;
-      v[3] = dEta;
-      v[4] = d + eta * dEta;
-      v[5] = d + xi * dXi;
-      ATRAPOS_UNROLL
-      for (int a = 0; a < 4; ++a) v[6 + a] = x[3 + a];
-      v[10] = x[0];
-      v[11] = x[1];
-      v[12] = x[2] - at.data[3] * x[0] - at.data[4] * x[1];
-      v[13] = dXi;
-    }
+    for (int a = 0; a < 4; ++a) v[6 + a] = x[3 + a];
+    v[10] = x[0];
+    v[11] = x[1];
+    v[12] = x[2] - at.data[3] * x[0] - at.data[4] * x[1];
+    v[13] = dXi;
   }
 };
 
@@ -107,23 +93,18 @@ template <class P>
 struct Mitc4Gather {
   Mitc4Place<P> at;
   template <class V>
-  KOKKOS_FORCEINLINE_FUNCTION void operator()(const V* in, V* out) const {
+  KOKKOS_FORCEINLINE_FUNCTION void operator()(const V* v, V* x) const {
     const P xi = at.xi(), eta = at.eta(), zeta = at.zeta();
-    ATRAPOS_UNROLL
-    for (int k = 0; k < 3; ++k) {
-      const V* v = in + mitc4Vectors * k;
-      V* x = out + 7 * k;
-      const V d = 0.25 * (v[4] + v[5]), dXi = 0.25 * (zeta * v[0] + xi * v[5] + v[13]),
-              dEta = 0.25 * (zeta * v[1] + eta * v[4] + v[3]),
-              n = 0.25 * ((zeta * eta) * v[0] + (zeta * xi) * v[1] + zeta * v[2]);
-      x[0] = v[0] + v[10] - at.data[3] * v[12];
-      x[1] = v[1] + v[11] - at.data[4] * v[12];
-      x[2] = eta * v[0] + xi * v[1] + v[2] + v[12];
-      x[3] = v[6] + d - dXi - dEta + n;
-      x[4] = v[7] + d + dXi - dEta - n;
-      x[5] = v[8] + d + dXi + dEta + n;
-      x[6] = v[9] + d - dXi + dEta - n;
-    }
+    const V d = 0.25 * (v[4] + v[5]), dXi = 0.25 * (zeta * v[0] + xi * v[5] + v[13]),
+            dEta = 0.25 * (zeta * v[1] + eta * v[4] + v[3]),
+            n = 0.25 * ((zeta * eta) * v[0] + (zeta * xi) * v[1] + zeta * v[2]);
+    x[0] = v[0] + v[10] - at.data[3] * v[12];
+    x[1] = v[1] + v[11] - at.data[4] * v[12];
+    x[2] = eta * v[0] + xi * v[1] + v[2] + v[12];
+    x[3] = v[6] + d - dXi - dEta + n;
+    x[4] = v[7] + d + dXi - dEta - n;
+    x[5] = v[8] + d + dXi + dEta + n;
+    x[6] = v[9] + d - dXi + dEta - n;
   }
 };
 
@@ -182,12 +163,10 @@ struct Mitc4LinearProducts {
     ATRAPOS_UNROLL
     for (int m = 0; m < mitc4Products; ++m) {
       const int a = mitc4Pairs[m][0], b = mitc4Pairs[m][1];
-      V sum = G[a] * h[b] + G[mitc4Vectors + a] * h[mitc4Vectors + b] +
-              G[2 * mitc4Vectors + a] * h[2 * mitc4Vectors + b];
-      if (a != b)
-        sum += G[b] * h[a] + G[mitc4Vectors + b] * h[mitc4Vectors + a] +
-               G[2 * mitc4Vectors + b] * h[2 * mitc4Vectors + a];
-      c[m] = sum;
+      if (a == b)
+        c[m] = G[a] * h[a];
+      else
+        c[m] = G[a] * h[b] + G[b] * h[a];
     }
   }
 };
@@ -198,23 +177,18 @@ struct Mitc4LinearForces {
   const P* G;
   template <class V>
   KOKKOS_FORCEINLINE_FUNCTION void operator()(const V* s, V* f) const {
+    f[0] = G[0] * s[0] + G[1] * s[2] + G[4] * s[3];
+    f[1] = G[1] * s[1] + G[0] * s[2] + G[5] * s[4];
+    f[2] = G[3] * s[5] + G[13] * s[12];
+    f[3] = G[2] * s[5];
+    f[4] = G[0] * s[3];
+    f[5] = G[1] * s[4];
     ATRAPOS_UNROLL
-    for (int k = 0; k < 3; ++k) {
-      const P* g = G + mitc4Vectors * k;
-      V* to = f + mitc4Vectors * k;
-      to[0] = g[0] * s[0] + g[1] * s[2] + g[4] * s[3];
-      to[1] = g[1] * s[1] + g[0] * s[2] + g[5] * s[4];
-      to[2] = g[3] * s[5] + g[13] * s[12];
-      to[3] = g[2] * s[5];
-      to[4] = g[0] * s[3];
-      to[5] = g[1] * s[4];
-      ATRAPOS_UNROLL
-      for (int a = 6; a < 10; ++a) to[a] = g[a] * s[a];
-      to[10] = g[12] * s[10];
-      to[11] = g[12] * s[11];
-      to[12] = g[10] * s[10] + g[11] * s[11];
-      to[13] = g[2] * s[12];
-    }
+    for (int a = 6; a < 10; ++a) f[a] = G[a] * s[a];
+    f[10] = G[12] * s[10];
+    f[11] = G[12] * s[11];
+    f[12] = G[10] * s[10] + G[11] * s[11];
+    f[13] = G[2] * s[12];
   }
 };
 
@@ -222,12 +196,10 @@ struct Mitc4LinearForces {
 /// the displacement gradient, with the vectors the deformation gradient.
 KOKKOS_INLINE_FUNCTION void mitc4Gradient(const double* vectors, const double* place, const double* A,
                                           double* gradient) {
-  double all[3 * mitc4Vectors];
   const Mitc4Place<double> at{place};
-  Mitc4Spread<double>{at}(vectors, all);
   for (int i = 0; i < 3; ++i) {
-    const double* v = all + mitc4Vectors * i;
-    double d = 0;
+    double v[mitc4Vectors], d = 0;
+    Mitc4Spread<double>{at}(vectors + 7 * i, v);
     for (int a = 0; a < 4; ++a) d += mitc4Shape(at, a) * v[6 + a];
     for (int k = 0; k < 3; ++k)
       gradient[3 * i + k] = v[0] * A[3 * k] + v[1] * A[3 * k + 1] + d * A[3 * k + 2];
@@ -250,51 +222,65 @@ struct Mitc4HalveSquares {
 
 }  // namespace detail
 
-/// The fourteen vectors of a point and what they do, from the changes of the element's seven vectors, these
-/// at rest ([component][vector], 21) and the place of the point.
+/// The fourteen vectors of a point and what they do.
 template <class T>
 class Mitc4Point {
   using P = taylor::Passive<T>;
-  static constexpr int N = 3 * detail::mitc4Vectors;
+  static constexpr int N = detail::mitc4Vectors, M = detail::mitc4Products;
 
  public:
-  KOKKOS_FORCEINLINE_FUNCTION Mitc4Point(const Mitc4Vectors<T>& change, const P* atRest, const P* place)
-      : place_{place} {
-    detail::Mitc4Spread<P>{place_}(atRest, rest_);
-    taylor::detail::linear(detail::Mitc4Spread<P>{place_}, change, h_);
+  /// change: of the element's seven vectors, which atRest has at rest ([component][vector], 21); place of the
+  /// point.
+  KOKKOS_FORCEINLINE_FUNCTION Mitc4Point(const T* change, const P* atRest, const P* place) : place_{place} {
+    ATRAPOS_UNROLL
+    for (int k = 0; k < 3; ++k) {
+      const detail::Mitc4Spread<P> spread{place_};
+      spread(atRest + 7 * k, rest_[k]);
+      taylor::detail::linear(spread, taylor::detail::Tensor<T, 7>(change + 7 * k), h_[k]);
+    }
   }
 
   /// Green-Lagrange strain in the components of the contravariant base A, [axis][direction].
   KOKKOS_FORCEINLINE_FUNCTION taylor::Symmetric3<T> strain(const P* A) const {
-    taylor::detail::Tensor<T, detail::mitc4Products> linear, products, changes;
-    taylor::detail::linear(detail::Mitc4LinearProducts<P>{rest_}, h_, linear);
-    taylor::detail::bilinear<detail::Mitc4ProductTerms>(h_, h_, products);
-    taylor::detail::linear(detail::Mitc4HalveSquares{}, linear, products, changes);
+    taylor::detail::Tensor<T, M> sums[3];
+    ATRAPOS_UNROLL
+    for (int k = 0; k < 3; ++k) {
+      taylor::detail::Tensor<T, M> linear, products;
+      taylor::detail::linear(detail::Mitc4LinearProducts<P>{rest_[k]}, h_[k], linear);
+      taylor::detail::bilinear<detail::Mitc4ProductTerms>(h_[k], h_[k], products);
+      taylor::detail::linear(detail::Mitc4HalveSquares{}, linear, products, sums[k]);
+    }
+    taylor::detail::Tensor<T, M> two, changes;
+    taylor::detail::linear(taylor::detail::Plus<M>{}, sums[0], sums[1], two);
+    taylor::detail::linear(taylor::detail::Plus<M>{}, two, sums[2], changes);
     taylor::Symmetric3<T> convected, E;
     taylor::detail::linear(detail::Mitc4Strain<P>{place_}, changes, convected);
     taylor::detail::linear(detail::ToCartesian<P>{A}, convected, E);
     return E;
   }
 
-  /// Work conjugates of the seven vectors for the second Piola-Kirchhoff stress.
-  KOKKOS_FORCEINLINE_FUNCTION Mitc4Vectors<T> forces(const taylor::Symmetric3<T>& S, const P* A) const {
+  /// Work conjugates of the seven vectors for the second Piola-Kirchhoff stress, to out[21].
+  KOKKOS_FORCEINLINE_FUNCTION void forces(const taylor::Symmetric3<T>& S, const P* A, T* out) const {
     taylor::Symmetric3<T> convected;
-    taylor::detail::Tensor<T, detail::mitc4Products> weights;
+    taylor::detail::Tensor<T, M> weights;
     taylor::detail::linear(detail::ToConvected<P>{A}, S, convected);
     taylor::detail::linear(detail::Mitc4Weights<P>{place_}, convected, weights);
-    taylor::detail::Tensor<T, N> constant, product, sum;
-    taylor::detail::linear(detail::Mitc4LinearForces<P>{rest_}, weights, constant);
-    taylor::detail::bilinear<detail::Mitc4ForceTerms>(h_, weights, product);
-    taylor::detail::linear(taylor::detail::Plus<N>{}, constant, product, sum);
-    Mitc4Vectors<T> f;
-    taylor::detail::linear(detail::Mitc4Gather<P>{place_}, sum, f);
-    return f;
+    ATRAPOS_UNROLL
+    for (int k = 0; k < 3; ++k) {
+      taylor::detail::Tensor<T, N> constant, product, sum;
+      taylor::detail::linear(detail::Mitc4LinearForces<P>{rest_[k]}, weights, constant);
+      taylor::detail::bilinear<detail::Mitc4ForceTerms>(h_[k], weights, product);
+      taylor::detail::linear(taylor::detail::Plus<N>{}, constant, product, sum);
+      taylor::detail::Tensor<T, 7> f;
+      taylor::detail::linear(detail::Mitc4Gather<P>{place_}, sum, f);
+      f.store(out + 7 * k);
+    }
   }
 
  private:
   Mitc4Place<P> place_;
-  P rest_[N];
-  taylor::detail::Tensor<T, N> h_;
+  P rest_[3][N];
+  taylor::detail::Tensor<T, N> h_[3];
 };
 
 }  // namespace atrapos::solid

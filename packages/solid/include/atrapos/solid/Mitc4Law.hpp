@@ -35,11 +35,10 @@ struct Mitc4Law {
 
   template <class T>
   KOKKOS_INLINE_FUNCTION void operator()(const T* in, const taylor::Passive<T>* data, T* out) const {
-    const Mitc4Point<T> point(Mitc4Vectors<T>(in), data, data + firstPlace);
+    const Mitc4Point<T> point(in, data, data + firstPlace);
     const taylor::Symmetric3<T> S =
         material.secondPiola(plusDyad(point.strain(data + firstBase), in[21], data + firstEnhanced));
-    const Mitc4Vectors<T> f = point.forces(S, data + firstBase);
-    f.store(out);
+    point.forces(S, data + firstBase, out);
     out[21] = projection(S, data + firstEnhanced);
   }
 
@@ -50,7 +49,7 @@ struct Mitc4Law {
   /// Cauchy stress F S F^T / det F with F = g_i x G^i of the nodes, without the enhanced part.
   KOKKOS_INLINE_FUNCTION void observe(const double* in, const double* data, double* sigma) const {
     const double* A = data + firstBase;
-    const Mitc4Point<double> point(Mitc4Vectors<double>(in), data, data + firstPlace);
+    const Mitc4Point<double> point(in, data, data + firstPlace);
     const taylor::Symmetric3<double> S =
         material.secondPiola(plusDyad(point.strain(A), in[21], data + firstEnhanced));
     double H[9], P[9];

@@ -22,11 +22,10 @@ struct Mitc4Metal {
 
   template <class T>
   KOKKOS_INLINE_FUNCTION void operator()(const T* in, const taylor::Passive<T>* data, T* out) const {
-    const Mitc4Point<T> point(Mitc4Vectors<T>(in), data + 1, data + firstPlace);
+    const Mitc4Point<T> point(in, data + 1, data + firstPlace);
     const auto stress = detail::shellMetalStress<kinematic>(metal, point.strain(data + firstBase), data,
                                                             data + firstVariable, out + 21);
-    const Mitc4Vectors<T> f = point.forces(stress, data + firstBase);
-    f.store(out);
+    point.forces(stress, data + firstBase, out);
   }
 
   static constexpr int numObserved = Metal::numObserved;
@@ -35,7 +34,7 @@ struct Mitc4Metal {
     double now[21], F[9];
     for (int i = 0; i < 21; ++i) now[i] = data[1 + i] + in[i];
     detail::mitc4Gradient(now, data + firstPlace, data + firstBase, F);
-    const Mitc4Point<double> point(Mitc4Vectors<double>(in), data + 1, data + firstPlace);
+    const Mitc4Point<double> point(in, data + 1, data + firstPlace);
     detail::shellMetalShown<kinematic>(metal, point.strain(data + firstBase), data, data + firstVariable, F,
                                        shown);
   }
