@@ -15,6 +15,7 @@
 #include <iostream>
 #include <memory>
 #include <new>
+#include <sstream>
 #include <utility>
 #include <vector>
 
@@ -207,6 +208,21 @@ int makeMesh(const std::string& deckFile, const std::string& output, bool quiet)
   return 0;
 }
 
+void printKeys(const std::string& under) {
+  std::stringstream all;
+  atrapos::deck::describeKeys(all);
+  bool any = false;
+  for (std::string line; std::getline(all, line);) {
+    if (line.compare(0, under.size(), under) != 0) continue;
+    std::cout << line << '\n';
+    any = true;
+  }
+  if (!any)
+    throw atrapos::deck::DeckError(fmt::format(
+        "atrapos: keys '{}': no key has such a path; expected the beginning of one, as path/stop or tools",
+        under));
+}
+
 int check(const std::string& deckFile) {
   std::ostream nowhere(nullptr);
   const auto deck = atrapos::deck::readDeck(deckFile);
@@ -294,6 +310,12 @@ int main(int argc, char** argv) {
       app.add_subcommand("check", "validate a deck and its mesh, print what would be solved");
   checkCommand->add_option("DECK", deck, "YAML deck")->required();
 
+  std::string keysUnder;
+  auto* keysCommand =
+      app.add_subcommand("keys", "print the keys of decks: what each accepts, its default and meaning");
+  keysCommand->add_option("PATH", keysUnder,
+                          "those whose path begins so, as path/stop or tools (default: all)");
+
   atrapos::PlotWords plotWords;
   auto* plotCommand = app.add_subcommand("plot", "draw the paths in a folder of results as PNG and SVG");
   plotCommand->add_option("RESULTS", plotWords.folder, "folder that `atrapos run` wrote")->required();
@@ -371,10 +393,10 @@ int main(int argc, char** argv) {
   const auto extras = app.remaining(true);
   if (!hasCommand || !extras.empty()) {
     std::cerr << (extras.empty() ? "atrapos: a command is needed: run, plot, report, chart, mesh, import, "
-                                   "split, join, check or map"
+                                   "split, join, check, keys or map"
                   : hasCommand   ? fmt::format("atrapos: '{}' is not expected", extras.front())
                                  : fmt::format("atrapos: '{}' is not a command: run, plot, report, chart, "
-                                                 "mesh, import, split, join, check or map",
+                                                 "mesh, import, split, join, check, keys or map",
                                                extras.front()))
               << " (see atrapos --help)\n";
     return kBadInput;
@@ -412,6 +434,10 @@ int main(int argc, char** argv) {
     }
     if (*reportCommand) {
       atrapos::reportResults(results, output, progress);
+      return 0;
+    }
+    if (*keysCommand) {
+      printKeys(keysUnder);
       return 0;
     }
     if (*plotCommand) {

@@ -15,6 +15,7 @@ struct GenerateInput {
 const Variants<GenerateInput, Generate>& generateVariants();
 const Variants<Material, decltype(Material::law)>& materialVariants();
 const Table<Shells>& shellsTable();
+const Table<Plane>& planeTable();
 /// The block `plane`, which a deck may not have.
 Field<Deck> planeField();
 const Table<ShellSection>& shellSectionTable();
@@ -26,6 +27,7 @@ constexpr const char* freeNames =
 Field<Deck> constantsField();
 const Table<ScalarField>& scalarFieldTable();
 const Variants<Physics, decltype(Physics::law)>& physicsVariants();
+const Table<ElectricField>& dielectricTable();
 /// The keys `expansion` and `dielectric` of materials.
 Field<Material> expansionField();
 Field<Material> dielectricField();

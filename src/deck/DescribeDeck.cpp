@@ -59,33 +59,31 @@ void printLines(const Node& node, int indent, std::ostream& out) {
   }
 }
 
-void printKey(const std::string& path, const std::string& accepts, const std::string& defaultText,
-              const std::string& meaning, std::ostream& out) {
-  out << path << ": " << accepts;
-  if (!defaultText.empty()) {
-    out << " [" << defaultText << "]";
+void printKey(const std::string& path, const KeyText& text, std::ostream& out) {
+  out << path << text.key << ": " << text.accepts;
+  if (!text.standard.empty()) {
+    out << " [" << text.standard << "]";
   }
-  out << ". " << meaning << '\n';
+  out << ". " << text.meaning << '\n';
 }
 
 template <class S>
 void printKeys(const std::string& path, const Table<S>& table, std::ostream& out) {
-  const S defaults{};
-  for (const auto& field : table) {
-    const Node node = field.print(defaults);
-    const bool plain = node.children.empty() && !field.required;
-    printKey(path + field.key, field.accepts, plain ? node.text : "", field.meaning, out);
+  for (const KeyText& text : textsOf(table)) {
+    printKey(path, text, out);
   }
 }
 
 template <class E, class Variant>
 void printKeys(const std::string& path, const Variants<E, Variant>& variants, std::ostream& out) {
-  printKey(path + variants.selector, "one of " + joined(wordsOf(variants)), "",
-           "which kind; decides the other keys", out);
+  printKey(
+      path,
+      {variants.selector, "one of " + joined(wordsOf(variants)), "", "which kind; decides the other keys"},
+      out);
   for (const auto& alternative : variants.alternatives) {
-    for (const auto& [key, accepts, meaning] : alternative.docs) {
-      printKey(path + key, accepts, "",
-               fmt::format("({}: {}) {}", variants.selector, alternative.word, meaning), out);
+    for (KeyText text : alternative.texts) {
+      text.meaning = fmt::format("({}: {}) {}", variants.selector, alternative.word, text.meaning);
+      printKey(path, text, out);
     }
   }
   printKeys(path, variants.common, out);
@@ -102,9 +100,15 @@ void describeKeys(std::ostream& out) {
   printKeys("mesh/", meshTable(), out);
   printKeys("mesh/generate/", generateVariants(), out);
   printKeys("materials/NAME/", materialVariants(), out);
+  printKeys("materials/NAME/dielectric/", dielectricTable(), out);
+  printKeys("physics/NAME/", physicsVariants(), out);
+  printKeys("fields/NAME/", scalarFieldTable(), out);
+  printKeys("plane/", planeTable(), out);
   printKeys("shells/", shellsTable(), out);
   printKeys("shells/sections/NAME/", shellSectionTable(), out);
+  printKeys("shells/joints/NAME/", shellJointTable(), out);
   printKeys("supports/NAME/", supportTable(), out);
+  printKeys("couplings/NAME/", couplingTable(), out);
   printKeys("loads/NAME/", loadVariants(), out);
   printKeys("tools/NAME/", toolVariants(), out);
   printKeys("tools/NAME/surfaces/NAME/", splineSurfaceTable(), out);

@@ -38,6 +38,25 @@ struct Field {
 template <class S>
 using Table = std::vector<Field<S>>;
 
+/// What a reader of the reference is told about a key.
+struct KeyText {
+  std::string key, accepts;
+  std::string standard;  ///< the default, of keys that need not be there and have a plain one
+  std::string meaning;
+};
+
+template <class S>
+std::vector<KeyText> textsOf(const Table<S>& table) {
+  const S standard{};
+  std::vector<KeyText> texts;
+  for (const auto& field : table) {
+    const Node node = field.print(standard);
+    const bool plain = node.children.empty() && !field.required;
+    texts.push_back({field.key, field.accepts, plain ? node.text : "", field.meaning});
+  }
+  return texts;
+}
+
 template <class S>
 std::vector<std::string> keysOf(const Table<S>& table) {
   std::vector<std::string> keys;

@@ -159,11 +159,15 @@ Field<Material> expansionField() {
                  "saint_venant_kirchhoff, neo_hookean and mooney_rivlin in solids and plane bodies");
 }
 
-Field<Material> dielectricField() {
+const Table<ElectricField>& dielectricTable() {
   static const Table<ElectricField> table{
       name("field", required, &ElectricField::field, "a name", "the electric potential"),
       real("permittivity", required, &ElectricField::permittivity, check::positive,
            "eps, of the deformed material")};
+  return table;
+}
+
+Field<Material> dielectricField() {
   return {"dielectric",
           false,
           "a map with field, permittivity",
@@ -171,10 +175,10 @@ Field<Material> dielectricField() {
           "in solids and plane bodies",
           [](const Value& v, Material& m) {
             ElectricField field;
-            read(table, v, field);
+            read(dielectricTable(), v, field);
             m.dielectric = field;
           },
-          [](const Material& m) { return m.dielectric ? print(table, *m.dielectric) : Node{}; }};
+          [](const Material& m) { return m.dielectric ? print(dielectricTable(), *m.dielectric) : Node{}; }};
 }
 
 Alternative<decltype(Load::load)> inflowAlternative() {

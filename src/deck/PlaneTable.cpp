@@ -11,6 +11,8 @@ const Choices<Plane::Kind>& kinds() {
   return choices;
 }
 
+}  // namespace
+
 const Table<Plane>& planeTable() {
   static const Table<Plane> table{
       choice("kind", required, &Plane::kind, kinds(),
@@ -19,8 +21,6 @@ const Table<Plane>& planeTable() {
            "of the body, 1 where it is not given; not for kind: axisymmetric")};
   return table;
 }
-
-}  // namespace
 
 Field<Deck> planeField() {
   return {"plane",

@@ -13,8 +13,7 @@ struct Alternative {
   std::vector<std::string> keys;
   std::function<void(const Value&, Variant&)> read;
   std::function<Node(const Variant&)> print;  ///< empty where the variant holds another kind
-  std::function<Node()> defaults;
-  std::vector<std::array<std::string, 3>> docs;  ///< key, accepts, meaning
+  std::vector<KeyText> texts;
 };
 
 /// `finish` checks what involves several keys; it may be empty.
@@ -36,10 +35,7 @@ Alternative<Variant> alternative(std::string word, const Table<A>& table,
     const auto* a = std::get_if<A>(&variant);
     return a == nullptr ? Node{} : print(table, *a);
   };
-  alternative.defaults = [=] { return print(table, A{}); };
-  for (const auto& field : table) {
-    alternative.docs.push_back({field.key, field.accepts, field.meaning});
-  }
+  alternative.texts = textsOf(table);
   return alternative;
 }
 
