@@ -8,12 +8,13 @@ import atexit as _atexit
 from . import _atrapos
 from ._atrapos import DeckError, FileError, MeshError
 from .decks import check, mesh, run, write
+from .meshes import import_mesh
 from .problem import Path, follow
 from .results import Result, States
 from .taylor import Taylor
 
 __version__ = _atrapos.version
-__all__ = ["DeckError", "FileError", "MeshError", "Path", "Result", "States", "Taylor", "check", "follow", "mesh",
-           "run", "write"]
+__all__ = ["DeckError", "FileError", "MeshError", "Path", "Result", "States", "Taylor", "check", "follow",
+           "import_mesh", "mesh", "run", "write"]
 
 _atexit.register(_atrapos.finalize)

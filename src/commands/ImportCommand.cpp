@@ -94,7 +94,7 @@ void importFile(const ImportWords& words, std::ostream& out) {
   if (ending != ".inp" && ending != ".msh" && !isExodus)
     refuse(
         "its ending says no format; expected .inp (Abaqus, CalculiX), .msh (Gmsh), or .exo, .e, .ex2, .g, "
-        ".gen (Exodus)");
+        ".gen (Exodus); others, as .vtu and .vtk, by python3 -m atrapos.from_meshio");
   if (ending == ".msh" && words.deck)
     refuse("--deck: a mesh has no materials and no loads; expected a file .inp");
   if (ending != ".msh" && words.shells) refuse("--shells: elements say what they are; expected a file .msh");
