@@ -276,18 +276,26 @@ int main(int argc, char** argv) {
   auto* importCommand =
       app.add_subcommand("import",
                          "make a mesh, and a deck, of a file of Abaqus, CalculiX (.inp), Gmsh (.msh) or "
-                         "another program that writes Exodus; docs/import.md");
+                         "another program that writes Exodus; of STL the surface of a tool; docs/import.md");
   importCommand
       ->add_option("FILE", importWords.file,
-                   ".inp of Abaqus or CalculiX, .msh of Gmsh, .exo, .e, .ex2, .g, .gen of Exodus")
+                   ".inp of Abaqus or CalculiX, .msh of Gmsh, .exo, .e, .ex2, .g, .gen of Exodus, .stl")
       ->required();
-  importCommand->add_option("-o,--output", importWords.output,
-                            "Exodus file (default: FILE's name with .exo, here)");
+  importCommand->add_option(
+      "-o,--output", importWords.output,
+      "Exodus file, of STL a YAML file (default: FILE's name with .exo or .yaml, here)");
   importCommand->add_flag("--deck", importWords.deck,
                           "of .inp: write a deck of the same problem beside the mesh, with .yaml; says line "
                           "by line what it leaves out");
   importCommand->add_flag("--shells", importWords.shells,
                           "Gmsh: quadrilaterals in z = 0 are shells (default: a plane body)");
+  importCommand->add_option(
+      "--along", importWords.along,
+      "STL: heights along x, y, z, -x, -y or -z, the free side of the tool (default: z)");
+  importCommand
+      ->add_option("--cells", importWords.cells,
+                   "STL: pieces of the smooth surface in its two directions (default: by the facets)")
+      ->expected(2);
   importCommand->add_flag("-q,--quiet", importWords.quiet, "print nothing");
 
   std::string meshFile;

@@ -16,7 +16,9 @@
 #include "deck/Characters.hpp"
 #include "deck/Deck.hpp"
 #include "deck/Fields.hpp"
+#include "import/FitHeights.hpp"
 #include "import/Import.hpp"
+#include "import/ReadStl.hpp"
 #include "import/UsedNodes.hpp"
 #include "output/Files.hpp"
 
@@ -82,6 +84,53 @@ void importExodus(const ImportWords& words, const std::string& mesh, std::ostrea
                        count(static_cast<std::size_t>(dropped), "node"));
 }
 
+importer::FitWishes wishes(const ImportWords& words) {
+  importer::FitWishes asked;
+  if (!words.along.empty()) {
+    const bool against = words.along[0] == '-';
+    const std::string axis = words.along.substr(against ? 1 : 0);
+    if (axis != "x" && axis != "y" && axis != "z")
+      throw std::invalid_argument(
+          fmt::format("{}: --along {}: expected x, y, z, -x, -y or -z", words.file, words.along));
+    asked.along = {};
+    asked.along[static_cast<std::size_t>(axis[0] - 'x')] = against ? -1 : 1;
+  }
+  if (!words.cells.empty()) asked.cells = {words.cells[0], words.cells[1]};
+  return asked;
+}
+
+std::string yamlText(const importer::FittedSurface& surface, const ImportWords& words) {
+  std::string text =
+      fmt::format("# Made by atrapos import of {}\nsurfaces:\n  fitted:\n    degree: [3, 3]\n    points:\n",
+                  deck::plainLine(words.file));
+  for (const auto& point : surface.points) text += fmt::format("      - {}\n", deck::yamlList(point));
+  for (std::size_t d = 0; d < 2; ++d)
+    text += fmt::format("    knots_{}: {}\n", d + 1, deck::yamlList(surface.knots[d]));
+  return text;
+}
+
+void importStl(const ImportWords& words, std::ostream& out) {
+  const std::string file =
+      words.output.empty() ? std::filesystem::path(words.file).stem().string() + ".yaml" : words.output;
+  if (std::filesystem::exists(file))
+    throw std::invalid_argument(
+        fmt::format("{} is there already, and surfaces are not replaced; expected another --output", file));
+  const auto surface = importer::fitHeights(importer::readStl(words.file), wishes(words), words.file);
+  replaceFile(file, yamlText(surface, words));
+  if (words.quiet) return;
+  out << fmt::format("{}: a surface of {} x {} cells for a tool: {{type: patches, file: {}}}\n", file,
+                     surface.knots[0].size() - 7, surface.knots[1].size() - 7, deck::yaml(file));
+  out << fmt::format("{}: corners of {} facets are at most {:.3g} off it, middles {:.3g}\n", words.file,
+                     surface.facets, surface.fromCorners, surface.fromFacets);
+  if (surface.turnedAway > 0)
+    out << fmt::format("{}: {} left out that do not face the axis\n", words.file,
+                       count(surface.turnedAway, "facet"));
+  if (surface.empty > 0)
+    out << fmt::format(
+        "{}: over {:.0f} % of the cells there are no facets: the surface goes on smoothly there\n",
+        words.file, std::ceil(100 * surface.empty));
+}
+
 }  // namespace
 
 void importFile(const ImportWords& words, std::ostream& out) {
@@ -91,13 +140,17 @@ void importFile(const ImportWords& words, std::ostream& out) {
   const auto refuse = [&](const std::string& what) { throw std::invalid_argument(words.file + ": " + what); };
   const bool isExodus =
       ending == ".exo" || ending == ".e" || ending == ".ex2" || ending == ".g" || ending == ".gen";
-  if (ending != ".inp" && ending != ".msh" && !isExodus)
+  const bool isStl = ending == ".stl";
+  if (ending != ".inp" && ending != ".msh" && !isExodus && !isStl)
     refuse(
         "its ending says no format; expected .inp (Abaqus, CalculiX), .msh (Gmsh), or .exo, .e, .ex2, .g, "
-        ".gen (Exodus); others, as .vtu and .vtk, by python3 -m atrapos.from_meshio");
-  if (ending == ".msh" && words.deck)
+        ".gen (Exodus), .stl (tools); others, as .vtu and .vtk, by python3 -m atrapos.from_meshio");
+  if (!isStl && (!words.along.empty() || !words.cells.empty()))
+    refuse("--along and --cells are for surfaces of tools; expected a file .stl");
+  if ((ending == ".msh" || isStl) && words.deck)
     refuse("--deck: a mesh has no materials and no loads; expected a file .inp");
   if (ending != ".msh" && words.shells) refuse("--shells: elements say what they are; expected a file .msh");
+  if (isStl) return importStl(words, out);
   requirePlaceForMesh(mesh, words.file);
   if (ending == ".inp") return importInp(words, mesh, out);
   if (isExodus) return importExodus(words, mesh, out);

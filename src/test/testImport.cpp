@@ -93,12 +93,14 @@ TEST_F(Import, WhatIsThereIsNotReplaced) {
 TEST_F(Import, WordsThatDoNotFit) {
   writeFile(folder_ / "bar.inp", edited(kBar, "210000., 0.", "210000., 0.7"));
   writeFile(folder_ / "cell.msh", kCell);
-  writeFile(folder_ / "mesh.stl", "solid");
-  expectRefused({"mesh.stl"}, "expected .inp (Abaqus, CalculiX), .msh (Gmsh), or .exo");
+  writeFile(folder_ / "mesh.obj", "solid");
+  expectRefused({"mesh.obj"}, "expected .inp (Abaqus, CalculiX), .msh (Gmsh), or .exo");
   expectRefused({"none.inp"}, "none.inp: does not exist");
   expectRefused({"bar.inp", "--deck"}, "poissons_ratio");
   expectRefused({"bar.inp", "--shells"}, "--shells");
   expectRefused({"cell.msh", "--deck"}, "--deck: a mesh has no materials");
+  expectRefused({"cell.msh", "--along", "x"}, "--along and --cells are for surfaces of tools");
+  expectRefused({"part.vtu"}, "others, as .vtu and .vtk, by python3 -m atrapos.from_meshio");
 }
 
 #ifdef ATRAPOS_GMSH
@@ -180,6 +182,44 @@ output:
 #endif
 
 // Nodes that no element has, and ids from 0.
+// A die of four squares of facets becomes a surface that a deck's tool takes.
+TEST_F(Import, FromStlToATool) {
+  std::string facets = "solid die\n";
+  const auto facet = [&](double x0, double y0, double x1, double y1, double x2, double y2) {
+    facets += "facet normal 0 0 1\nouter loop\n";
+    for (const auto& [x, y] : {std::pair{x0, y0}, {x1, y1}, {x2, y2}})
+      facets += "vertex " + std::to_string(x) + " " + std::to_string(y) + " " +
+                std::to_string(-1 - 0.05 * x * x) + "\n";
+    facets += "endloop\nendfacet\n";
+  };
+  for (int i = -2; i < 2; ++i)
+    for (int j = -2; j < 2; ++j) {
+      facet(i, j, i + 1, j, i + 1, j + 1);
+      facet(i, j, i + 1, j + 1, i, j + 1);
+    }
+  writeFile(folder_ / "die.stl", facets + "endsolid die\n");
+  const CommandResult r = import({"die.stl", "--cells", "1", "1"});
+  ASSERT_EQ(r.exitCode, 0) << r.err;
+  EXPECT_NE(r.out.find("die.yaml: a surface of 1 x 1 cells for a tool"), std::string::npos) << r.out;
+  expectRefused({"die.stl"}, "die.yaml is there already");
+  expectRefused({"die.stl", "-o", "other.yaml", "--along", "up"},
+                "--along up: expected x, y, z, -x, -y or -z");
+  writeFile(folder_ / "press.yaml",
+            "mesh:\n  file: block.exo\n  generate: {shape: box, lengths: [2, 2, 1], origin: [-1, -1, 0], "
+            "divisions: [2, 2, 1], "
+            "cell: HEX20}\nmaterials:\n  m: {law: saint_venant_kirchhoff, youngs_modulus: 1, poissons_ratio: "
+            "0, blocks: [body]}\n"
+            "supports:\n  top: {set: z_max, x: 0, y: 0, z: {per_load_factor: -1}}\ntools:\n  die: {type: "
+            "patches, file: die.yaml}\n"
+            "contact:\n  below: {tool: die, set: z_min}\npath:\n  stop: {load_factor: 1}\n");
+  ASSERT_EQ(runAtrapos({"mesh", "press.yaml"}, folder_.path()).exitCode, 0);
+  const CommandResult check = runAtrapos({"check", "press.yaml"}, folder_.path());
+  ASSERT_EQ(check.exitCode, 0) << check.err;
+  // A parabola is a spline: above its top the gap is 1.
+  EXPECT_NE(check.out.find("below: "), std::string::npos) << check.out;
+  EXPECT_NE(check.out.find("smallest gap 1.0"), std::string::npos) << check.out;
+}
+
 TEST_F(Import, FromExodus) {
   fem::Mesh mesh;
   mesh.coordinates = {5, 5, 5, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
