@@ -12,6 +12,7 @@
 #include "machine/Ranks.hpp"
 #include "machine/Threads.hpp"
 #include "scene/Compression.hpp"
+#include "scene/Locking.hpp"
 
 namespace atrapos {
 
@@ -38,6 +39,8 @@ void printCheck(const deck::Deck& deck, Scene& scene, std::ostream& out) {
           contact.name, contact.attracted);
   }
   for (const std::string& line : largeCompression(scene.deck(), scene.mesh()))
+    out << "# warning   " << line << '\n';
+  for (const std::string& line : lockingCells(scene.deck(), scene.mesh()))
     out << "# warning   " << line << '\n';
   if (ranks::count() > 1) out << fmt::format("# ranks     {}\n", threads::describe(ranks::communicator()));
   SceneCase pathCase(scene);

@@ -11,6 +11,7 @@
 #include "output/FieldFiles.hpp"
 #include "restart/RunProblem.hpp"
 #include "scene/ContactEvents.hpp"
+#include "scene/Locking.hpp"
 #include "scene/Sharpen.hpp"
 
 namespace atrapos {
@@ -60,6 +61,8 @@ std::vector<std::string> SceneCase::remarks() const {
   std::vector<std::string> lines = describe(scene_.mesh(), scene_.shells());
   for (const ContactPoints& contact : scene_.contacts())
     lines.push_back(fmt::format("contact {}: {}", contact.name, contact.pressure.text));
+  for (const std::string& line : lockingCells(scene_.deck(), scene_.mesh()))
+    lines.push_back("warning: " + line);
   return lines;
 }
 

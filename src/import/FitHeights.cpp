@@ -151,7 +151,9 @@ class Fit {
   double distance(const Place& p) const;
   double emptyPart() const;
   const std::array<Direction, 2>& directions() const { return directions_; }
-  double coefficient(int i, int j) const { return heights_[std::size_t(i * directions_[1].count() + j)]; }
+  double coefficient(int i, int j) const {
+    return heights_[std::size_t(i) * std::size_t(directions_[1].count()) + std::size_t(j)];
+  }
   const std::vector<Triangle>& facets() const { return facets_; }
 
  private:
@@ -197,11 +199,12 @@ void Fit::refuseOverhangs() const {
     const auto [y0, y1] = std::minmax({t[0][1], t[1][1], t[2][1]});
     for (int i = x.cellOf(x0); i <= x.cellOf(x1); ++i)
       for (int j = y.cellOf(y0); j <= y.cellOf(y1); ++j)
-        buckets[std::size_t(i * n + j)].push_back(static_cast<int>(f));
+        buckets[std::size_t(i) * std::size_t(n) + std::size_t(j)].push_back(static_cast<int>(f));
   }
   for (std::size_t f = 0; f < facets_.size(); ++f) {
     const Place m = middle(facets_[f]);
-    for (const int other : buckets[std::size_t(x.cellOf(m[0]) * n + y.cellOf(m[1]))]) {
+    for (const int other :
+         buckets[std::size_t(x.cellOf(m[0])) * std::size_t(n) + std::size_t(y.cellOf(m[1]))]) {
       if (static_cast<std::size_t>(other) == f) continue;
       const double height = heightAt(facets_[std::size_t(other)], m);
       if (std::isfinite(height))
@@ -274,7 +277,7 @@ double Fit::emptyPart() const {
   std::vector<char> has(std::size_t(first.cells) * std::size_t(second.cells), 0);
   for (const Triangle& t : facets_)
     for (const Place& p : {t[0], t[1], t[2], middle(t)})
-      has[std::size_t(first.cellOf(p[0]) * second.cells + second.cellOf(p[1]))] = 1;
+      has[std::size_t(first.cellOf(p[0])) * std::size_t(second.cells) + std::size_t(second.cellOf(p[1]))] = 1;
   return static_cast<double>(std::count(has.begin(), has.end(), 0)) / static_cast<double>(has.size());
 }
 

@@ -287,7 +287,8 @@ TEST_F(BadInput, OutputThatCannotBeWritten) {
 
 TEST_F(BadInput, MeshThatTheDeckDoesNotDescribe) {
   writeFile(folder_ / "deck.yaml",
-            edited(kSmallDeck, "  generate: {shape: box, lengths: [4, 1, 1], divisions: [4, 1, 1]}\n", ""));
+            edited(kSmallDeck,
+                   "  generate: {shape: box, lengths: [4, 1, 1], divisions: [4, 1, 1], cell: HEX8}\n", ""));
   refuses({"mesh", "deck.yaml"}, {"mesh/generate", "missing"});
 }
 

@@ -99,7 +99,7 @@ TEST_F(ContactEvents, AddUpToTheActivePoints) {
 // starts close within it, in the step that reaches the plate.
 TEST_F(ContactEvents, OfPointsThatComeOverAnEdge) {
   const std::string deck = R"(
-mesh: {file: box.exo, generate: {shape: box, lengths: [1, 1, 1], divisions: [2, 1, 1]}}
+mesh: {file: box.exo, generate: {shape: box, lengths: [1, 1, 1], divisions: [2, 1, 1], cell: HEX8}}
 materials: {rubber: {law: saint_venant_kirchhoff, youngs_modulus: 1000, poissons_ratio: 0, blocks: [body]}}
 supports: {top: {set: z_max, x: {per_load_factor: 0.6}, y: 0, z: {per_load_factor: -0.2}}}
 tools:

@@ -25,7 +25,8 @@ double bytesOf(const std::string& output, const std::string& name) {
 }
 
 std::string deckWith(const std::string& path, const std::string& divisions) {
-  std::string deck = edited(kSmallDeck, "divisions: [4, 1, 1]", "divisions: " + divisions + ", cell: HEX20");
+  std::string deck =
+      edited(kSmallDeck, "divisions: [4, 1, 1], cell: HEX8", "divisions: " + divisions + ", cell: HEX20");
   return edited(edited(deck, "order: 15", path), "stop: {load_factor: 0.5}", "stop: {steps: 2}");
 }
 

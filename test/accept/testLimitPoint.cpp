@@ -19,7 +19,7 @@ constexpr double kLength = 2;
 // Sides that cannot move sideways change nothing with nu = 0, and keep the bar from buckling.
 const char* const kDeck = R"(mesh:
   file: bar.exo
-  generate: {shape: box, lengths: [2, 1, 0.5], divisions: [1, 1, 1]}
+  generate: {shape: box, lengths: [2, 1, 0.5], divisions: [1, 1, 1], cell: HEX8}
 materials:
   bar: {law: saint_venant_kirchhoff, youngs_modulus: 1000, poissons_ratio: 0, blocks: [body]}
 supports:

@@ -8,7 +8,7 @@ namespace atrapos::test {
 inline const std::string kSmallDeck = R"(title: Small box
 mesh:
   file: box.exo
-  generate: {shape: box, lengths: [4, 1, 1], divisions: [4, 1, 1]}
+  generate: {shape: box, lengths: [4, 1, 1], divisions: [4, 1, 1], cell: HEX8}
 materials:
   rubber: {law: saint_venant_kirchhoff, youngs_modulus: 1000, poissons_ratio: 0.3, blocks: [body]}
 supports:
