@@ -20,6 +20,10 @@ constexpr int kMostCells = 100;  // the tool has a patch for each
 /// rectangle), and moves others by as small a part of what the surface bends between two control points.
 constexpr double kBending = 1e-9;
 
+/// Facets in buckets, and pairs of those in one bucket: of facets of like size there are some ten times their
+/// number. These many take some seconds and 0.3 GB.
+constexpr double kMostInBuckets = 5e7, kMostPairs = 5e8;
+
 /// A place in the frame of the fit: two coordinates across the axis and the height along it.
 using Place = std::array<double, 3>;
 
@@ -131,7 +135,9 @@ class Band {
     lapack.GBTRF(n_, n_, width_, width_, entries_.data(), lead, pivots.data(), &info);
     if (info == 0)
       lapack.GBTRS('N', n_, width_, width_, 1, entries_.data(), lead, pivots.data(), x.data(), n_, &info);
-    if (info != 0) throw Error(file + ": its corners do not determine a surface; expected fewer cells");
+    const bool finite = std::all_of(x.begin(), x.end(), [](double c) { return std::isfinite(c); });
+    if (info != 0 || !finite)
+      throw Error(file + ": its corners do not determine a surface; expected fewer cells");
   }
 
  private:
@@ -192,15 +198,25 @@ void Fit::refuseOverhangs() const {
   const int n = std::clamp(static_cast<int>(std::sqrt(static_cast<double>(facets_.size()))), 1, 1000);
   const Direction x(directions_[0].low, directions_[0].high, n),
       y(directions_[1].low, directions_[1].high, n);
+  const auto refuseWork = [&](double work, double most) {
+    if (work > most)
+      throw Error(file_ + ": facets of too unequal sizes; expected those of one surface, remeshed perhaps");
+  };
   std::vector<std::vector<int>> buckets(std::size_t(n) * std::size_t(n));
+  double entries = 0, pairs = 0;
   for (std::size_t f = 0; f < facets_.size(); ++f) {
     const Triangle& t = facets_[f];
     const auto [x0, x1] = std::minmax({t[0][0], t[1][0], t[2][0]});
     const auto [y0, y1] = std::minmax({t[0][1], t[1][1], t[2][1]});
-    for (int i = x.cellOf(x0); i <= x.cellOf(x1); ++i)
-      for (int j = y.cellOf(y0); j <= y.cellOf(y1); ++j)
+    const int i0 = x.cellOf(x0), i1 = x.cellOf(x1), j0 = y.cellOf(y0), j1 = y.cellOf(y1);
+    refuseWork(entries += double(i1 - i0 + 1) * (j1 - j0 + 1), kMostInBuckets);
+    for (int i = i0; i <= i1; ++i)
+      for (int j = j0; j <= j1; ++j)
         buckets[std::size_t(i) * std::size_t(n) + std::size_t(j)].push_back(static_cast<int>(f));
   }
+  for (const auto& bucket : buckets)
+    pairs += static_cast<double>(bucket.size()) * static_cast<double>(bucket.size());
+  refuseWork(pairs, kMostPairs);
   for (std::size_t f = 0; f < facets_.size(); ++f) {
     const Place m = middle(facets_[f]);
     for (const int other :

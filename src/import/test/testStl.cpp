@@ -157,6 +157,19 @@ TEST(Stl, WhatFacesAwayIsLeftOut) {
   expectRefused(closed, wishes, "--cells 101: expected 1 to 100");
 }
 
+// What would take hours, or has no surface in double precision, is refused.
+TEST(Stl, OutOfProportion) {
+  auto unequal = net([](double, double) { return 0.0; }, {0, 0, 0}, {1e-3, 1e-3, 0}, 224);
+  const auto large = net([](double, double) { return 0.0; }, {1, 1, 0}, {2, 2, 0}, 1);
+  unequal.insert(unequal.end(), large.begin(), large.end());
+  expectRefused(unequal, {}, "facets of too unequal sizes");
+  auto huge = net(ball, kLow, kHigh, 8);
+  for (Facet& f : huge)
+    for (auto& x : f)
+      for (double& number : x) number *= 1e160;
+  expectRefused(huge, {}, "its corners do not determine a surface");
+}
+
 // A round tool: over the corners of its rectangle nothing is known, and the surface goes on smoothly.
 TEST(Stl, CornersWithoutFacets) {
   std::vector<Facet> round;
