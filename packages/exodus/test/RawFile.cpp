@@ -10,6 +10,22 @@ void require(int status) {
   if (status != NC_NOERR) throw std::runtime_error(nc_strerror(status));
 }
 
+/// Closes the file, or gives it up where it could not be written.
+struct OpenFile {
+  explicit OpenFile(int id_) : id(id_) {}
+  OpenFile(const OpenFile&) = delete;
+  OpenFile& operator=(const OpenFile&) = delete;
+  ~OpenFile() {
+    if (open) nc_abort(id);
+  }
+  void close() {
+    open = false;
+    require(nc_close(id));
+  }
+  int id = 0;
+  bool open = true;
+};
+
 std::size_t sizeOf(nc_type type) {
   static constexpr std::array<std::size_t, 12> sizes{0, 1, 1, 2, 4, 4, 8, 1, 2, 4, 8, 8};
   return sizes.at(static_cast<std::size_t>(type));
@@ -40,8 +56,9 @@ void put(int id, int variable, const std::vector<RawFile::Attribute>& attributes
 
 RawFile RawFile::read(const std::string& file) {
   RawFile raw;
-  int id = 0, dimensions = 0, variables = 0, attributes = 0, unlimited = -1;
+  int dimensions = 0, variables = 0, attributes = 0, unlimited = -1, id = 0;
   require(nc_open(file.c_str(), NC_NOWRITE, &id));
+  OpenFile open(id);
   require(nc_inq(id, &dimensions, &variables, &attributes, &unlimited));
   std::array<char, NC_MAX_NAME + 1> name{};
   for (int d = 0; d < dimensions; ++d) {
@@ -61,13 +78,14 @@ RawFile RawFile::read(const std::string& file) {
     variable.bytes.resize(raw.size(variable));
     if (!variable.bytes.empty()) require(nc_get_var(id, v, variable.bytes.data()));
   }
-  require(nc_close(id));
+  open.close();
   return raw;
 }
 
 void RawFile::write(const std::string& file, int mode) const {
   int id = 0;
   require(nc_create(file.c_str(), NC_CLOBBER | mode, &id));
+  OpenFile open(id);
   std::vector<int> dimensionIds(dimensions.size()), variableIds(variables.size());
   for (std::size_t d = 0; d < dimensions.size(); ++d)
     require(nc_def_dim(id, dimensions[d].name.c_str(),
@@ -93,7 +111,7 @@ void RawFile::write(const std::string& file, int mode) const {
     }
     require(nc_put_vara(id, variableIds[v], start.data(), count.data(), bytes.data()));
   }
-  require(nc_close(id));
+  open.close();
 }
 
 RawFile::Variable& RawFile::variable(const std::string& name) {

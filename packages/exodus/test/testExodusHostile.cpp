@@ -13,30 +13,15 @@
 #include <random>
 
 #include "RawFile.hpp"
-#include "SampleMesh.hpp"
-#include "TempFile.hpp"
+#include "RawMutator.hpp"
+#include "SampleResults.hpp"
 #include "atrapos/exodus/Decomposition.hpp"
 #include "atrapos/exodus/MeshFile.hpp"
 #include "atrapos/exodus/ResultReader.hpp"
-#include "atrapos/exodus/ResultWriter.hpp"
 
 using namespace atrapos;
 
 namespace {
-
-/// A file with all that this package writes.
-RawFile sampleResults() {
-  const TempFile file;
-  const auto mesh = sampleMesh(fem::Topology::Hex8);
-  exodus::ResultNames names{{"u", "v"}, {"s"}, {"load_factor"}, {"a line"}, {}};
-  exodus::ResultWriter writer(file(), mesh, names);
-  const auto nodes = static_cast<std::size_t>(mesh.numNodes()),
-             elements = static_cast<std::size_t>(mesh.numElements());
-  for (int step = 1; step <= 2; ++step)
-    writer.writeStep(step, std::vector<double>(2 * nodes, 1.5), std::vector<double>(elements, 2.5),
-                     std::vector<double>(1, 3.5));
-  return RawFile::read(file());
-}
 
 fem::Mesh readAll(const std::string& file) {
   fem::Mesh mesh = exodus::readMesh(file);
@@ -205,86 +190,13 @@ TEST(ExodusHostile, valuesAtRandom) {
   EXPECT_GT(errors, 50);
 }
 
-namespace {
-
-/// Changes of the structure as well as of values.
-class Mutator {
- public:
-  explicit Mutator(unsigned seed) : random_(seed) {}
-
-  RawFile operator()(RawFile raw) {
-    for (std::size_t n = 1 + below(3); n > 0 && !raw.variables.empty(); --n)
-      once(raw, raw.variables[below(raw.variables.size())]);
-    return raw;
-  }
-  std::size_t below(std::size_t n) { return n == 0 ? 0 : random_() % n; }
-
- private:
-  void once(RawFile& raw, RawFile::Variable& variable) {
-    static const std::vector<std::size_t> lengths{1, 2, 3, 5, 8, 31, 33, 100, 5000};
-    switch (below(8)) {
-      case 0:
-        if (!variable.dimensions.empty())
-          raw.stretch(variable, below(variable.dimensions.size()), lengths[below(lengths.size())]);
-        break;
-      case 1:
-        variable.type = static_cast<nc_type>(1 + below(6));
-        break;
-      case 2:
-        for (std::size_t n = 1 + below(6); n > 0 && !variable.bytes.empty(); --n)
-          variable.bytes[below(variable.bytes.size())] = static_cast<char>(random_());
-        break;
-      case 3:
-        if (!variable.attributes.empty() && below(2) == 0)
-          change(variable.attributes[below(variable.attributes.size())]);
-        else if (!raw.attributes.empty())
-          change(raw.attributes[below(raw.attributes.size())]);
-        break;
-      case 4:
-        raw.variables.erase(raw.variables.begin() + (&variable - raw.variables.data()));
-        break;
-      case 5: {
-        auto& dimension = raw.dimensions[below(raw.dimensions.size())];
-        if (!dimension.unlimited)
-          dimension.length = below(2) == 0 ? dimension.length + 1 : lengths[below(lengths.size())];
-        break;
-      }
-      case 6: {
-        const auto numbers = wholeNumbers();
-        if (variable.type == NC_INT && variable.bytes.size() >= 4)
-          std::copy_n(reinterpret_cast<const char*>(&numbers[below(numbers.size())]), 4,
-                      &variable.bytes[4 * below(variable.bytes.size() / 4)]);
-        break;
-      }
-      default:
-        if (!variable.dimensions.empty()) std::swap(variable.dimensions.front(), variable.dimensions.back());
-    }
-  }
-
-  void change(RawFile::Attribute& attribute) {
-    const std::size_t size = attribute.type == NC_CHAR ? 1 : 4;
-    attribute.bytes.resize(size * lengths_[below(lengths_.size())], 'x');
-    if (below(2) == 0 && !attribute.bytes.empty())
-      attribute.bytes[below(attribute.bytes.size())] = static_cast<char>(random_());
-  }
-
-  static std::vector<int> wholeNumbers() {
-    return {0, -1, 1, 2, 1000, std::numeric_limits<int>::max(), std::numeric_limits<int>::min()};
-  }
-
-  const std::vector<std::size_t> lengths_{0, 1, 2, 32, 33, 34, 300, 4000};
-  std::mt19937 random_;
-};
-
-}  // namespace
-
 // ATRAPOS_MUTANTS asks for more of them (scripts/fuzz).
 TEST(ExodusHostile, mutants) {
   const char* const asked = std::getenv("ATRAPOS_MUTANTS");
   const int mutants = asked != nullptr ? std::atoi(asked) : 300;
   const TempFile file;
   const RawFile raw = sampleResults();
-  Mutator mutate(9);
+  RawMutator mutate(9);
   int read = 0, refused = 0;
   double slowest = 0;
   for (int m = 0; m < mutants; ++m) {
@@ -352,7 +264,8 @@ TEST(ExodusHostile, whatWouldCountTwice) {
       raw;  // the last element of block 1 and the first one of block 2, with its nodes turned round
   const auto& first = raw.variable("connect1").bytes;
   std::rotate_copy(first.end() - 32, first.end() - 16, first.end(), twins.variable("connect2").bytes.begin());
-  EXPECT_NE(errorOf(twins).find("elements 514 and 521 have the same nodes"), std::string::npos) << errorOf(twins);
+  EXPECT_NE(errorOf(twins).find("elements 514 and 521 have the same nodes"), std::string::npos)
+      << errorOf(twins);
   RawFile sides = raw;
   for (const char* const name : {"elem_ss1", "side_ss1"}) {
     auto& bytes = sides.variable(name).bytes;

@@ -5,10 +5,9 @@
 #include <chrono>
 #include <cstdlib>
 #include <iostream>
-#include <random>
-#include <sstream>
 
 #include "InpFile.hpp"
+#include "TextMutator.hpp"
 #include "deck/Deck.hpp"
 
 namespace atrapos::importer {
@@ -42,106 +41,13 @@ const std::string
         "NAME=m\n*ELASTIC\n1, .3\n*SOLID SECTION, ELSET=p, MATERIAL=m\n.1\n"
         "*BOUNDARY\n1, 1, 2\n4, 1\n*STEP\n*STATIC\n*DLOAD\np, P2, 2.\n*END STEP\n";
 
-class Mutator {
- public:
-  explicit Mutator(unsigned seed) : random_(seed) {}
-
-  std::string operator()(std::string text) {
-    for (std::size_t n = 1 + below(4); n > 0; --n) text = once(text);
-    return text;
-  }
-  std::size_t below(std::size_t n) { return n == 0 ? 0 : random_() % n; }
-
- private:
-  std::string once(const std::string& text) {
-    switch (below(7)) {
-      case 0: {  // a field
-        static const std::vector<std::string> values{"",
-                                                     "0",
-                                                     "-1",
-                                                     "1e308",
-                                                     "-1e308",
-                                                     "1e999",
-                                                     "nan",
-                                                     "inf",
-                                                     "2147483647",
-                                                     "2147483648",
-                                                     "1.",
-                                                     "+-1",
-                                                     "1D3",
-                                                     "both",
-                                                     "all",
-                                                     "\"a, b\"",
-                                                     "*NODE",
-                                                     "x=\"y",
-                                                     "99999999999999999999",
-                                                     "\xff",
-                                                     "\xc2\x85",
-                                                     "S9",
-                                                     "P0",
-                                                     "\"",
-                                                     "=",
-                                                     "1, 2147483647, 1"};
-        const auto at = text.find_first_of(",=", below(text.size()));
-        if (at == std::string::npos) return text;
-        const auto end = text.find_first_of(",\n", at + 1);
-        return text.substr(0, at + 1) + values[below(values.size())] +
-               (end == std::string::npos ? "" : text.substr(end));
-      }
-      case 1: {
-        std::string changed = text;
-        if (!changed.empty()) changed[below(changed.size())] = static_cast<char>(random_());
-        return changed;
-      }
-      case 2: {
-        static const std::string signs("*,=\"\n\r\t .\0GENERATE", 19);
-        std::string changed = text;
-        changed.insert(below(changed.size() + 1),
-                       std::string(1 + below(below(20) == 0 ? 3000 : 3), signs[below(signs.size())]));
-        return changed;
-      }
-      case 3:
-        return text.substr(0, below(text.size()));
-      default: {
-        auto lines = linesOf(text);
-        if (lines.empty()) return text;
-        const std::size_t i = below(lines.size()), j = below(lines.size());
-        switch (below(3)) {
-          case 0:
-            lines.erase(lines.begin() + static_cast<long>(i));
-            break;
-          case 1: {
-            const std::string line = lines[i];
-            lines.insert(lines.begin() + static_cast<long>(j), line);
-            break;
-          }
-          default:
-            std::swap(lines[i], lines[j]);
-        }
-        std::string changed;
-        for (const auto& line : lines) changed += line + '\n';
-        return changed;
-      }
-    }
-  }
-
-  static std::vector<std::string> linesOf(const std::string& text) {
-    std::vector<std::string> lines;
-    std::istringstream in(text);
-    for (std::string line; std::getline(in, line);) lines.push_back(line);
-    return lines;
-  }
-
-  std::mt19937 random_;
-};
-
 TEST(InpMutants, AreReadOrRefusedWithOneLine) {
   const char* const asked = std::getenv("ATRAPOS_MUTANTS");
   const int mutants = asked != nullptr ? std::atoi(asked) : 3000;
   const std::vector<std::string> bases{kBase, kShells, kPlane};
   for (const std::string& base : bases)
     deck::readDeckText("mesh: {file: m.exo}\n" + readText(base, Deck::yes).deck, "m.yaml");
-  Mutator mutate(20);
+  test::TextMutator mutate(test::inp(), 20);
   const InpFile file("");
   int read = 0, refused = 0;
   double slowest = 0;
