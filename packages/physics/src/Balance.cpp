@@ -86,38 +86,6 @@ std::unique_ptr<fem::PointLaw> lawOf(int fields, const Programs& programs) {
 
 fem::Field scalarField(const std::string& name) { return {name, {""}, fem::Role::primal, name}; }
 
-bool isFreeName(const std::string& name) {
-  return formula::isName(name) && name != "lambda" && name != "x" && name != "y" && name != "z";
-}
-
-void checkFormula(const std::string& text, const std::vector<std::string>& fields, const Constants& constants,
-                  Place place) {
-  Builder builder;
-  builder.program(
-      {formula::parse(text, symbols(fields, constants, layoutOf(fields, place), builder), builder)});
-}
-
-bool dependsOnLoadFactor(const std::string& text, const std::vector<std::string>& fields,
-                         const Constants& constants, Place place) {
-  Builder builder;
-  const Layout layout = layoutOf(fields, place);
-  const auto inputs =
-      builder.inputsOf(formula::parse(text, symbols(fields, constants, layout, builder), builder));
-  return std::find(inputs.begin(), inputs.end(), layout.loadFactor()) != inputs.end();
-}
-
-std::function<double(const double*)> ofPlace(const std::string& text, const Constants& constants) {
-  Builder builder;
-  const Layout layout{Place::reference, 0};
-  const auto program =
-      builder.program({formula::parse(text, symbols({}, constants, layout, builder), builder)});
-  return [program](const double* position) {
-    double value = 0;
-    formula::evaluate<double>(program, nullptr, position, &value);
-    return value;
-  };
-}
-
 std::unique_ptr<fem::Term> balanceTerm(const fem::Mesh& mesh, const fem::Block& block,
                                        const std::vector<std::string>& fields,
                                        const std::vector<Balance>& balances, const Constants& constants,

@@ -1,0 +1,46 @@
+// Formulas by themselves: what is wrong with them, what they depend on, their values.
+#include <algorithm>
+
+#include "FormulaInputs.hpp"
+#include "atrapos/formula/Parse.hpp"
+#include "atrapos/physics/Balance.hpp"
+
+namespace atrapos::physics {
+
+using detail::Layout, detail::layoutOf, detail::symbols;
+using formula::Builder;
+
+bool isFreeName(const std::string& name) {
+  return formula::isName(name) && name != "lambda" && name != "x" && name != "y" && name != "z";
+}
+
+void checkFormula(const std::string& text, const std::vector<std::string>& fields, const Constants& constants,
+                  Place place) {
+  Builder builder;
+  builder.program(
+      {formula::parse(text, symbols(fields, constants, layoutOf(fields, place), builder), builder)});
+}
+
+bool dependsOnLoadFactor(const std::string& text, const std::vector<std::string>& fields,
+                         const Constants& constants, Place place) {
+  Builder builder;
+  const Layout layout = layoutOf(fields, place);
+  const auto inputs =
+      builder.inputsOf(formula::parse(text, symbols(fields, constants, layout, builder), builder));
+  return std::find(inputs.begin(), inputs.end(), layout.loadFactor()) != inputs.end();
+}
+
+std::function<double(const double*)> ofPlace(const std::string& text, const Constants& constants) {
+  Builder builder;
+  const Layout layout{Place::reference, 0};
+  const auto program =
+      builder.program({formula::parse(text, symbols({}, constants, layout, builder), builder)});
+  return [program](const double* position) {
+    const double noInput = 0;
+    double value = 0;
+    formula::evaluate<double>(program, &noInput, position, &value);
+    return value;
+  };
+}
+
+}  // namespace atrapos::physics
