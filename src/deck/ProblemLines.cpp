@@ -39,7 +39,13 @@ std::string lineOf(const Stage& stage) {
 
 std::string keyOf(const std::string& line) { return line.substr(0, line.find(": ")); }
 
-std::string valueIn(const std::string& line) { return beginOf(line.substr(line.find(": ") + 2), 60); }
+// For messages: the lines of an earlier run come from a file that may be damaged, or forged.
+std::string keyIn(const std::string& line) { return plainLine(beginOf(keyOf(line), 120)); }
+
+std::string valueIn(const std::string& line) {
+  const std::size_t at = line.find(": ");
+  return at == std::string::npos ? "" : plainLine(beginOf(line.substr(at + 2), 60));
+}
 
 std::unordered_map<std::string, const std::string*> byKey(const std::vector<std::string>& lines) {
   std::unordered_map<std::string, const std::string*> map;
@@ -87,18 +93,18 @@ std::string firstDifference(const std::vector<std::string>& before, std::vector<
   for (const std::string& line : before) {
     const auto other = newLines.find(keyOf(line));
     if (other == newLines.end()) {
-      return fmt::format("{} was {} and is not there now", keyOf(line), valueIn(line));
+      return fmt::format("{} was {} and is not there now", keyIn(line), valueIn(line));
     }
     if (*other->second != line) {
-      return fmt::format("{} was {} and is {} now", keyOf(line), valueIn(line), valueIn(*other->second));
+      return fmt::format("{} was {} and is {} now", keyIn(line), valueIn(line), valueIn(*other->second));
     }
   }
   for (const std::string& line : now) {
     if (oldKeys.count(keyOf(line)) == 0) {
-      return fmt::format("{} is {} now and was not there", keyOf(line), valueIn(line));
+      return fmt::format("{} is {} now and was not there", keyIn(line), valueIn(line));
     }
   }
-  return fmt::format("{} stands in another place", keyOf(at.first != before.end() ? *at.first : *at.second));
+  return fmt::format("{} stands in another place", keyIn(at.first != before.end() ? *at.first : *at.second));
 }
 
 }  // namespace atrapos::deck

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "deck/Characters.hpp"
 #include "output/PathTable.hpp"
 #include "output/TableFile.hpp"
 
@@ -179,7 +180,8 @@ std::size_t PathCurves::find(const std::string& name) const {
     if (quantities[q].name == name) return q;
     names += (q == 0 ? "" : ", ") + quantities[q].name;
   }
-  throw std::invalid_argument(fmt::format("there is no '{}' in path.csv; there are {}", name, names));
+  throw std::invalid_argument(
+      fmt::format("there is no '{}' in path.csv; there are {}", name, deck::plainLine(names)));
 }
 
 PathCurves readCurves(const std::string& folder) {
@@ -188,6 +190,9 @@ PathCurves readCurves(const std::string& folder) {
     throw std::invalid_argument(
         fmt::format("{}: holds no path.csv; expected the results of `atrapos run`", folder));
   const TableFile path(file("path.csv")), points(file("points.csv"));
+  if (path.place("negative_eigenvalues") < path.place("load_factor"))
+    throw std::invalid_argument(
+        fmt::format("{}: its columns are not in the order in which a run writes them", file("path.csv")));
   PathCurves curves;
   curves.quantities = {{"load factor", QuantityKind::load}, {"path length", QuantityKind::length}};
   for (std::size_t m = path.place("load_factor") + 1; m < path.place("negative_eigenvalues"); ++m)

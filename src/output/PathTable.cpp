@@ -9,6 +9,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "deck/Characters.hpp"
 #include "machine/Ranks.hpp"
 #include "output/TableFile.hpp"
 
@@ -56,6 +57,9 @@ std::optional<int> numberAt(const std::vector<std::string>& words, std::size_t p
   return read.ec == std::errc() && read.ptr == end ? std::optional(number) : std::nullopt;
 }
 
+/// Bytes of a header in a message.
+constexpr std::size_t mostShown = 300;
+
 }  // namespace
 
 void Table::copyFrom(const std::string& file, const RestartPlace& last, const Mark& mark) {
@@ -64,8 +68,9 @@ void Table::copyFrom(const std::string& file, const RestartPlace& last, const Ma
   std::string line;
   if (!std::getline(in, line)) throw std::invalid_argument(fmt::format("{}: cannot be read", file));
   if (line != header_)
-    throw std::invalid_argument(
-        fmt::format("{}: has the columns {}, the deck asks for {}", file, line, header_));
+    throw std::invalid_argument(fmt::format("{}: has the columns {}, the deck asks for {}", file,
+                                            deck::plainLine(deck::beginOf(line, mostShown)),
+                                            deck::beginOf(header_, mostShown)));
   const auto names = wordsOf(header_);
   const auto column = [&](const char* name) {
     return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
@@ -145,17 +150,17 @@ namespace {
 /// Those of these kinds in a points.csv.
 std::vector<PointRow> pointsOf(const std::string& file, const std::vector<std::string>& kinds) {
   const TableFile table(file);
-  const auto step = table.numbers("step"), branch = table.numbers("branch"),
-             length = table.numbers("path_length"), load = table.numbers("load_factor"),
-             change = table.numbers("negative_change"), frequency = table.numbers("frequency"),
-             uncertainty = table.numbers("uncertainty");
+  const auto step = table.integers("step"), branch = table.integers("branch"),
+             change = table.integers("negative_change");
+  const auto length = table.numbers("path_length"), load = table.numbers("load_factor"),
+             frequency = table.numbers("frequency"), uncertainty = table.numbers("uncertainty");
   const auto kind = table.texts("kind");
   const std::size_t monitors = table.place("uncertainty") + 1;
   std::vector<PointRow> rows;
   for (std::size_t i = 0; i < table.numRows(); ++i) {
     if (std::find(kinds.begin(), kinds.end(), kind[i]) == kinds.end()) continue;
-    PointRow row{static_cast<int>(step[i]), static_cast<int>(branch[i]), length[i], load[i], kind[i]};
-    row.negativeChange = static_cast<int>(change[i]);
+    PointRow row{step[i], branch[i], length[i], load[i], kind[i]};
+    row.negativeChange = change[i];
     row.frequency = frequency[i];
     row.uncertainty = uncertainty[i];
     for (std::size_t m = monitors; m < table.names().size(); ++m) row.monitors.push_back(table.number(i, m));

@@ -9,6 +9,7 @@
 
 #include "atrapos/fem/StructuredMesh.hpp"
 #include "deck/Deck.hpp"
+#include "deck/ProblemLines.hpp"
 
 namespace {
 
@@ -1239,6 +1240,14 @@ void expectMeshError(const std::string& from, const std::string& to, const std::
   EXPECT_EQ(behindPlace(error).find(start), 0u) << error;
   EXPECT_NE(error.find(words), std::string::npos) << error;
   EXPECT_EQ(error.find('\n'), std::string::npos) << error;
+}
+
+// The lines of an earlier run are what its restart file says.
+TEST(ProblemLines, OfADamagedFileAreShownInOneLine) {
+  const std::vector<std::string> now{"loads/tip/total: 1"};
+  EXPECT_EQ(firstDifference({""}, now), " was  and is not there now");
+  EXPECT_EQ(firstDifference({"a\nb\x1b: c\rd"}, now), "a b  was c d and is not there now");
+  EXPECT_LT(firstDifference({std::string(5000, 'x')}, now).size(), 200u);
 }
 
 }  // namespace

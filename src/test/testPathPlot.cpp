@@ -191,6 +191,15 @@ TEST(PathPlot, NothingIsStableWithoutProof) {
   EXPECT_EQ(snaps.branches[0].stability, expected);
 }
 
+// Columns in another order were as many monitors as there is no memory for.
+TEST(PathPlot, ColumnsInAnotherOrderAreRefused) {
+  const TemporaryFolder folder;
+  writeTables(folder.path());
+  writeFile(folder / "path.csv", "step,path_length,negative_eigenvalues,x,load_factor,branch\n1,2,0,3,4,0\n");
+  writeFile(folder / "points.csv", pointHeader({}) + "\n");
+  EXPECT_THROW(readCurves(folder.path().string()), std::invalid_argument);
+}
+
 TEST(PathPlot, ForcesOverDisplacementsWhereTheseAreGiven) {
   const TemporaryFolder folder;
   writeTables(folder.path());

@@ -46,5 +46,31 @@ TEST(TableFile, DamageIsNamed) {
   }
 }
 
+TEST(TableFile, PointsWithoutWholeNumbersAreRefused) {
+  const TemporaryFolder folder;
+  const std::string file = (folder / "points.csv").string();
+  writeFile(file, pointHeader({}) + "\n2,1,0.1,0.3,maximum,/,0,0,1e-9\n");
+  EXPECT_THROW(limitPointsOf(file), std::invalid_argument);
+  writeFile(file, pointHeader({}) + "\n1e300,1,0.1,0.3,hopf,1,0,0,1e-9\n");
+  EXPECT_THROW(hopfPointsOf(file), std::invalid_argument);
+}
+
+// What a header holds is shown without what moves the cursor, and not at any length.
+TEST(TableFile, OtherColumnsAreNamedInOneLine) {
+  const TemporaryFolder folder;
+  const std::string file = (folder / "path.csv").string();
+  writeFile(file, "step,\x1b[2J\r" + std::string(5000, 'x') + "\n");
+  try {
+    Table((folder / "new.csv").string(), pathHeader({})).copyFrom(file, {0, 1}, {});
+    FAIL() << "not refused";
+  } catch (const std::invalid_argument& e) {
+    const std::string line = e.what();
+    EXPECT_EQ(line.find('\x1b'), std::string::npos);
+    EXPECT_EQ(line.find('\r'), std::string::npos);
+    EXPECT_LT(line.size(), 1000u);
+    EXPECT_NE(line.find("has the columns step,"), std::string::npos) << line;
+  }
+}
+
 }  // namespace
 }  // namespace atrapos::test

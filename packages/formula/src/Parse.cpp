@@ -85,6 +85,14 @@ Teuchos::ReaderTablesPtr readerTables() {
   return made;
 }
 
+/// A part of a formula for a message of one line; no formula has other characters than those of ASCII that
+/// show.
+std::string shown(std::string text) {
+  for (char& c : text)
+    if (c < ' ' || c > '~') c = c == '\t' || c == '\r' || c == '\n' ? ' ' : '?';
+  return text;
+}
+
 /// "a, b, c", the keys of a map.
 template <class Map>
 std::string namesIn(const Map& map) {
@@ -254,9 +262,9 @@ int parse(const std::string& text, const Symbols& symbols, Builder& builder) {
   } catch (const Teuchos::ParserFail&) {
     const std::size_t at = std::min(reader.read(), all.size());
     if (at == all.size()) throw FormulaError("is no formula: it ends too early");
-    if (at == 0) throw FormulaError("is no formula: it cannot begin with '" + all.substr(0, 1) + "'");
-    throw FormulaError("is no formula: it cannot go on with '" + all.substr(at, 1) + "' after '" +
-                       all.substr(0, at) + "'");
+    if (at == 0) throw FormulaError("is no formula: it cannot begin with '" + shown(all.substr(0, 1)) + "'");
+    throw FormulaError("is no formula: it cannot go on with '" + shown(all.substr(at, 1)) + "' after '" +
+                       shown(all.substr(0, at)) + "'");
   }
   return reader.stepOf(Teuchos::any_cast<int>(result));
 }
