@@ -243,6 +243,17 @@ TEST(ExodusHostile, partsAtRandom) {
     }
 }
 
+TEST(ExodusHostile, namesThatMoveCursors) {
+  RawFile raw = sampleResults();
+  for (RawFile::Attribute& attribute : raw.variable("connect1").attributes)
+    if (attribute.name == "elem_type") {
+      const std::string name = "H\x1b[2J\rX\xc2\x9b" + std::string(1, '\0');
+      attribute.bytes.assign(name.begin(), name.end());
+    }
+  const std::string error = errorOf(raw);
+  EXPECT_NE(error.find("element type 'H [2J X  '"), std::string::npos) << error;
+}
+
 TEST(ExodusHostile, numbersThatAreNone) {
   const TempFile file;
   const RawFile raw = sampleResults();
