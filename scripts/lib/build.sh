@@ -3,7 +3,10 @@
 
 # runSetup PRESET
 runSetup() {
-  if [ "$1" = openmp ]; then "$root/scripts/setup" --openmp; else "$root/scripts/setup"; fi
+  case $1 in
+    openmp | fuzz) "$root/scripts/setup" "--$1" ;;
+    *) "$root/scripts/setup" ;;
+  esac
 }
 
 # configure PRESET

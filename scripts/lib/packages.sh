@@ -29,6 +29,8 @@ buildPackages=(
 )
 # What tests use besides: pages of `atrapos report` are looked at in a browser, meshes go to meshio.
 testPackages=(chromium chromium-driver python3-selenium python3-meshio)
+# Fuzz targets and sanitizers: clang, its runtime libraries, names of functions in their reports.
+fuzzPackages=(clang-14 libclang-rt-14-dev llvm-14)
 # What a Trilinos of our own links besides.
 openmpPackages=(libsuitesparse-dev xz-utils)
 # What fetching and building its source takes.
