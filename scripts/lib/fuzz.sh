@@ -88,10 +88,14 @@ minimiseCorpus() {
   mapfile -t seeds < <(seedsOf "$target")
   rm -rf -- "$merged"
   mkdir -p "$merged" "$corpus"
-  # Branches, not how often each is taken: a tenth of the inputs.
-  "$root/build/fuzz/test/fuzz/${target}_fuzz" -merge=1 -use_counters=0 -max_len="$(longestOf "$target")" "$merged" \
-    "${seeds[0]}" "$corpus" "$root/build/fuzz-corpus/$target" >"$root/build/fuzz-merged/$target.log" 2>&1 </dev/null ||
+  # Branches, not how often each is taken; those that the examples take count as taken.
+  cp -t "$merged" "${seeds[0]}"/* 2>/dev/null || true
+  "$root/build/fuzz/test/fuzz/${target}_fuzz" -set_cover_merge=1 -use_counters=0 -max_len="$(longestOf "$target")" "$merged" \
+    "$corpus" "$root/build/fuzz-corpus/$target" >"$root/build/fuzz-merged/$target.log" 2>&1 </dev/null ||
     die "$target: could not be minimised (build/fuzz-merged/$target.log)"
+  (cd "${seeds[0]}" && find . -type f -exec rm -f "$merged/{}" \;)
+  # No more than 100 kB of a target in the repository: the shortest.
+  find "$merged" -type f -printf '%s %p\n' | sort -n | awk '(sum += $1) > 100000 { print $2 }' | xargs -r rm -f --
   rm -rf -- "$corpus"
   mv "$merged" "$corpus"
   say "$target: $(find "$corpus" -type f | wc -l) inputs, $(du -bs "$corpus" | cut -f1) bytes"
