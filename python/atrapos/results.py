@@ -157,7 +157,10 @@ class States:
             cells.append((_MESHIO[block["cell"]], nodes[:, order] if order else nodes))
         ends = np.cumsum([len(nodes) for _, nodes in cells])[:-1]
         moved = self.displacement(state) if deformed else 0
-        return meshio.Mesh(
-            self.points + moved, cells,
-            point_data={name: self.nodal(state, name) for name in self.nodal_names},
-            cell_data={name: np.split(self.element(state, name), ends) for name in self.element_names})
+        try:
+            return meshio.Mesh(
+                self.points + moved, cells,
+                point_data={name: self.nodal(state, name) for name in self.nodal_names},
+                cell_data={name: np.split(self.element(state, name), ends) for name in self.element_names})
+        except KeyError as error:  # versions before 5.1 have no WEDGE15
+            raise ValueError(f"meshio {meshio.__version__} knows no cells {error}") from None
