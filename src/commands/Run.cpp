@@ -93,7 +93,8 @@ void requireRoom(PathCase& pathCase) {
 
 bool atStop(const path::Branch& branch) {
   return branch.end != path::BranchEnd::path || branch.outcome.reason == path::EndReason::stopReached ||
-         branch.outcome.reason == path::EndReason::stepLimit;
+         branch.outcome.reason == path::EndReason::stepLimit ||
+         branch.outcome.reason == path::EndReason::pathClosed;
 }
 
 /// The page of what has been found; a line where there is none. What stands in the tables counts, not the

@@ -74,7 +74,7 @@ class Packer {
 
 // Enumerators from a file: those that there are.
 int numberOf(path::CriticalKind) { return static_cast<int>(path::CriticalKind::hilltop) + 1; }
-int numberOf(path::EndReason) { return static_cast<int>(path::EndReason::problemFailed) + 1; }
+int numberOf(path::EndReason) { return static_cast<int>(path::EndReason::pathClosed) + 1; }
 int numberOf(path::BranchEnd) { return static_cast<int>(path::BranchEnd::noStart) + 1; }
 
 /// Reads what a Packer wrote. The check sum has told damage; nothing is taken from beyond the record or
@@ -193,7 +193,7 @@ class Unpacker {
 template <class Start, class F>
 void plainMembers(Start& s, path::Start*, const F& f) {
   f(s.steps), f(s.pathLength), f(s.limitPoints), f(s.bifurcations), f(s.length), f(s.events), f(s.due);
-  f(s.order), f(s.padeFailures), f(s.padeWait), f(s.expectedNegative), f(s.stop);
+  f(s.order), f(s.padeFailures), f(s.padeWait), f(s.expectedNegative), f(s.stop), f(s.landmarks);
 }
 template <class Point, class F>
 void plainMembers(Point& p, path::CriticalPoint*, const F& f) {
@@ -244,6 +244,11 @@ path::Start startOf(Unpacker& u) {
   u.require(s.state.u != Teuchos::null && std::isfinite(s.state.lambda) && std::isfinite(s.pathLength));
   u.require(s.limitPoints >= 0 && s.bifurcations >= 0);
   u.require(s.steps >= 0 && s.order >= 0 && s.order <= mostOrder);
+  // Six numbers, and eight for each step, the first of which is its number.
+  const auto& marks = s.landmarks;
+  u.require(marks.empty() || (marks.size() >= 6 && marks.size() % 8 == 6));
+  u.require(std::all_of(marks.begin(), marks.end(), [](double x) { return std::isfinite(x); }));
+  for (std::size_t i = 6; i < marks.size(); i += 8) u.require(marks[i] >= 0 && marks[i] <= s.steps);
   s.eigenvalues.resize(u.count());
   for (auto& e : s.eigenvalues) {
     u.get(e.value);

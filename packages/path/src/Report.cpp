@@ -100,6 +100,8 @@ const char* toString(EndReason reason) {
       return "stepTooSmall";
     case EndReason::problemFailed:
       return "problemFailed";
+    case EndReason::pathClosed:
+      return "pathClosed";
   }
   return "unknown";
 }

@@ -68,6 +68,7 @@ void Run::follow(const Start& start) {
   order_ = start.order > 0 ? start.order : options_.order;
   padeFailures_ = start.padeFailures;
   padeWait_ = start.padeWait;
+  landmarks_.goOn(start.landmarks);
   counted_ = start.expectedNegative;
   for (const auto& e : start.eigenvalues) modes_.push_back({e.vector, e.value, e.rate});
   try {
@@ -102,6 +103,9 @@ bool Run::step() {
     return end(EndReason::observerStopped, "ended by the observer");
   if (const std::string passed = stops_.passed(limitPoints_, bifurcations_); !passed.empty())
     return end(EndReason::stopReached, passed);
+  if (backAt_)
+    return end(EndReason::pathClosed, line("the path is closed: step ", outcome_.steps,
+                                           " comes to the state with which step ", *backAt_, " began"));
   modes_ = std::move(tangent.modes);
   real_ = tangent.real;
   spectrum_ = std::move(tangent.spectrum);
@@ -191,6 +195,8 @@ bool Run::settle(const EndTangent* end) {
     locateHopfPoints(report, *end);
   }
   outcome_.worstResidual = std::max(outcome_.worstResidual, report.residual);
+  // Internal variables tell states apart that have the same unknowns.
+  if (!calls_.problem().remembers()) backAt_ = landmarks_.pass(report.step, *last_, report.length);
   limitPoints_ += static_cast<int>(report.limitPoints.size());
   bifurcations_ += static_cast<int>(report.criticalPoints.size());
   report.next = here();
@@ -211,6 +217,7 @@ Start Run::here() const {
   next.order = order_;
   next.padeFailures = padeFailures_;
   next.padeWait = padeWait_;
+  next.landmarks = landmarks_.numbers();
   next.expectedNegative = expected_;
   for (const Mode& m : modes_) next.eigenvalues.push_back({m.x, m.mu, m.rate});
   next.limitPoints = limitPoints_;

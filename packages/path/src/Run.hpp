@@ -6,6 +6,7 @@
 #include <sstream>
 #include <string>
 
+#include "Landmarks.hpp"
 #include "Modes.hpp"
 #include "Newton.hpp"
 #include "PadeFit.hpp"
@@ -39,7 +40,8 @@ class Run {
         monitors_(monitors),
         observer_(observer),
         outcome_(outcome),
-        calls_(problem, solver) {}
+        calls_(problem, solver),
+        landmarks_(*problem.map()) {}
 
   void follow(const Start& start);
 
@@ -169,8 +171,10 @@ class Run {
   Observer& observer_;
   Outcome& outcome_;
   Calls calls_;
+  Landmarks landmarks_;
 
   std::optional<StopHit> stop_;  ///< that the path has reached
+  std::optional<int> backAt_;    ///< the step at whose start the path is again
   RCP<Vector> r_;                ///< R at the current state
   double residual_ = 0;          ///< its relative norm
   double relaxOver_ = 0;         ///< length over which the series under way takes R0 to zero; 0: it keeps R0

@@ -89,6 +89,7 @@ struct Start {
   std::vector<int> due;                ///< not applied yet at this state, and their functions are zero here
   int order = 0;                       ///< of the series to come; 0: Options::order
   int padeFailures = 0, padeWait = 0;  ///< when the rational form is tried again
+  std::vector<double> landmarks;       ///< of where the path has been; empty: it begins here
   /// Those of the step that led here, from which the ones at this state are found.
   std::vector<FollowedEigenvalue> eigenvalues;
   /// How many negative ones to expect here where they are counted one by one.
@@ -164,7 +165,8 @@ enum class EndReason {
   eventsCycle,            ///< events follow one another without the path going on
   directionLost,          ///< the tangent at a step's end is not its series' derivative, however short
   stepTooSmall,           ///< the residual bound cannot be met by a step of sensible length
-  problemFailed           ///< the Problem threw; its message is in the text
+  problemFailed,          ///< the Problem threw; its message is in the text
+  pathClosed              ///< the path is again at a state where it has been, in the same direction
 };
 
 /// "stopReached" and so on.
