@@ -211,8 +211,9 @@ py::dict follow(const py::object& equations, const Numbers& start0, double loadF
   Watch watch(result, points, onStep);
   const path::Outcome outcome = follower.run({problem.vector(start0), loadFactor}, watch);
   problem.rethrow();
-  result["reached_stop"] =
-      outcome.reason == path::EndReason::stopReached || outcome.reason == path::EndReason::stepLimit;
+  result["reached_stop"] = outcome.reason == path::EndReason::stopReached ||
+                           outcome.reason == path::EndReason::stepLimit ||
+                           outcome.reason == path::EndReason::pathClosed;
   result["text"] = outcome.text;
   result["factorizations"] = outcome.factorizations;
   result["solves"] = outcome.solves;

@@ -97,7 +97,7 @@ std::optional<int> Landmarks::pass(int step, const Series& series, double length
                                          series.functional(*weights_[1])};
   Mark here{step, {}, {}, false};
   Place to{};
-  for (int i = 0; i < count; ++i) {
+  for (std::size_t i = 0; i < count; ++i) {
     here.place[i] = path[i](0);
     here.direction[i] = path[i].derivative()(0);
     to[i] = path[i](length);
@@ -120,7 +120,8 @@ std::optional<int> Landmarks::meets(const std::array<Rational, count>& path, con
   for (const Mark& mark : marks_) {
     if (!mark.left || largest(minus(mark.place, from), scale) > reach) continue;
     Place fast{};
-    for (int i = 0; i < count; ++i) fast[i] = scale[i] > 0 ? std::abs(mark.direction[i]) / scale[i] : 0;
+    for (std::size_t i = 0; i < count; ++i)
+      fast[i] = scale[i] > 0 ? std::abs(mark.direction[i]) / scale[i] : 0;
     const auto i = static_cast<std::size_t>(std::max_element(fast.begin(), fast.end()) - fast.begin());
     for (const double a : path[i].minus(mark.place[i]).roots(length))
       if (isAt(mark, path, a)) return mark.step;
@@ -131,7 +132,7 @@ std::optional<int> Landmarks::meets(const std::array<Rational, count>& path, con
 bool Landmarks::isAt(const Mark& mark, const std::array<Rational, count>& path, double a) const {
   const Place scale = minus(high_, low_);
   Place place{}, direction{};
-  for (int i = 0; i < count; ++i) {
+  for (std::size_t i = 0; i < count; ++i) {
     place[i] = path[i](a);
     direction[i] = path[i].derivative()(a);
   }

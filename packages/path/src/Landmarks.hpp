@@ -28,7 +28,7 @@ class Landmarks {
   std::optional<int> pass(int step, const Series& series, double length);
 
  private:
-  static constexpr int count = 3;
+  static constexpr std::size_t count = 3;
   using Place = std::array<double, count>;
   struct Mark {
     int step;
