@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <Tpetra_Map.hpp>
 #include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
