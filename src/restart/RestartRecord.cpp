@@ -5,6 +5,7 @@
 #include <Teuchos_CommHelpers.hpp>
 #include <Tpetra_Vector.hpp>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -32,6 +33,10 @@ class Packer {
   void put(const std::vector<T>& values) {
     put(static_cast<std::uint64_t>(values.size()));
     bytes_.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
+  }
+  template <class T, std::size_t N>
+  void put(const std::array<T, N>& values) {
+    for (const T& value : values) put(value);
   }
   void put(const std::string& text) { put(std::vector<char>(text.begin(), text.end())); }
   void put(const path::Vector& u) { put(linear::onAllRanks(u)); }
@@ -99,6 +104,10 @@ class Unpacker {
     values.resize(count(sizeof(T)));
     if (!values.empty())
       std::memcpy(values.data(), take(values.size() * sizeof(T)), values.size() * sizeof(T));
+  }
+  template <class T, std::size_t N>
+  void get(std::array<T, N>& values) {
+    for (T& value : values) get(value);
   }
   void get(std::string& text) {
     std::vector<char> letters;
@@ -193,7 +202,11 @@ class Unpacker {
 template <class Start, class F>
 void plainMembers(Start& s, path::Start*, const F& f) {
   f(s.steps), f(s.pathLength), f(s.limitPoints), f(s.bifurcations), f(s.length), f(s.events), f(s.due);
-  f(s.order), f(s.padeFailures), f(s.padeWait), f(s.expectedNegative), f(s.stop), f(s.landmarks);
+  f(s.order), f(s.padeFailures), f(s.padeWait), f(s.expectedNegative), f(s.stop);
+}
+template <class Landmark, class F>
+void plainMembers(Landmark& m, path::Landmark*, const F& f) {
+  f(m.step), f(m.place), f(m.direction), f(m.end);
 }
 template <class Point, class F>
 void plainMembers(Point& p, path::CriticalPoint*, const F& f) {
@@ -244,11 +257,6 @@ path::Start startOf(Unpacker& u) {
   u.require(s.state.u != Teuchos::null && std::isfinite(s.state.lambda) && std::isfinite(s.pathLength));
   u.require(s.limitPoints >= 0 && s.bifurcations >= 0);
   u.require(s.steps >= 0 && s.order >= 0 && s.order <= mostOrder);
-  // Six numbers, and eight for each step, the first of which is its number.
-  const auto& marks = s.landmarks;
-  u.require(marks.empty() || (marks.size() >= 6 && marks.size() % 8 == 6));
-  u.require(std::all_of(marks.begin(), marks.end(), [](double x) { return std::isfinite(x); }));
-  for (std::size_t i = 6; i < marks.size(); i += 8) u.require(marks[i] >= 0 && marks[i] <= s.steps);
   s.eigenvalues.resize(u.count());
   for (auto& e : s.eigenvalues) {
     u.get(e.value);
@@ -366,6 +374,10 @@ std::string packed(const path::BranchProgress& progress, std::size_t branches, s
   p.put(diagram.switchFactorizations);
   p.put(diagram.complete);
   p.put(current.end);
+  // Of the landmarks the last one: those before are in the records of their steps.
+  const bool marked = progress.path && !progress.path->landmarks.empty();
+  p.put(marked);
+  if (marked) putPlain(progress.path->landmarks.back(), p);
   if (progress.path)
     put(*progress.path, p);
   else
@@ -415,11 +427,21 @@ void apply(const std::string& record, bool last, const std::string& file,
   u.get(diagram.switchFactorizations);
   u.get(diagram.complete);
   u.get(diagram.branches[progress.current].end);
+  std::vector<path::Landmark> landmarks;
+  if (progress.path) landmarks = std::move(progress.path->landmarks);
+  if (u.yes()) {
+    path::Landmark& mark = landmarks.emplace_back();
+    getPlain(mark, u);
+    for (const auto& place : {mark.place, mark.direction, mark.end})
+      u.require(std::all_of(place.begin(), place.end(), [](double x) { return std::isfinite(x); }));
+  }
   progress.path.reset();
-  if (head.over)
+  if (head.over) {
     get(diagram.branches[progress.current].outcome, u);
-  else if (last)
-    progress.path = startOf(u);
+  } else {
+    progress.path = last ? startOf(u) : path::Start();
+    progress.path->landmarks = std::move(landmarks);
+  }
   if (head.over || last) u.requireEnd();
 }
 

@@ -493,5 +493,32 @@ TEST_F(Restart, NothingIsKeptWhereNotWanted) {
   EXPECT_EQ(readFile(folder_ / "plain" / "path.csv"), whole_);
 }
 
+// A circle over (load factor, T): behind its first steps a restart still knows where they began.
+TEST(ClosedRestart, KnowsTheStepsOfBefore) {
+  const TemporaryFolder folder;
+  writeFile(folder / "deck.yaml", R"(mesh:
+  file: circle.exo
+  generate: {shape: rectangle, cell: QUAD4, divisions: [2, 1], lengths: [1, 1]}
+fields:
+  T: {initial: 0.5}
+physics:
+  circle: {type: balance, field: T, blocks: [body], conductivity: 1, source: T^2 + (lambda - 0.5)^2 - 0.5}
+path:
+  stop: {load_factor: 3}
+output:
+  monitors:
+    T: {type: field, field: T, set: x_min}
+)");
+  ASSERT_EQ(runAtrapos({"mesh", "-q", "deck.yaml"}, folder.path()).exitCode, 0);
+  const std::string closed = "comes to the state with which step 1 began";
+  const CommandResult whole = runAtrapos({"run", "deck.yaml", "-o", "whole"}, folder.path());
+  EXPECT_NE(whole.out.find(closed), std::string::npos) << whole.out << whole.err;
+  const CommandResult rest =
+      runAtrapos({"run", "deck.yaml", "--restart", "whole", "--from", "3", "-o", "rest"}, folder.path());
+  EXPECT_NE(rest.out.find(closed), std::string::npos) << rest.out << rest.err;
+  for (const char* const file : {"path.csv", "restart.bin"})
+    EXPECT_EQ(readFile(folder / "rest" / file), readFile(folder / "whole" / file)) << file;
+}
+
 }  // namespace
 }  // namespace atrapos::test

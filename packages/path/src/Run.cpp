@@ -68,7 +68,7 @@ void Run::follow(const Start& start) {
   order_ = start.order > 0 ? start.order : options_.order;
   padeFailures_ = start.padeFailures;
   padeWait_ = start.padeWait;
-  landmarks_.goOn(start.landmarks);
+  if (!calls_.problem().remembers()) landmarks_.emplace(*calls_.problem().map(), start.landmarks);
   counted_ = start.expectedNegative;
   for (const auto& e : start.eigenvalues) modes_.push_back({e.vector, e.value, e.rate});
   try {
@@ -195,8 +195,7 @@ bool Run::settle(const EndTangent* end) {
     locateHopfPoints(report, *end);
   }
   outcome_.worstResidual = std::max(outcome_.worstResidual, report.residual);
-  // Internal variables tell states apart that have the same unknowns.
-  if (!calls_.problem().remembers()) backAt_ = landmarks_.pass(report.step, *last_, report.length);
+  if (landmarks_) backAt_ = landmarks_->pass(report.step, *last_, report.length);
   limitPoints_ += static_cast<int>(report.limitPoints.size());
   bifurcations_ += static_cast<int>(report.criticalPoints.size());
   report.next = here();
@@ -217,7 +216,7 @@ Start Run::here() const {
   next.order = order_;
   next.padeFailures = padeFailures_;
   next.padeWait = padeWait_;
-  next.landmarks = landmarks_.numbers();
+  if (landmarks_) next.landmarks = landmarks_->all();
   next.expectedNegative = expected_;
   for (const Mode& m : modes_) next.eigenvalues.push_back({m.x, m.mu, m.rate});
   next.limitPoints = limitPoints_;

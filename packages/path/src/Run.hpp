@@ -40,8 +40,7 @@ class Run {
         monitors_(monitors),
         observer_(observer),
         outcome_(outcome),
-        calls_(problem, solver),
-        landmarks_(*problem.map()) {}
+        calls_(problem, solver) {}
 
   void follow(const Start& start);
 
@@ -171,7 +170,8 @@ class Run {
   Observer& observer_;
   Outcome& outcome_;
   Calls calls_;
-  Landmarks landmarks_;
+  std::optional<Landmarks>
+      landmarks_;  ///< none where internal variables tell states with the same unknowns apart
 
   std::optional<StopHit> stop_;  ///< that the path has reached
   std::optional<int> backAt_;    ///< the step at whose start the path is again
