@@ -48,10 +48,9 @@ solid::ShellCubature cubatureOf(const deck::Deck& deck, const fem::Mesh& mesh, i
 
 /// The axis of a plane of symmetry; empty where the condition is none.
 std::optional<int> symmetryAxis(deck::Support::Condition condition) {
-  using Condition = deck::Support::Condition;
-  if (condition == Condition::SymmetryX) return 0;
-  if (condition == Condition::SymmetryY) return 1;
-  if (condition == Condition::SymmetryZ) return 2;
+  if (condition == deck::Support::Condition::Clamped) return std::nullopt;
+  for (int axis = 0; axis < 3; ++axis)
+    if (deck::holds(condition, static_cast<std::size_t>(axis), true)) return axis;
   return std::nullopt;
 }
 
@@ -62,6 +61,7 @@ std::vector<fem::PrescribedDirector> directorsInSymmetry(const deck::Deck& deck,
   std::set<int> facetNodes;
   for (const fem::Block& block : mesh.blocks)
     if (block.topology == fem::Topology::Shell4) facetNodes.insert(block.nodes.begin(), block.nodes.end());
+  if (facetNodes.empty()) return {};
   const double largest =
       std::sin(deck.shells.foldAngle * M_PI / 180);  // beyond it the surface meets itself in a fold
   std::map<int, fem::PrescribedDirector> directors;

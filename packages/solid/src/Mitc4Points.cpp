@@ -88,8 +88,7 @@ void addPoint(const detail::ShellPlace& at, double poisson, fem::EnhancedPoints&
     for (int d = 0; d < 4; ++d) data.push_back(at.D()[3 * d + i]);
   }
   addPlace(at, poisson, data);
-  const detail::Contravariant c(at.base);
-  for (int i = 0; i < 3; ++i) data.insert(data.end(), {c.c1[i] / c.j, c.c2[i] / c.j, c.c3[i] / c.j});
+  detail::Contravariant(at.base).addTo(data);
   detail::addEnhancedVector(at, result);
 }
 

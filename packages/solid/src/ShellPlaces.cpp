@@ -68,7 +68,7 @@ fem::EnhancedPoints makeShellPoints(const ShellElements& elements, const ShellCu
         add(ShellPlace{elements, t, e, q, &plane.xi[2 * q], zeta, base, middle, scaled}, result);
         for (int i = 0; i < 3; ++i) {
           double x = 0;
-          for (int a = 0; a < N; ++a) x += t.values[q * N + a] * (R[3 * a + i] + zeta * D[3 * a + i]);
+          for (int a = 0; a < N; ++a) x += valuesAt(t, at)[a] * (R[3 * a + i] + zeta * D[3 * a + i]);
           p.positions.push_back(x);
         }
       }

@@ -18,8 +18,8 @@ struct ShellPlace {
   Base base, middle;  ///< at zeta and at 0
   bool scaled;        ///< directors of some elements are
 
-  double N(int a) const { return table.values[q * table.numNodes + a]; }
-  const double* dN(int a) const { return &table.gradients[(q * table.numNodes + a) * 2]; }
+  double N(int a) const { return valuesAt(table, static_cast<int>(q))[a]; }
+  const double* dN(int a) const { return gradientAt(table, static_cast<int>(q), a); }
   const double* R() const { return elements.R(static_cast<int>(element)); }
   const double* D() const { return elements.D(static_cast<int>(element)); }
   double scale(int a) const { return elements.scale(static_cast<int>(element), a); }
@@ -31,6 +31,10 @@ struct Contravariant {
   double j;
   explicit Contravariant(const Base& g)
       : c1(cross(g.g2, g.g3)), c2(cross(g.g3, g.g1)), c3(cross(g.g1, g.g2)), j(g.jacobian()) {}
+  /// The base itself, [component][i].
+  void addTo(std::vector<double>& data) const {
+    for (int i = 0; i < 3; ++i) data.insert(data.end(), {c1[i] / j, c2[i] / j, c3[i] / j});
+  }
 };
 
 /// Adds g of the enhanced strain, whose square is the strain per unit of e.

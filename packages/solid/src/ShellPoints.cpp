@@ -59,10 +59,8 @@ void addAssumedShear(const Place& at, fem::EnhancedPoints& result) {
     const double own = at.scale(a), z = own * at.zeta;
     shape.insert(shape.end(), {z * at.dN(a)[0], z * at.dN(a)[1], own * director[0][a], own * director[1][a]});
   }
-  const Contravariant c(at.base);
   result.data.insert(result.data.end(), G, G + 12);
-  for (int i = 0; i < 3; ++i)
-    result.data.insert(result.data.end(), {c.c1[i] / c.j, c.c2[i] / c.j, c.c3[i] / c.j});
+  Contravariant(at.base).addTo(result.data);
   detail::addEnhancedVector(at, result);
 }
 

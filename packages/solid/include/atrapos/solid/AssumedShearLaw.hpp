@@ -50,16 +50,13 @@ struct AssumedShearLaw {
   /// enhanced part.
   KOKKOS_INLINE_FUNCTION void observe(const double* in, const double* data, double* sigma) const {
     const taylor::Symmetric3<double> S = stress(ShellBase<double>(in), in[12], data);
-    double H[9], P[9];
+    double H[9];
     const double* A = data + 12;
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j)
         H[3 * i + j] = in[4 * i] * A[3 * j] + in[4 * i + 1] * A[3 * j + 1] +
                        0.5 * (in[4 * i + 2] + in[4 * i + 3]) * A[3 * j + 2];
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j)
-        P[3 * i + j] = S(i, j) + H[3 * i] * S(0, j) + H[3 * i + 1] * S(1, j) + H[3 * i + 2] * S(2, j);
-    cauchyStress(P, H, sigma);
+    cauchyStress(S, H, sigma);
   }
 
  private:

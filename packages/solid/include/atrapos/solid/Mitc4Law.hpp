@@ -52,12 +52,9 @@ struct Mitc4Law {
     const Mitc4Point<double> point(in, data, data + firstPlace);
     const taylor::Symmetric3<double> S =
         material.secondPiola(plusDyad(point.strain(A), in[21], data + firstEnhanced));
-    double H[9], P[9];
+    double H[9];
     detail::mitc4Gradient(in, data + firstPlace, A, H);
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j)
-        P[3 * i + j] = S(i, j) + H[3 * i] * S(0, j) + H[3 * i + 1] * S(1, j) + H[3 * i + 2] * S(2, j);
-    cauchyStress(P, H, sigma);
+    cauchyStress(S, H, sigma);
   }
 };
 

@@ -23,4 +23,14 @@ KOKKOS_INLINE_FUNCTION void cauchyStress(const double* P, const double* H, doubl
           (P[3 * i] * F[3 * j] + P[3 * i + 1] * F[3 * j + 1] + P[3 * i + 2] * F[3 * j + 2]) / J;
 }
 
+/// The same from the second Piola-Kirchhoff stress.
+KOKKOS_INLINE_FUNCTION void cauchyStress(const taylor::Symmetric3<double>& S, const double* H,
+                                         double* sigma) {
+  double P[9];
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j)
+      P[3 * i + j] = S(i, j) + H[3 * i] * S(0, j) + H[3 * i + 1] * S(1, j) + H[3 * i + 2] * S(2, j);
+  cauchyStress(P, H, sigma);
+}
+
 }  // namespace atrapos::solid
