@@ -1,11 +1,10 @@
 """Decks from Python: what the command writes, as arrays."""
-import os
-import tempfile
 import unittest
 
 import numpy as np
 
 import atrapos
+from folders import InFolder
 
 BAR = {
     "mesh": {"file": "bar.exo", "generate": {"shape": "box", "lengths": [2, 1, 1], "divisions": [2, 1, 1], "cell": "HEX20"}},
@@ -18,15 +17,7 @@ BAR = {
 }
 
 
-class Decks(unittest.TestCase):
-    def setUp(self):
-        self.folder, self.before = tempfile.TemporaryDirectory(), os.getcwd()
-        os.chdir(self.folder.name)
-
-    def tearDown(self):
-        os.chdir(self.before)
-        self.folder.cleanup()
-
+class Decks(InFolder):
     def test_run_of_a_dict(self):
         seen = []
         result = atrapos.run(BAR, "bar", on_step=lambda step: seen.append((step["step"], step["end"])))

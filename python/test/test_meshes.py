@@ -2,13 +2,13 @@
 import os
 import subprocess
 import sys
-import tempfile
 import unittest
 
 import meshio  # setup installs it
 import numpy as np
 
 import atrapos
+from folders import InFolder
 
 BOX = {"shape": "box", "lengths": [2, 1, 1], "divisions": [2, 2, 2]}
 PLANE = {"shape": "rectangle", "lengths": [2, 1], "divisions": [2, 1]}
@@ -39,15 +39,7 @@ def sides_at(mesh, x):
     return meshio.CellBlock(kind, np.array([row for row in rows if len(row) == size]))
 
 
-class Meshes(unittest.TestCase):
-    def setUp(self):
-        self.folder, self.before = tempfile.TemporaryDirectory(), os.getcwd()
-        os.chdir(self.folder.name)
-
-    def tearDown(self):
-        os.chdir(self.before)
-        self.folder.cleanup()
-
+class Meshes(InFolder):
     def pull(self, plane, side):
         """Uniform tension by traction on the side: displacements are linear, with twisted cells they are not."""
         # Without Poisson's ratio a clamped end disturbs nothing, and it holds all that cells of 2 x 2 x 2 points leave free.

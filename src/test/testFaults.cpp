@@ -57,6 +57,18 @@ bool alike(const std::string& a, const std::string& b) {
   return a.size() == b.size() && others <= 16;
 }
 
+/// How a command on meshes may end whose n-th call of a kind fails or kills.
+void expectKilledOrTold(const CommandResult& r, const std::string& kind, const std::string& how) {
+  if (how == "kill") {
+    EXPECT_EQ(r.signal, SIGKILL);
+    return;
+  }
+  // A write of netCDF that failed once may be made again.
+  EXPECT_TRUE(r.exitCode == 2 || (r.exitCode == 0 && (kind == "new" || kind == "write")))
+      << r.exitCode << r.err;
+  EXPECT_EQ(r.errorLines().size(), r.exitCode == 0 ? 0u : 1u) << r.err;
+}
+
 class Faults : public testing::Test {
  protected:
   void SetUp() override {
@@ -200,14 +212,7 @@ TEST_F(Faults, MeshesSplitsAndJoins) {
         for (const long n : spread(all.at(kind), most())) {
           SCOPED_TRACE(file + " " + kind + ":" + std::to_string(n) + ":" + how);
           const CommandResult r = faulty(words, kind + ":" + std::to_string(n) + ":" + how);
-          if (how == "kill") {
-            EXPECT_EQ(r.signal, SIGKILL);
-          } else {
-            // A write of netCDF that failed once may be made again.
-            EXPECT_TRUE(r.exitCode == 2 || (r.exitCode == 0 && (kind == "new" || kind == "write")))
-                << r.exitCode << r.err;
-            EXPECT_EQ(r.errorLines().size(), r.exitCode == 0 ? 0u : 1u) << r.err;
-          }
+          expectKilledOrTold(r, kind, how);
           // What was there is whole: the old or the new.
           for (const auto& [path, content] : before) {
             if (content == "<folder>") continue;
@@ -233,13 +238,7 @@ TEST_F(Faults, Imports) {
         SCOPED_TRACE(kind + ":" + std::to_string(n) + ":" + how);
         std::filesystem::remove(folder_ / "plate.yaml");
         const CommandResult r = faulty(import, kind + ":" + std::to_string(n) + ":" + how);
-        if (how == "kill") {
-          EXPECT_EQ(r.signal, SIGKILL);
-        } else {
-          EXPECT_TRUE(r.exitCode == 2 || (r.exitCode == 0 && (kind == "new" || kind == "write")))
-              << r.exitCode << r.err;
-          EXPECT_EQ(r.errorLines().size(), r.exitCode == 0 ? 0u : 1u) << r.err;
-        }
+        expectKilledOrTold(r, kind, how);
         EXPECT_TRUE(alike(readFile(folder_ / "plate.exo"), mesh));
         if (std::filesystem::exists(folder_ / "plate.yaml"))
           EXPECT_EQ(readFile(folder_ / "plate.yaml"), deck);

@@ -11,23 +11,10 @@
 #include "atrapos/exodus/Error.hpp"
 #include "atrapos/exodus/MeshFile.hpp"
 #include "atrapos/exodus/MeshPart.hpp"
-#include "atrapos/exodus/ResultReader.hpp"
 
 using namespace atrapos;
 
 namespace {
-
-void readResults(const std::string& file) {
-  const exodus::ResultReader reader(file);
-  for (int step = 0; step < reader.numSteps(); ++step) {
-    reader.globals(step);
-    for (const auto& name : reader.nodalNames()) reader.nodal(step, name);
-    for (const auto& name : reader.elementNames()) reader.element(step, name);
-  }
-  reader.times();
-  reader.info();
-  reader.qa();
-}
 
 /// Whether it was read.
 template <class F>

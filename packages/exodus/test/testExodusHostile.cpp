@@ -25,15 +25,7 @@ namespace {
 
 fem::Mesh readAll(const std::string& file) {
   fem::Mesh mesh = exodus::readMesh(file);
-  const exodus::ResultReader reader(file);
-  for (int step = 0; step < reader.numSteps(); ++step) {
-    reader.globals(step);
-    for (const auto& name : reader.nodalNames()) reader.nodal(step, name);
-    for (const auto& name : reader.elementNames()) reader.element(step, name);
-  }
-  reader.times();
-  reader.info();
-  reader.qa();
+  readResults(file);
   return mesh;
 }
 

@@ -8,8 +8,8 @@ ties those of different directions by rigid bodies at the nodes that they share.
 for buckling: *BUCKLE is linear before it, and walls whose ends cannot widen bulge before they buckle.
 """
 import os
-import subprocess
-import tempfile
+
+import ccx
 
 LENGTH, ALONG, E, THICKNESS = 300.0, 18, 210000.0, 1.0
 
@@ -60,22 +60,13 @@ def model(walls, nu):
     return out, nodes, head
 
 
-def run(lines):
-    with tempfile.TemporaryDirectory() as folder:
-        with open(os.path.join(folder, "m.inp"), "w") as f:
-            f.write("\n".join(lines) + "\n")
-        subprocess.run(["ccx", "m"], cwd=folder, check=True, stdout=subprocess.DEVNULL, timeout=600)
-        with open(os.path.join(folder, "m.dat")) as f:
-            return [line.split() for line in f]
-
-
 def buckling(walls):
     out, _, head = model(walls, 0.0)
     out += ["*BOUNDARY", "FOOT, 1, 3", "HEAD, 1, 2"]
     for n in head[1:]:
         out += ["*EQUATION", "2", "%d, 3, 1., %d, 3, -1." % (n, head[0])]
     out += ["*STEP", "*BUCKLE", "3", "*CLOAD", "%d, 3, -1." % head[0], "*END STEP"]
-    return [float(r[1]) for r in run(out) if len(r) == 2 and r[0].isdigit()][:3]
+    return [float(r[1]) for r in ccx.rows(out) if len(r) == 2 and r[0].isdigit()][:3]
 
 
 def deflection(walls):
@@ -84,7 +75,7 @@ def deflection(walls):
     n = nodes[(float(walls[0][1][0]), float(walls[0][1][1]), LENGTH)]
     out += ["*NSET, NSET=TIP", "%d," % n, "*BOUNDARY", "FOOT, 1, 6", "*STEP", "*STATIC", "*CLOAD", "TIP, 1, 1.", "TIP, 2, 2.",
             "*NODE PRINT, NSET=TIP", "U", "*END STEP"]
-    return [[float(v) for v in r[1:4]] for r in run(out) if len(r) == 4 and r[0] == str(n)][0]
+    return [[float(v) for v in r[1:4]] for r in ccx.rows(out) if len(r) == 4 and r[0] == str(n)][0]
 
 
 if __name__ == "__main__":

@@ -8,9 +8,9 @@ block. C3D20R, DIVISIONS (40) along each leg, 2 across, one through the thicknes
 along z at the other end, at z = 0, 5 and 10 as 1 : 2 : 1. E = 210000, nu = 0.3; NLGEOM.
 """
 import os
-import subprocess
 import sys
-import tempfile
+
+import ccx
 
 LENGTH, WIDTH, HALF, FORCE, ACROSS = 100.0, 10.0, 0.5, 40.0, 2
 LOADS = (0.25, 0.5, 0.75, 1.0)
@@ -52,12 +52,7 @@ def displacements(divisions):
             "ROOT, 1, 3", "*STEP, NLGEOM, INC=1000", "*STATIC", "0.02, 1., 1e-6, 0.02", "*CLOAD"]
     out += ["%d, 3, %g" % (n, FORCE * share) for n, share in zip(ends, (0.25, 0.5, 0.25))]
     out += ["*NODE PRINT, NSET=TIP, TIME POINTS=LOADS", "U", "*END STEP"]
-    with tempfile.TemporaryDirectory() as folder:
-        with open(os.path.join(folder, "m.inp"), "w") as f:
-            f.write("\n".join(out) + "\n")
-        subprocess.run(["ccx", "m"], cwd=folder, check=True, stdout=subprocess.DEVNULL, timeout=1200)
-        with open(os.path.join(folder, "m.dat")) as f:
-            rows = [line.split() for line in f]
+    rows = ccx.rows(out, timeout=1200)
     return [[float(v) for v in r[1:]] for r in rows if len(r) == 4 and r[0] == str(ends[1])]
 
 

@@ -115,6 +115,18 @@ struct ColumnRun {
   Table table(const std::string& name) const { return Table(folder.path() / "results" / name); }
 };
 
+/// Monitors of a path at the load factors of a peer's table.
+void expectAlong(const Table& path, const Table& peer, const std::vector<std::string>& monitors,
+                 double tolerance) {
+  const auto load = path.column("load_factor"), at = peer.column("load_factor");
+  EXPECT_NEAR(load.back(), at.back(), 1e-12);  // a stop of the deck
+  for (const std::string& u : monitors)
+    for (std::size_t i = 0; i < at.size(); ++i)
+      EXPECT_NEAR(interpolate(load, path.column(u), std::min(at[i], load.back())), peer.column(u)[i],
+                  tolerance)
+          << u << " at " << at[i];
+}
+
 class Columns : public ::testing::TestWithParam<Section> {};
 
 /// The first buckling loads, N.
@@ -216,13 +228,9 @@ output:
   // Joints whose directors are shared by ranks: the same end to the path's residual bound.
   for (const std::string u : {"ux", "uy", "uz"})
     EXPECT_NEAR(again.column(u).back(), path.column(u).back(), 1e-6 * 100) << u;
-  const auto load = path.column("load_factor"), at = solids.column("load_factor");
-  ASSERT_GE(at.size(), 2u);
+  ASSERT_GE(solids.column("load_factor").size(), 2u);
   // The block makes half a thickness of each leg stiff, 0.5 % of it, which the tip sees in part.
-  for (const std::string u : {"ux", "uy", "uz"})
-    for (std::size_t i = 0; i < at.size(); ++i)
-      EXPECT_NEAR(interpolate(load, path.column(u), at[i]), solids.column(u)[i], 0.0025 * 100)
-          << u << " at " << at[i];
+  expectAlong(path, solids, {"ux", "uy", "uz"}, 0.0025 * 100);
 }
 
 // A plate of SHELL4 bent and twisted far, against as many S4 (plate.py).
@@ -253,13 +261,9 @@ output:
     far_uz: {type: displacement, set: x_max_y_max, component: z}
 )");
   const Table path = run.table("path.csv"), peer(ATRAPOS_PEER_DATA "/plate.csv");
-  const auto load = path.column("load_factor"), at = peer.column("load_factor");
-  ASSERT_EQ(at.size(), 4u);
+  ASSERT_EQ(peer.column("load_factor").size(), 4u);
   // Two elements of order 2 of the same size; CalculiX itself moves by 0.01 with its increments.
-  for (const std::string u : {"near_uz", "far_uz"})
-    for (std::size_t i = 0; i < at.size(); ++i)
-      EXPECT_NEAR(interpolate(load, path.column(u), std::min(at[i], load.back())), peer.column(u)[i], 0.03)
-          << u << " at " << at[i];
+  expectAlong(path, peer, {"near_uz", "far_uz"}, 0.03);
 }
 
 INSTANTIATE_TEST_SUITE_P(CalculiX, Columns, ::testing::ValuesIn(sections()),
