@@ -270,13 +270,14 @@ class EnhancedTerm final : public Term {
     return {};
   }
 
+  // New vectors: assign() would keep the memory of the whole term where a rank keeps its part.
   void makeWorkspace() {
     const std::size_t count = batches().count;
-    dfde_.assign(count * a_.perBatch(I_ + 1), 0.0);
-    dsdh_.assign(count * a_.perBatch(I_ + 1), 0.0);
-    inverse_.assign(count * M_ * M_ * kLanes, 0.0);
-    g_.assign(count * M_ * kLanes, 0.0);
-    failed_.assign(count * kLanes, EnhancedFailure::none);
+    dfde_ = std::vector(count * a_.perBatch(I_ + 1), 0.0);
+    dsdh_ = std::vector(count * a_.perBatch(I_ + 1), 0.0);
+    inverse_ = std::vector(count * M_ * M_ * kLanes, 0.0);
+    g_ = std::vector(count * M_ * kLanes, 0.0);
+    failed_ = std::vector(count * kLanes, EnhancedFailure::none);
   }
 
   int numPoints() const { return a_.elements.numPoints(); }

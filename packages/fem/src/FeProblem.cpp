@@ -89,7 +89,7 @@ struct FeProblem::Impl {
   std::optional<EventTerms> events;
   std::optional<PieceTerms> pieces;
   RCP<CrsMatrix> K, M;  // M: null until it is asked for
-  /// The matrix before the shared rows are added up; K's own values where there is one rank.
+  /// What the terms fill: K's own values, then the rows of shared nodes, which go to their owners.
   View<double*> entries;
   View<std::size_t*> rowStart;
   View<int*> columns;
@@ -207,8 +207,8 @@ struct FeProblem::Impl {
     Kokkos::deep_copy(Kokkos::subview(to, range), Kokkos::subview(from, range));
   }
 
-  void makeMatrix() {
-    const auto& rows = ranks->rows();
+  /// rowStart and columns; the number of entries in rows that this rank owns.
+  std::size_t makeRows() {
     const DofMap& dofs = ranks->dofs();
     std::size_t count = 0;
     for (int l = 0; l < ranks->numLocal(); ++l) count += dofs.numDofs(l) * ranks->rowLength(l);
@@ -217,29 +217,31 @@ struct FeProblem::Impl {
     indices.reserve(count);
     for (int l = 0; l < ranks->numLocal(); ++l)
       for (int i = 0; i < dofs.numDofs(l); ++i) {
-        for (int m : rows[l])
+        for (int m : ranks->rows()[l])
           for (int j = 0; j < dofs.numDofs(m); ++j) indices.push_back(dofs.firstDof(m) + j);
         starts.push_back(indices.size());
       }
-    const std::size_t ownCount = starts[numOwned()];
     rowStart = upload("rowStart", starts);
     columns = upload("columns", indices);
+    return starts[numOwned()];
+  }
 
+  void makeMatrix() {
+    const DofMap& dofs = ranks->dofs();
+    const std::size_t ownCount = makeRows();
+    // The matrix of the rows that this rank owns is the front part of what the terms fill, not a copy.
     using LocalGraph = CrsGraph::local_graph_device_type;
-    LocalGraph::row_map_type::non_const_type rowPtr("rowPtr", numOwned() + 1);
-    LocalGraph::entries_type::non_const_type ownIndices("indices", ownCount);
-    Kokkos::deep_copy(rowPtr, Kokkos::subview(rowStart, std::make_pair(std::size_t{0}, numOwned() + 1)));
-    Kokkos::deep_copy(ownIndices,
-                      Kokkos::subview(columns, std::make_pair(std::size_t{0}, ownIndices.extent(0))));
+    LocalGraph::row_map_type::non_const_type ownRows("rowPtr", numOwned() + 1);
+    Kokkos::deep_copy(ownRows, Kokkos::subview(rowStart, std::make_pair(std::size_t{0}, numOwned() + 1)));
+    const auto own = std::make_pair(std::size_t{0}, ownCount);
+    const LocalGraph::entries_type::non_const_type ownColumns = Kokkos::subview(columns, own);
     const auto columnMap = ranks->alone() ? map : mapOf(ranks->nodes(), ranks->numColumns());
-    const auto graph = rcp(new CrsGraph(map, columnMap, rowPtr, ownIndices));
+    const auto graph = rcp(new CrsGraph(map, columnMap, ownRows, ownColumns));
     graph->fillComplete(map, map);
-    K = rcp(new CrsMatrix(graph));
+    entries = View<double*>("entries", columns.size());
+    const CrsMatrix::local_matrix_device_type::values_type ownEntries = Kokkos::subview(entries, own);
+    K = rcp(new CrsMatrix(graph, ownEntries));
     K->fillComplete(map, map);
-    if (ranks->alone())
-      entries = K->getLocalMatrixDevice().values;
-    else
-      entries = View<double*>("entries", indices.size());
 
     for (auto& term : model.terms) {
       const int N = term->nodesPerEntity();
@@ -641,8 +643,8 @@ RCP<const CrsMatrix> FeProblem::tangent(const path::State& at, Vector& F) {
   const auto& ranks = *impl_->ranks;
   impl_->K->resumeFill();
   const auto values = impl_->K->getLocalMatrixDevice().values;
-  if (ranks.alone()) impl_->entries = values;
   const auto entries = impl_->entries;
+  if (values.data() != entries.data()) throw std::logic_error("FeProblem: Tpetra has moved the matrix");
   const DofView direction = ranks.alone() ? writable(F) : DofView("direction", impl_->load.size());
   Kokkos::deep_copy(entries, 0.0);
   Kokkos::deep_copy(direction, impl_->load);
@@ -661,7 +663,6 @@ RCP<const CrsMatrix> FeProblem::tangent(const path::State& at, Vector& F) {
   if (!ranks.alone()) {
     ranks.collectRows(impl_->rowStart, entries);
     ranks.collect(direction);
-    Kokkos::deep_copy(values, Kokkos::subview(entries, std::make_pair(std::size_t{0}, values.extent(0))));
     impl_->copyOwned(direction, own);
   }
   impl_->applySupports(own);

@@ -40,6 +40,7 @@ struct Options {
   int steps = 2, repeats = 3;
   double longest = 1800;
   std::string csv, folder;
+  bool oversubscribe = false;
   bool row = false;  ///< this process makes one row
 };
 
@@ -47,7 +48,7 @@ constexpr const char* header =
     "family,asked,unknowns,ranks,threads,elements,contact_points,steps,factorizations,solves,orders,setup_s,"
     "tangent_s,analysis_s,factor_s,solve_s,order_s,contact_s,residual_s,output_s,total_s,matrix_bytes,factor_"
     "bytes,factor_entries,"
-    "factor_operations,history_bytes,foreseen_bytes,peak_bytes,end";
+    "factor_operations,history_bytes,foreseen_bytes,peak_bytes,rank_peak_bytes,end";
 
 using Clock = std::chrono::steady_clock;
 double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
@@ -74,6 +75,14 @@ double contactSeconds(Scene& scene, int order) {
   return slowest;
 }
 
+/// Bytes that the rank with the most had at most.
+double largestPeak() {
+  const double own = residentMemory().peak;
+  double largest = 0;
+  MPI_Allreduce(&own, &largest, 1, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
+  return largest;
+}
+
 /// One run, by this process and the ranks that work with it; the first one prints its row.
 int makeRow(const Options& options) {
   const auto begin = Clock::now();
@@ -98,34 +107,35 @@ int makeRow(const Options& options) {
     const MachineMemory machines = allMachines();
     const double room = machines.available + residentOfAll().now;
     const bool fits = !(machines.available > 0) || foreseen.total() < room;
-    const auto format = [&](const nlohmann::json& s, double contact, const std::string& end) {
+    const auto format = [&](const nlohmann::json& s, double contact, double largest, const std::string& end) {
       const auto seconds = s.value("seconds", nlohmann::json::object());
       const auto of = [&](const char* part) { return seconds.value(part, 0.0); };
       const auto count = [&](const char* name) { return s.value(name, 0LL); };
       const auto memory = s.value("memory_bytes", nlohmann::json::object());
       return fmt::format(
           "{},{:g},{},{},{},{},{},{},{},{},{},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},"
-          "{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{}",
+          "{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{:.4g},{}",
           options.families[0], options.sizes[0], scene.problem().numFreeDofs(), ranks::count(),
           options.threads[0], scene.mesh().numElements(), scene.numContactPoints(), count("steps"),
           count("factorizations"), count("solves"), count("orders_computed"), setup, of("tangent"),
           of("analysis"), of("factorization"), of("solves"), of("order_rhs"),
           contact * static_cast<double>(count("orders_computed")) / order, of("residual"), of("output"),
           of("total"), foreseen.matrix, memory.value("factor", 0.0), factor.entries, factor.operations,
-          histories, foreseen.total(), memory.value("peak", 0.0), end);
+          histories, foreseen.total(), memory.value("peak", 0.0), largest, end);
     };
     if (fits) {
       RunOptions run;
       run.directory = folder + "/results";
       const RunResult result = runPath(scene.deck(), pathCase, run);
       const double contact = contactSeconds(scene, order);
+      const double largest = largestPeak();
       if (ranks::isFirst()) {
         std::ifstream file(run.directory + "/summary.json");
         const auto summary = nlohmann::json::parse(file);
-        line = format(summary, contact, result.reachedStop ? "done" : result.text);
+        line = format(summary, contact, largest, result.reachedStop ? "done" : result.text);
       }
     } else {
-      line = format(nlohmann::json::object(), 0, "does not fit");
+      line = format(nlohmann::json::object(), 0, 0, "does not fit");
     }
   }
   if (ranks::isFirst()) std::cout << line << std::endl;
@@ -185,7 +195,7 @@ int measure(const Options& options, const std::string& program) {
   std::vector<std::pair<int, int>> ways;
   for (const int ranks : options.ranks)
     for (const int threads : options.threads)
-      if (ranks * threads <= processors || ranks * threads == 1)
+      if (options.oversubscribe || ranks * threads <= processors || ranks * threads == 1)
         ways.emplace_back(ranks, threads);
       else
         fmt::print(stderr, "bench_scaling: left out: {} ranks with {} threads on {} processors\n", ranks,
@@ -240,6 +250,8 @@ int main(int argc, char** argv) {
          "runs of each size, of which the least seconds count; fewer where they take more than five minutes")
       ->check(CLI::PositiveNumber)
       ->capture_default_str();
+  app.add_flag("--oversubscribe", options.oversubscribe,
+               "runs with more ranks and threads than there are processors too, for their memory");
   app.add_option("--longest", options.longest,
                  "seconds of a run beyond which a family's larger sizes are left out")
       ->check(CLI::PositiveNumber)

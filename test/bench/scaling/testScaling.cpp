@@ -47,7 +47,7 @@ TEST(BenchScaling, WritesTheTable) {
   }
 }
 
-/// The same work on two ranks: what is counted agrees, memory is that of both.
+/// The same work on two ranks: what is counted agrees, and a rank needs less memory.
 TEST(BenchScaling, RanksShareOneRun) {
   if (std::thread::hardware_concurrency() < 2) GTEST_SKIP() << "one processor: two ranks are left out";
   const std::string csv = testing::TempDir() + "bench_scaling_ranks_test.csv";
@@ -56,7 +56,7 @@ TEST(BenchScaling, RanksShareOneRun) {
   const std::string command =
       "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_mpi_yield_when_idle=1 " +
       std::string(ATRAPOS_BENCH_SCALING) +
-      " --families solid --sizes 1000 --ranks 1 2 --threads 1 --steps 1 --repeats 1 --csv " + csv +
+      " --families shell --sizes 15000 --ranks 1 2 --threads 1 --steps 1 --repeats 1 --csv " + csv +
       " > /dev/null";
   ASSERT_EQ(std::system(command.c_str()), 0);
   const auto rows = atrapos::bench::csvRows(csv);
@@ -68,10 +68,11 @@ TEST(BenchScaling, RanksShareOneRun) {
     EXPECT_EQ(one.at(count), two.at(count)) << count;
   for (const char* part : {"tangent_s", "factor_s", "solve_s", "order_s", "contact_s", "residual_s"})
     EXPECT_GT(std::stod(two.at(part)), 0) << part;
-  // Histories are shared out, but for the filling of last batches of eight elements; the program is there
-  // twice.
+  // Histories are shared out, but for the filling of last batches of eight elements; the program (some 70 MB
+  // of 200) is there twice, and what else a rank has is half, and a little that every rank has.
   EXPECT_LT(std::stod(two.at("history_bytes")), 1.5 * std::stod(one.at("history_bytes")));
-  EXPECT_GT(std::stod(two.at("peak_bytes")), 1.3 * std::stod(one.at("peak_bytes")));
+  EXPECT_GT(std::stod(two.at("peak_bytes")), 1.1 * std::stod(one.at("peak_bytes")));
+  EXPECT_LT(std::stod(two.at("rank_peak_bytes")), 0.8 * std::stod(one.at("rank_peak_bytes")));
 }
 
 }  // namespace
