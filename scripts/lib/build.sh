@@ -9,9 +9,10 @@ runSetup() {
   esac
 }
 
-# configure PRESET
+# configure PRESET [KERNELS]: kernels for these levels of processors (ATRAPOS_KERNEL_LEVELS), default all
 configure() {
-  local preset=$1 log=$root/build/$1-configure.log prefix options=()
+  local preset=$1 log=$root/build/$1-configure.log prefix options=(-U ATRAPOS_KERNEL_LEVELS)
+  [ -z "${2:-}" ] || options=("-DATRAPOS_KERNEL_LEVELS=$2")
   if [ "$preset" = openmp ]; then
     . "$root/scripts/lib/trilinos-openmp.sh"
     prefix=$(findTrilinosOpenmp)
