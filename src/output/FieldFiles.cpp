@@ -18,6 +18,7 @@
 #include "machine/OutputFile.hpp"
 #include "machine/Ranks.hpp"
 #include "output/Files.hpp"
+#include "scene/ResultFields.hpp"
 
 namespace atrapos {
 namespace {
@@ -82,7 +83,8 @@ class SceneFields final : public FieldFile {
 
   void write(const CaseState& state, const StateNumbers& n) override {
     const SceneState& of = dynamic_cast<const SceneCaseState&>(state).state();
-    const auto nodal = scene_.nodalValues(of), element = scene_.elementValues(of);
+    const ResultFields fields(scene_);
+    const auto nodal = fields.nodalValues(of), element = fields.elementValues(of);
     const double active = state.activeContacts();
     writeStep(n.pathLength, nodal, element,
               {n.lambda, n.pathLength, n.radius, double(n.order), double(n.negative), active, n.residual,
@@ -133,9 +135,10 @@ class SceneFields final : public FieldFile {
   }
 
   static exodus::ResultNames names(const Scene& scene) {
+    const ResultFields fields(scene);
     exodus::ResultNames names;
-    names.nodal = scene.nodalNames();
-    names.element = scene.elementNames();
+    names.nodal = fields.nodalNames();
+    names.element = fields.elementNames();
     names.global = kGlobals;
     std::istringstream deck(scene.deck().text);
     for (std::string line; std::getline(deck, line);) names.info.push_back(line);

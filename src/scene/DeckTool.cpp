@@ -150,4 +150,20 @@ std::unique_ptr<contact::RigidTool> makeTool(const deck::Tool& entry) {
   return contact::rigidTool(rigid, moves);
 }
 
+SceneTools sceneTools(const deck::Deck& deck) {
+  SceneTools made;
+  for (const deck::Tool& tool : deck.tools) try {
+      made.tools.push_back(makeTool(tool));
+      made.atStart.emplace_back();
+      if (tool.motion.heldAt) {
+        deck::Tool atStart = tool;
+        atStart.motion.heldAt = 0;
+        made.atStart.back() = makeTool(atStart);
+      }
+    } catch (const std::invalid_argument& e) {
+      deck::failAt(deck, "tools/" + tool.name, e.what());
+    }
+  return made;
+}
+
 }  // namespace atrapos

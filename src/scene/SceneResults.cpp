@@ -8,6 +8,7 @@
 
 #include "atrapos/linear/Dot.hpp"
 #include "scene/Scene.hpp"
+#include "scene/Sets.hpp"
 
 // What a scene watches along the path: stops, monitors, contact.
 namespace atrapos {
@@ -69,7 +70,7 @@ template <class Monitor>
 linear::RCP<path::Vector> Scene::weightsOf(const std::string& key, const Monitor& monitor,
                                            const std::string& field, int component) const {
   auto weights = linear::rcp(new path::Vector(problem_->map()));
-  auto nodes = nodesOf(monitor.set);
+  auto nodes = nodesOf(mesh_, monitor.set);
   if (monitor.near) nodes = {nearestNode(mesh_, nodes, *monitor.near)};
   const bool mean = monitor.reduce == deck::DisplacementMonitor::Reduce::Mean;
   const double each = mean ? 1.0 / static_cast<double>(nodes.size()) : 1.0;
@@ -77,7 +78,8 @@ linear::RCP<path::Vector> Scene::weightsOf(const std::string& key, const Monitor
   const int number = dofs.find(field);
   for (const int n : nodes) {
     const linear::GlobalIndex dof = number < 0 ? -1 : dofs.dof(number, n, component);
-    if (dof < 0) fail(key + "/set", fmt::format("node {} has no {}", mesh_.nodeNumber(n), field));
+    if (dof < 0)
+      deck::failAt(deck_, key + "/set", fmt::format("node {} has no {}", mesh_.nodeNumber(n), field));
     if (problem_->map()->isNodeGlobalElement(dof)) weights->sumIntoGlobalValue(dof, each);
   }
   return weights;
@@ -202,11 +204,11 @@ std::vector<double> Scene::monitors(const SceneState& state) const {
       if (!support.field.empty()) {
         const fem::DofMap& dofs = scene.problem_->model().dofs;
         const int field = dofs.find(support.field);
-        for (int n : scene.nodesOf(support.set)) sum += state.supportForces()[dofs.dof(field, n, 0)];
+        for (int n : nodesOf(scene.mesh_, support.set)) sum += state.supportForces()[dofs.dof(field, n, 0)];
         return sum;
       }
       const int i = componentIndex(*m.component);
-      for (int n : scene.nodesOf(support.set)) sum += state.reactions()[3 * n + i];
+      for (int n : nodesOf(scene.mesh_, support.set)) sum += state.reactions()[3 * n + i];
       return sum;
     }
   };

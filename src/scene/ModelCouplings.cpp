@@ -6,7 +6,8 @@
 #include <map>
 
 #include "atrapos/fem/RigidBody.hpp"
-#include "scene/Scene.hpp"
+#include "scene/ModelMaker.hpp"
+#include "scene/Sets.hpp"
 
 namespace atrapos {
 
@@ -63,7 +64,7 @@ void addRigid(const fem::Mesh& mesh, const std::vector<int>& nodes, const fem::S
 
 }  // namespace
 
-Scene::SolidSide Scene::solidNodesAt(const deck::Coupling& coupling, int director) const {
+ModelMaker::SolidSide ModelMaker::solidNodesAt(const deck::Coupling& coupling, int director) const {
   const fem::ShellGeometry& g = shells_.geometry;
   const int shellNode = g.meshNode[director - g.numMeshNodes];
   const double* D = &g.directors[3 * static_cast<std::size_t>(director - g.numMeshNodes)];
@@ -98,42 +99,44 @@ Scene::SolidSide Scene::solidNodesAt(const deck::Coupling& coupling, int directo
   return side;
 }
 
-void Scene::addCouplings(fem::FeModel& model) const {
+void ModelMaker::addCouplings() {
   const fem::ShellGeometry& g = shells_.geometry;
   for (const deck::Coupling& coupling : deck_.couplings) try {
-      const std::vector<int> nodes = nodesOf(coupling.set);
+      const std::vector<int> nodes = nodesOf(mesh_, coupling.set);
       switch (coupling.kind) {
         case Kind::Equal:
-          fem::coupleEqual(model.couplings, model.dofs, nodes);
+          fem::coupleEqual(made_.model.couplings, made_.model.dofs, nodes);
           break;
         case Kind::Plane:
-          addPlane(*coupling.normal, nodes, g, model);
+          addPlane(*coupling.normal, nodes, g, made_.model);
           break;
         case Kind::Rigid:
-          addRigid(mesh_, nodes, g, deck::largestYoungsModulus(deck_), model);
+          addRigid(mesh_, nodes, g, deck::largestYoungsModulus(deck_), made_.model);
           break;
         case Kind::ShellOnSolid:
           for (int node : nodes)
             for (int director : g.directorNodes(node)) {
               const SolidSide side = solidNodesAt(coupling, director);
-              fem::coupleShellToSolid(model.couplings, model.dofs, node, director, side.top, side.bottom);
+              fem::coupleShellToSolid(made_.model.couplings, made_.model.dofs, node, director, side.top,
+                                      side.bottom);
               for (const auto& [between, zeta] : side.between)
-                fem::coupleNode(model.couplings, model.dofs, between,
+                fem::coupleNode(made_.model.couplings, made_.model.dofs, between,
                                 {{side.top, 0.5 * (1 + zeta)}, {side.bottom, 0.5 * (1 - zeta)}});
             }
           break;
       }
-      model.couplings.resolved(model.dofs,
-                               model.supports);  // each entry by itself, so that its name is known
+      made_.model.couplings.resolved(
+          made_.model.dofs,
+          made_.model.supports);  // each entry by itself, so that its name is known
     } catch (const std::invalid_argument& e) {
       fail("couplings/" + coupling.name, e.what());
     }
 }
 
-std::vector<std::pair<int, int>> Scene::joinedNodes() const {
+std::vector<std::pair<int, int>> ModelMaker::joinedNodes() const {
   std::vector<std::pair<int, int>> joined;
   for (const deck::Coupling& coupling : deck_.couplings) {
-    const std::vector<int> nodes = nodesOf(coupling.set);
+    const std::vector<int> nodes = nodesOf(mesh_, coupling.set);
     if (coupling.kind == Kind::Rigid)
       for (int node : nodes) joined.push_back({nodes[0], node});
     if (coupling.kind == Kind::ShellOnSolid)

@@ -10,12 +10,12 @@
 #include "atrapos/physics/Flow.hpp"
 #include "atrapos/solid/MixedBody.hpp"
 #include "plugin/Plugins.hpp"
-#include "scene/Scene.hpp"
+#include "scene/ModelMaker.hpp"
 
 // Scalar fields of a scene: their balances, flows, what flows in, where they begin.
 namespace atrapos {
 
-std::vector<std::string> Scene::scalarFieldsOf(int block) const {
+std::vector<std::string> ModelMaker::scalarFieldsOf(int block) const {
   const auto isIn = [&](const std::vector<std::string>& blocks) {
     return std::any_of(blocks.begin(), blocks.end(),
                        [&](const std::string& name) { return fem::findBlock(mesh_, name) == block; });
@@ -39,7 +39,7 @@ std::vector<std::string> Scene::scalarFieldsOf(int block) const {
   return fields;
 }
 
-std::vector<std::string> Scene::scalarFieldsOf(const fem::SideSet& set) const {
+std::vector<std::string> ModelMaker::scalarFieldsOf(const fem::SideSet& set) const {
   std::set<int> blocks;
   for (const fem::Side& side : set.sides) blocks.insert(fem::addressOf(mesh_, side.element).block);
   std::vector<std::string> fields = deck::scalarFields(deck_);
@@ -54,7 +54,7 @@ std::vector<std::string> Scene::scalarFieldsOf(const fem::SideSet& set) const {
   return fields;
 }
 
-physics::Expansion Scene::expansionOf(const deck::Material& material, int block) const {
+physics::Expansion ModelMaker::expansionOf(const deck::Material& material, int block) const {
   try {
     return physics::expansionOf(material.expansion, scalarFieldsOf(block), deck_.constants);
   } catch (const formula::FormulaError& e) {
@@ -63,7 +63,7 @@ physics::Expansion Scene::expansionOf(const deck::Material& material, int block)
   }
 }
 
-bool Scene::isVelocity(const std::string& field) const {
+bool ModelMaker::isVelocity(const std::string& field) const {
   return std::any_of(deck_.physics.begin(), deck_.physics.end(), [&](const deck::Physics& entry) {
     const auto* flow = std::get_if<deck::FluidFlow>(&entry.law);
     return flow != nullptr &&
@@ -71,7 +71,7 @@ bool Scene::isVelocity(const std::string& field) const {
   });
 }
 
-void Scene::addBalances(fem::FeModel& model) {
+void ModelMaker::addBalances() {
   for (std::size_t b = 0; b < mesh_.blocks.size(); ++b) {
     const fem::Block& block = mesh_.blocks[b];
     const std::vector<std::string> fields = scalarFieldsOf(static_cast<int>(b));
@@ -94,7 +94,7 @@ void Scene::addBalances(fem::FeModel& model) {
       balances.push_back({law->field, law->conductivity, law->source, law->capacity});
       last = &entry;
       if (!isVelocity(law->field)) continue;
-      if (bodies_[b].flow < 0)
+      if (made_.bodies[b].flow < 0)
         fail("physics/" + entry.name + "/blocks",
              fmt::format("block '{}' has no flow, whose velocity '{}' is; a force acts on a fluid",
                          block.name, law->field));
@@ -106,8 +106,9 @@ void Scene::addBalances(fem::FeModel& model) {
            fmt::format("block '{}' has {} scalar fields; expected at most {}", block.name, fields.size(),
                        physics::mostFields));
     try {
-      bodies_[b].balances = static_cast<int>(model.terms.size());
-      model.terms.push_back(physics::balanceTerm(mesh_, block, fields, balances, deck_.constants, plane_));
+      made_.bodies[b].balances = static_cast<int>(made_.model.terms.size());
+      made_.model.terms.push_back(
+          physics::balanceTerm(mesh_, block, fields, balances, deck_.constants, plane_));
     } catch (const formula::FormulaError& e) {
       fail("physics/" + last->name, fmt::format("with all that acts in block '{}' {}", block.name, e.what()));
     } catch (const std::runtime_error& e) {
@@ -116,15 +117,15 @@ void Scene::addBalances(fem::FeModel& model) {
   }
 }
 
-void Scene::addFlows(fem::FeModel& model) {
+void ModelMaker::addFlows() {
   for (const deck::Physics& entry : deck_.physics) {
     const auto* flow = std::get_if<deck::FluidFlow>(&entry.law);
     if (flow == nullptr) continue;
     for (const std::string& name : entry.blocks) {
       const int b = fem::findBlock(mesh_, name);
-      bodies_[b].flow = static_cast<int>(model.terms.size());
+      made_.bodies[b].flow = static_cast<int>(made_.model.terms.size());
       try {
-        model.terms.push_back(
+        made_.model.terms.push_back(
             physics::flowTerm(mesh_, mesh_.blocks[b],
                               {flow->velocity, flow->pressure, flow->viscosity, flow->density}, plane_));
       } catch (const std::runtime_error& e) {
@@ -134,7 +135,7 @@ void Scene::addFlows(fem::FeModel& model) {
   }
 }
 
-void Scene::addPluginLaws(fem::FeModel& model) {
+void ModelMaker::addPluginLaws() {
   for (const deck::Physics& entry : deck_.physics) {
     const auto* own = std::get_if<deck::PluginLaw>(&entry.law);
     if (own == nullptr) continue;
@@ -146,8 +147,8 @@ void Scene::addPluginLaws(fem::FeModel& model) {
                      const double* in, const double* data, double* c) { stored(parameters, in, data, c); };
     for (const std::string& name : entry.blocks) {
       const int b = fem::findBlock(mesh_, name);
-      bodies_[b].own.push_back(static_cast<int>(model.terms.size()));
-      model.terms.push_back(made(path, [&] {
+      made_.bodies[b].own.push_back(static_cast<int>(made_.model.terms.size()));
+      made_.model.terms.push_back(made(path, [&] {
         return physics::fieldTerm(mesh_, mesh_.blocks[b], own->fields, plugins::lawOf(chosen), capacity,
                                   plane_);
       }));
@@ -155,7 +156,7 @@ void Scene::addPluginLaws(fem::FeModel& model) {
   }
 }
 
-void Scene::addPluginLoads(fem::FeModel& model) const {
+void ModelMaker::addPluginLoads() {
   for (const deck::Load& load : deck_.loads) {
     const auto* own = std::get_if<deck::PluginLoad>(&load.load);
     if (own == nullptr) continue;
@@ -171,11 +172,11 @@ void Scene::addPluginLoads(fem::FeModel& model) const {
       return physics::sideTerms(
           mesh_, set, own->law.fields, [&] { return plugins::lawOf(chosen); }, plane_);
     });
-    for (auto& term : terms) model.terms.push_back(std::move(term));
+    for (auto& term : terms) made_.model.terms.push_back(std::move(term));
   }
 }
 
-std::vector<fem::DofMap::Located> Scene::flowFields() const {
+std::vector<fem::DofMap::Located> ModelMaker::flowFields() const {
   std::vector<fem::DofMap::Located> fields;
   for (const deck::Physics& entry : deck_.physics) {
     const auto* flow = std::get_if<deck::FluidFlow>(&entry.law);
@@ -197,19 +198,7 @@ std::vector<fem::DofMap::Located> Scene::flowFields() const {
   return fields;
 }
 
-void Scene::fillPressures(const std::string& field, std::vector<double>& nodes) const {
-  for (const deck::Physics& entry : deck_.physics) {
-    const auto* flow = std::get_if<deck::FluidFlow>(&entry.law);
-    if (flow == nullptr || flow->pressure != field) continue;
-    for (const std::string& name : entry.blocks) {
-      const fem::Block& block = mesh_.blocks[fem::findBlock(mesh_, name)];
-      const auto values = solid::pressuresAtNodes(block, [&](int node) { return nodes[node]; });
-      for (std::size_t i = 0; i < block.nodes.size(); ++i) nodes[block.nodes[i]] = values[i];
-    }
-  }
-}
-
-void Scene::addInflows(fem::FeModel& model) const {
+void ModelMaker::addInflows() {
   for (const deck::Load& load : deck_.loads) {
     const auto* inflow = std::get_if<deck::InflowLoad>(&load.load);
     if (inflow == nullptr) continue;
@@ -222,7 +211,7 @@ void Scene::addInflows(fem::FeModel& model) const {
     try {
       for (auto& term : physics::inflowTerms(mesh_, set, fields, {{inflow->field, inflow->amount}},
                                              deck_.constants, plane_))
-        model.terms.push_back(std::move(term));
+        made_.model.terms.push_back(std::move(term));
     } catch (const formula::FormulaError& e) {
       fail("loads/" + load.name + "/amount", e.what());
     } catch (const std::runtime_error& e) {
@@ -231,14 +220,14 @@ void Scene::addInflows(fem::FeModel& model) const {
   }
 }
 
-void Scene::setInitialValues(fem::FeModel& model) const {
+void ModelMaker::setInitialValues() {
   for (const deck::ScalarField& field : deck_.fields) {
-    const int number = model.dofs.find(field.name);
-    model.initial.resize(model.dofs.numDofs(), 0.0);
+    const int number = made_.model.dofs.find(field.name);
+    made_.model.initial.resize(made_.model.dofs.numDofs(), 0.0);
     const auto value = physics::ofPlace(field.initial, deck_.constants);
     for (int n = 0; n < mesh_.numNodes(); ++n)
-      if (const int dof = model.dofs.dof(number, n, 0); dof >= 0)
-        model.initial[dof] = value(&mesh_.coordinates[3 * static_cast<std::size_t>(n)]);
+      if (const int dof = made_.model.dofs.dof(number, n, 0); dof >= 0)
+        made_.model.initial[dof] = value(&mesh_.coordinates[3 * static_cast<std::size_t>(n)]);
   }
 }
 

@@ -3,7 +3,7 @@
 #include "atrapos/fem/ShellFaces.hpp"
 #include "atrapos/solid/ShellLoads.hpp"
 #include "scene/FollowerLoads.hpp"
-#include "scene/Scene.hpp"
+#include "scene/ModelMaker.hpp"
 #include "scene/Sets.hpp"
 
 // What acts on the body of a scene.
@@ -47,7 +47,7 @@ struct DeadLoads {
     }
   }
 
-  void operator()(const deck::InflowLoad&) const {}  // no force (Scene::addInflows)
+  void operator()(const deck::InflowLoad&) const {}  // no force (ModelMaker::addInflows)
   void operator()(const deck::PluginLoad&) const {}  // the same
 
   void operator()(const deck::EdgeLoad& load) const {
@@ -75,8 +75,8 @@ struct DeadLoads {
 
 }  // namespace
 
-void Scene::addLoads(fem::FeModel& model) const {
-  const std::size_t size = 3 * static_cast<std::size_t>(model.dofs.numNodes());
+void ModelMaker::addLoads() {
+  const std::size_t size = 3 * static_cast<std::size_t>(made_.model.dofs.numNodes());
   std::vector<double> growing(size, 0.0), constant(size, 0.0);  // [3 node + component]
   for (const deck::Load& load : deck_.loads) {
     if (followers::isFollower(load)) continue;
@@ -87,16 +87,16 @@ void Scene::addLoads(fem::FeModel& model) const {
       fail("loads/" + load.name, e.what());
     }
   }
-  model.load = model.dofs.fromVectors(growing);
-  model.constantLoad = model.dofs.fromVectors(constant);
+  made_.model.load = made_.model.dofs.fromVectors(growing);
+  made_.model.constantLoad = made_.model.dofs.fromVectors(constant);
 }
 
-void Scene::addFollowers(fem::FeModel& model) const {
+void ModelMaker::addFollowers() {
   for (const deck::Load& load : deck_.loads) {
     if (!followers::isFollower(load)) continue;
     try {
-      for (auto& term : followers::terms(load, {mesh_, shells_, plane_, model}))
-        model.terms.push_back(std::move(term));
+      for (auto& term : followers::terms(load, {mesh_, shells_, plane_, made_.model}))
+        made_.model.terms.push_back(std::move(term));
     } catch (const std::invalid_argument& e) {
       fail("loads/" + load.name, e.what());
     }

@@ -1,8 +1,10 @@
+#include "scene/ResultFields.hpp"
+
 #include <algorithm>
 #include <cmath>
 
+#include "atrapos/solid/MixedBody.hpp"
 #include "atrapos/solid/ShellResults.hpp"
-#include "scene/Scene.hpp"
 #include "scene/ShellFields.hpp"
 
 // What the result file holds of a state.
@@ -58,12 +60,12 @@ struct NodalMeans {
 
 }  // namespace
 
-bool Scene::writes(deck::OutputField field) const {
+bool ResultFields::writes(deck::OutputField field) const {
   const auto& fields = deck_.output.fields;
   return std::find(fields.begin(), fields.end(), field) != fields.end();
 }
 
-std::vector<std::string> Scene::nodalNames() const {
+std::vector<std::string> ResultFields::nodalNames() const {
   std::vector<std::string> names;
   const auto appendVector = [&](const std::string& prefix) {
     for (int i = 0; i < mesh_.dimension; ++i) names.push_back(prefix + "xyz"[i]);
@@ -74,7 +76,7 @@ std::vector<std::string> Scene::nodalNames() const {
   }
   if (writes(deck::OutputField::Field)) append(deck::scalarFields(deck_), names);
   if (writes(deck::OutputField::Reaction)) appendVector("reaction_");
-  if (writes(deck::OutputField::Contact) && !contacts_.empty())
+  if (writes(deck::OutputField::Contact) && !scene_.contacts().empty())
     append({"contact_gap", "contact_pressure"}, names);
   if (writes(deck::OutputField::NodalStress)) {
     append(stressNames("nodal_stress_"), names);
@@ -86,13 +88,13 @@ std::vector<std::string> Scene::nodalNames() const {
   return names;
 }
 
-bool Scene::yields() const {
+bool ResultFields::yields() const {
   return std::any_of(deck_.materials.begin(), deck_.materials.end(), [](const deck::Material& material) {
     return std::holds_alternative<deck::VonMises>(material.law);
   });
 }
 
-std::vector<std::string> Scene::elementNames() const {
+std::vector<std::string> ResultFields::elementNames() const {
   if (!writes(deck::OutputField::Stress)) return {};
   std::vector<std::string> names = stressNames("stress_");
   if (!shells_.empty()) {
@@ -104,17 +106,29 @@ std::vector<std::string> Scene::elementNames() const {
   return names;
 }
 
-std::vector<double> Scene::onResultNodes(std::vector<double> ofMesh) const {
+std::vector<double> ResultFields::onResultNodes(std::vector<double> ofMesh) const {
   if (!body_) return ofMesh;
   for (int node : shells_.geometry.meshNode) ofMesh.insert(ofMesh.end(), 2, ofMesh[node]);
   return ofMesh;
 }
 
-std::vector<std::vector<double>> Scene::nodalValues(const SceneState& state) const {
+void ResultFields::fillPressures(const std::string& field, std::vector<double>& nodes) const {
+  for (const deck::Physics& entry : deck_.physics) {
+    const auto* flow = std::get_if<deck::FluidFlow>(&entry.law);
+    if (flow == nullptr || flow->pressure != field) continue;
+    for (const std::string& name : entry.blocks) {
+      const fem::Block& block = mesh_.blocks[fem::findBlock(mesh_, name)];
+      const auto values = solid::pressuresAtNodes(block, [&](int node) { return nodes[node]; });
+      for (std::size_t i = 0; i < block.nodes.size(); ++i) nodes[block.nodes[i]] = values[i];
+    }
+  }
+}
+
+std::vector<std::vector<double>> ResultFields::nodalValues(const SceneState& state) const {
   Fields result;
   const auto split = [&](const std::vector<double>& field) {
     for (int i = 0; i < mesh_.dimension; ++i) {
-      std::vector<double> component(resultMesh().numNodes());
+      std::vector<double> component(scene_.resultMesh().numNodes());
       for (std::size_t n = 0; n < component.size(); ++n) component[n] = field[3 * n + i];
       result.push_back(std::move(component));
     }
@@ -127,7 +141,7 @@ std::vector<std::vector<double>> Scene::nodalValues(const SceneState& state) con
         result.push_back(onResultNodes(std::move(variable)));
   }
   if (writes(deck::OutputField::Field)) {
-    const fem::DofMap& dofs = problem_->model().dofs;
+    const fem::DofMap& dofs = scene_.problem().model().dofs;
     for (const std::string& name : deck::scalarFields(deck_)) {
       const int field = dofs.find(name);
       std::vector<double> nodes(mesh_.numNodes(), 0.0);
@@ -141,19 +155,19 @@ std::vector<std::vector<double>> Scene::nodalValues(const SceneState& state) con
     const std::vector<double>& reactions = state.reactions();
     split(body_ ? body_->forces(shells_.geometry, reactions) : reactions);
   }
-  if (writes(deck::OutputField::Contact) && !contacts_.empty())
+  if (writes(deck::OutputField::Contact) && !scene_.contacts().empty())
     for (auto& variable : nodalContact(state)) result.push_back(onResultNodes(std::move(variable)));
   if (writes(deck::OutputField::NodalStress)) append(nodalStress(state), result);
   return result;
 }
 
-std::vector<std::vector<double>> Scene::nodalContact(const SceneState& state) const {
+std::vector<std::vector<double>> ResultFields::nodalContact(const SceneState& state) const {
   // Point values to nodes: means weighted by weight * N^2 (positive, also at the corners of serendipity
   // faces). Nodes that carry no contact show zero; so do directors, whose nodes show it.
   const int numNodes = mesh_.numNodes();
   std::vector<double> gap(numNodes, 0.0), pressure(numNodes, 0.0), share(numNodes, 0.0);
-  for (const ContactPoints& contact : contacts_)
-    forEachContactPoint(contact, state, [&](std::size_t t, int p, const double* gapAndPressure) {
+  for (const ContactPoints& contact : scene_.contacts())
+    scene_.forEachContactPoint(contact, state, [&](std::size_t t, int p, const double* gapAndPressure) {
       const fem::PointSet& points = contact.points[t];
       const int N = points.nodesPerEntity, e = p / points.pointsPerEntity;
       if (std::isinf(gapAndPressure[0])) return;  // over no part of the tool
@@ -175,14 +189,14 @@ std::vector<std::vector<double>> Scene::nodalContact(const SceneState& state) co
   return {std::move(gap), std::move(pressure)};
 }
 
-std::vector<std::vector<double>> Scene::nodalStress(const SceneState& state) const {
+std::vector<std::vector<double>> ResultFields::nodalStress(const SceneState& state) const {
   // Each element's cubature values fitted and taken to its nodes, then the mean over the elements at a node.
   // With bodies of shells each of their nodes has its own; otherwise a node has middle, top and bottom.
   const std::size_t meshNodes = mesh_.numNodes();
   const bool surfaces = !shells_.empty() && !body_;
-  std::vector<NodalMeans> means(surfaces ? 3 : 1, NodalMeans(resultMesh().numNodes()));
+  std::vector<NodalMeans> means(surfaces ? 3 : 1, NodalMeans(scene_.resultMesh().numNodes()));
   for (std::size_t b = 0; b < mesh_.blocks.size(); ++b) {
-    const BodyBlock& body = bodies_[b];
+    const BodyBlock& body = scene_.bodies()[b];
     if (body.term < 0) continue;  // no stress where there is no material
     const fem::Block& block = mesh_.blocks[b];
     const auto& observed = state.observed(body.term);
@@ -212,14 +226,14 @@ std::vector<std::vector<double>> Scene::nodalStress(const SceneState& state) con
   return result;
 }
 
-std::vector<std::vector<double>> Scene::elementValues(const SceneState& state) const {
+std::vector<std::vector<double>> ResultFields::elementValues(const SceneState& state) const {
   if (!writes(deck::OutputField::Stress)) return {};
   Fields result(elementNames().size());
   const auto add = [&](std::size_t first, const std::vector<double>& values, std::size_t each) {
     for (std::size_t i = 0; i < values.size(); ++i) result[first + i % each].push_back(values[i]);
   };
-  for (const BodyBlock& body : bodies_) {
-    const fem::Block& block = mesh_.blocks[&body - bodies_.data()];
+  for (const BodyBlock& body : scene_.bodies()) {
+    const fem::Block& block = mesh_.blocks[&body - scene_.bodies().data()];
     const std::size_t elements = block.nodes.size() / fem::nodesPerElement(block.topology);
     if (body.term < 0) {
       for (auto& variable : result) variable.insert(variable.end(), elements, 0.0);
