@@ -25,8 +25,10 @@ const Choices<fem::Topology>& planeCells() {
 
 const Choices<fem::Topology>& shellCells() {
   using fem::Topology;
-  static const Choices<Topology> choices{
-      {"SHELL4", Topology::Shell4}, {"SHELL8", Topology::Shell8}, {"SHELL9", Topology::Shell9}};
+  static const Choices<Topology> choices{{"SHELL3", Topology::Shell3},
+                                         {"SHELL4", Topology::Shell4},
+                                         {"SHELL8", Topology::Shell8},
+                                         {"SHELL9", Topology::Shell9}};
   return choices;
 }
 

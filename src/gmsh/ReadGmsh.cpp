@@ -94,8 +94,8 @@ std::optional<Topology> topologyOf(int dimension, int nodes, bool shells) {
   if (nodes == 4) return shells ? Topology::Shell4 : Topology::Quad4;
   if (nodes == 8) return shells ? Topology::Shell8 : Topology::Quad8;
   if (nodes == 9) return shells ? Topology::Shell9 : Topology::Quad9;
+  if (nodes == 3) return shells ? Topology::Shell3 : Topology::Tri3;
   if (shells) return std::nullopt;
-  if (nodes == 3) return Topology::Tri3;
   if (nodes == 6) return Topology::Tri6;
   return std::nullopt;
 }

@@ -14,6 +14,7 @@ constexpr const char* kBoxPoints = "HEX20 has 2 x 2 x 2 points of integration, a
 constexpr const char* kQuadPoints = "QUAD8 has 2 x 2 points of integration";
 constexpr const char* kOnePoint = "QUAD4 has 2 x 2 points of integration, not one";
 constexpr const char* kIncompatible = "QUAD4 has no incompatible modes: it locks in bending";
+constexpr const char* kShell3 = "SHELL3 has assumed strains of its own (MITC3+)";
 constexpr const char* kShell4 = "SHELL4 has assumed strains of its own (MITC4)";
 constexpr const char* kShell4R = "SHELL4 has 2 x 2 points and assumed strains (MITC4), not one point";
 constexpr const char* kShell8 = "SHELL8 has 2 x 2 points of integration, as S8R";
@@ -32,6 +33,8 @@ const std::vector<InpElementType>& types() {
       {"C3D15", 15, Family::solid, Topology::Wedge15, ""},
       {"C3D20", 20, Family::solid, Topology::Hex20, kBoxPoints},
       {"C3D20R", 20, Family::solid, Topology::Hex20, ""},
+      {"S3", 3, Family::shell, Topology::Shell3, kShell3},
+      {"S3R", 3, Family::shell, Topology::Shell3, kShell3},
       {"S4", 4, Family::shell, Topology::Shell4, kShell4},
       {"S4R", 4, Family::shell, Topology::Shell4, kShell4R},
       {"S8", 8, Family::shell, Topology::Shell8, kShell8},
@@ -102,7 +105,7 @@ const std::vector<int>& inpNodeOrder(fem::Topology topology) {
 
 int inpSide(fem::Topology topology, int face) {
   static const std::vector<int> hex{4, 5, 0, 1, 2, 3}, tet{3, 0, 1, 2}, wedge{3, 4, 0, 1, 2},
-      quad{0, 1, 2, 3}, tri{0, 1, 2}, shell{1, 0, 2, 3, 4, 5};
+      quad{0, 1, 2, 3}, tri{0, 1, 2}, shell{1, 0, 2, 3, 4, 5}, triShell{1, 0, 2, 3, 4};
   const auto of = [&]() -> const std::vector<int>& {
     switch (topology) {
       case Topology::Hex8:
@@ -115,6 +118,8 @@ int inpSide(fem::Topology topology, int face) {
       case Topology::Wedge6:
       case Topology::Wedge15:
         return wedge;
+      case Topology::Shell3:
+        return triShell;
       case Topology::Shell4:
       case Topology::Shell8:
       case Topology::Shell9:

@@ -1,5 +1,6 @@
 #include "import/ShellSupports.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -9,10 +10,11 @@ namespace {
 /// The axis that the element's normal is along, -1 where there is none.
 int axisOf(const InpModel& model, const InpElement& element) {
   std::array<std::array<double, 3>, 4> x{};
-  for (std::size_t c = 0; c < 4; ++c)
-    for (std::size_t d = 0; d < 3; ++d)
-      x[c][d] =
-          model.coordinates[3 * static_cast<std::size_t>(model.connectivity[element.firstNode + c]) + d];
+  const auto last = static_cast<std::size_t>(fem::shellCorners(element.type->topology)) - 1;
+  for (std::size_t c = 0; c < 4; ++c) {  // a triangle's last corner counts twice
+    const int node = model.connectivity[element.firstNode + std::min(c, last)];
+    for (std::size_t d = 0; d < 3; ++d) x[c][d] = model.coordinates[3 * static_cast<std::size_t>(node) + d];
+  }
   std::array<double, 3> a{}, b{}, n{};
   for (std::size_t d = 0; d < 3; ++d) {
     a[d] = x[2][d] - x[0][d];

@@ -8,11 +8,11 @@
 #include "atrapos/fem/LawTerm.hpp"
 #include "atrapos/physics/Dielectric.hpp"
 #include "atrapos/solid/FiniteVonMises.hpp"
-#include "atrapos/solid/Mitc4Metal.hpp"
 #include "atrapos/solid/MixedBody.hpp"
 #include "atrapos/solid/MixedLaw.hpp"
 #include "atrapos/solid/SaintVenantKirchhoff.hpp"
 #include "atrapos/solid/ShellMetal.hpp"
+#include "atrapos/solid/TiedShellMetal.hpp"
 #include "atrapos/solid/VonMises.hpp"
 
 namespace atrapos::registry {
@@ -152,6 +152,11 @@ double poissonsRatio(const Rubber& law) {
 template <bool kinematic>
 std::unique_ptr<fem::Term> metalShells(const solid::Metal& metal, const solid::ShellElements& elements,
                                        const solid::ShellCubature& cubature, deck::Shear shear) {
+  if (elements.nodesPerElement == 3) {
+    using Law = solid::Mitc3Metal<kinematic>;
+    const auto at = solid::mitc3MetalPoints(elements, poissonsRatio(metal), cubature, Law::numData);
+    return fem::lawTerm(fem::pointLaw(Law{metal}), at.points, at.data);
+  }
   if (elements.nodesPerElement == 4) {
     using Law = solid::Mitc4Metal<kinematic>;
     const auto at = solid::mitc4MetalPoints(elements, poissonsRatio(metal), cubature, Law::numData);
@@ -174,6 +179,11 @@ template <class Entry>
 std::unique_ptr<fem::Term> shells(const Entry& entry, const solid::ShellElements& elements,
                                   const solid::ShellCubature& cubature, deck::Shear shear) {
   using Law = decltype(law(entry));
+  if (elements.nodesPerElement == 3) {
+    const Law material = law(entry);
+    return fem::enhancedTerm(fem::pointLaw(solid::Mitc3Law<Law>{material}),
+                             solid::mitc3Points(elements, poissonsRatio(material), cubature));
+  }
   if (elements.nodesPerElement == 4) {
     const Law material = law(entry);
     return fem::enhancedTerm(fem::pointLaw(solid::Mitc4Law<Law>{material}),

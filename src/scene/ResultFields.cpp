@@ -249,9 +249,9 @@ std::vector<std::vector<double>> ResultFields::elementValues(const SceneState& s
     }
     if (body.shells >= 0) {
       const solid::ShellCubature& cubature = shells_.cubature[body.shells];
-      add(0, meanSurfaceStress(observed, cubature, solid::midSurface), 6);
-      add(6, meanSurfaceStress(observed, cubature, solid::topSurface), 6);
-      add(12, meanSurfaceStress(observed, cubature, solid::bottomSurface), 6);
+      add(0, meanSurfaceStress(shells_.elements[body.shells], observed, cubature, solid::midSurface), 6);
+      add(6, meanSurfaceStress(shells_.elements[body.shells], observed, cubature, solid::topSurface), 6);
+      add(12, meanSurfaceStress(shells_.elements[body.shells], observed, cubature, solid::bottomSurface), 6);
       add(18, meanResultants(shells_.elements[body.shells], observed, cubature, state.displacements()), 8);
       continue;
     }

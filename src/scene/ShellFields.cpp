@@ -37,10 +37,11 @@ std::vector<std::vector<double>> directorFields(const SceneShells& shells, const
   return fields;
 }
 
-std::vector<double> meanSurfaceStress(const fem::PointValues& observed, const solid::ShellCubature& cubature,
-                                      double zeta) {
+std::vector<double> meanSurfaceStress(const solid::ShellElements& elements, const fem::PointValues& observed,
+                                      const solid::ShellCubature& cubature, double zeta) {
   return meansOverPoints(solid::surfaceStress(observed, cubature, zeta),
-                         static_cast<std::size_t>(cubature.inPlane) * cubature.inPlane, 6);
+                         static_cast<std::size_t>(solid::pointsInPlane(cubature, elements.nodesPerElement)),
+                         6);
 }
 
 std::vector<double> meanResultants(const solid::ShellElements& elements, const fem::PointValues& observed,
@@ -48,7 +49,7 @@ std::vector<double> meanResultants(const solid::ShellElements& elements, const f
   solid::ShellResultOptions options;
   options.cubature = cubature;
   return meansOverPoints(solid::shellResultants(elements, observed, u, options).values,
-                         static_cast<std::size_t>(cubature.inPlane) * cubature.inPlane,
+                         static_cast<std::size_t>(solid::pointsInPlane(cubature, elements.nodesPerElement)),
                          solid::ShellResultants::names().size());
 }
 

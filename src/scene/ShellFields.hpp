@@ -18,8 +18,8 @@ std::vector<std::vector<double>> directorFields(const SceneShells& shells, const
 std::vector<double> meansOverPoints(const std::vector<double>& values, std::size_t points, std::size_t each);
 
 /// Means over each element of the Cauchy stresses at a surface: [element][xx yy zz xy yz zx].
-std::vector<double> meanSurfaceStress(const fem::PointValues& observed, const solid::ShellCubature& cubature,
-                                      double zeta);
+std::vector<double> meanSurfaceStress(const solid::ShellElements& elements, const fem::PointValues& observed,
+                                      const solid::ShellCubature& cubature, double zeta);
 
 /// Means over each element of the stress resultants, in axes of which 1 is the projection of x on the
 /// undeformed middle surface: [element][n_11 ...].

@@ -25,13 +25,19 @@ std::vector<fem::ShellSection> sectionsOf(const deck::Deck& deck, const fem::Mes
   return sections;
 }
 
+/// Whether a cell has no middle nodes: assumed strains of its own, and a surface of facets.
+bool isFacet(fem::Topology topology) {
+  return topology == fem::Topology::Shell4 || topology == fem::Topology::Shell3;
+}
+
 deck::Shear shearOf(const deck::Deck& deck, const fem::Mesh& mesh, int block) {
   for (const deck::ShellSection& section : deck.shells.sections)
     for (const std::string& name : section.blocks)
       if (section.shear && fem::findBlock(mesh, name) == block) {
-        if (*section.shear == deck::Shear::Compatible && mesh.blocks[block].topology == fem::Topology::Shell4)
+        if (*section.shear == deck::Shear::Compatible && isFacet(mesh.blocks[block].topology))
           deck::failAt(deck, "shells/sections/" + section.name + "/shear",
-                       fmt::format("block '{}' has SHELL4, whose shear is always assumed", name));
+                       fmt::format("block '{}' has {}, whose shear is always assumed", name,
+                                   fem::topologyName(mesh.blocks[block].topology)));
         return *section.shear;
       }
   return deck.shells.shear;
@@ -54,13 +60,13 @@ std::optional<int> symmetryAxis(deck::Support::Condition condition) {
   return std::nullopt;
 }
 
-/// Directors of SHELL4 at planes of symmetry, in these planes: the mean of the normals there is that of the
-/// facets on one side alone, off by half the angle between neighbours.
+/// Directors of SHELL4 and SHELL3 at planes of symmetry, in these planes: the mean of the normals there is
+/// that of the facets on one side alone, off by half the angle between neighbours.
 std::vector<fem::PrescribedDirector> directorsInSymmetry(const deck::Deck& deck, const fem::Mesh& mesh,
                                                          const fem::ShellGeometry& geometry) {
   std::set<int> facetNodes;
   for (const fem::Block& block : mesh.blocks)
-    if (block.topology == fem::Topology::Shell4) facetNodes.insert(block.nodes.begin(), block.nodes.end());
+    if (isFacet(block.topology)) facetNodes.insert(block.nodes.begin(), block.nodes.end());
   if (facetNodes.empty()) return {};
   const double largest =
       std::sin(deck.shells.foldAngle * M_PI / 180);  // beyond it the surface meets itself in a fold
@@ -107,7 +113,7 @@ SceneShells sceneShells(const deck::Deck& deck, fem::Mesh& mesh) {
   for (const fem::Block& block : mesh.blocks)
     if (block.topology == fem::Topology::Shell9)
       deck::failAt(deck, "mesh/file",
-                   fmt::format("block '{}' has SHELL9; accepted are SHELL8 and SHELL4", block.name));
+                   fmt::format("block '{}' has SHELL9; accepted are SHELL8, SHELL4 and SHELL3", block.name));
   SceneShells shells;
   shells.parts = fem::orientShells(mesh, deck.shells.foldAngle);
   shells.geometry = geometryOf(deck, mesh);

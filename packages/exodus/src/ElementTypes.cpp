@@ -36,12 +36,18 @@ std::optional<fem::Topology> topologyOf(const std::string& elementType, int node
   } else if (dimensions == 2 && begins("TRI")) {
     if (nodesPerElement == 3) return Topology::Tri3;
     if (nodesPerElement == 6) return Topology::Tri6;
+  } else if (dimensions == 3 && nodesPerElement == 3 && (begins("TRI") || begins("SHELL"))) {
+    return Topology::Shell3;
   } else if (dimensions == 3 && (begins("SHELL") || begins("QUAD"))) {
     if (nodesPerElement == 4) return Topology::Shell4;
     if (nodesPerElement == 8) return Topology::Shell8;
     if (nodesPerElement == 9) return Topology::Shell9;
   }
   return std::nullopt;
+}
+
+const char* elementType(fem::Topology topology) {
+  return topology == fem::Topology::Shell3 ? "TRISHELL3" : fem::topologyName(topology);
 }
 
 bool isLower(const std::string& elementType) {
@@ -59,7 +65,7 @@ int firstSide(const std::string& elementType, int dimensions) {
 const char* acceptedElementTypes(int dimensions) {
   if (dimensions == 2) return "QUAD with 4, 8 or 9 nodes, TRI with 3 or 6";
   return "HEX with 8, 20 or 27 nodes, TET with 4 or 10, WEDGE or PENTA with 6 or 15, SHELL or QUAD "
-         "with 4, 8 or 9";
+         "with 4, 8 or 9, TRISHELL, TRI or SHELL with 3";
 }
 
 int numSides(fem::Topology topology) {
@@ -74,6 +80,7 @@ int numSides(fem::Topology topology) {
       return 6;
     case Topology::Wedge6:
     case Topology::Wedge15:
+    case Topology::Shell3:
       return 5;
     case Topology::Tet4:
     case Topology::Tet10:

@@ -11,6 +11,9 @@ namespace atrapos::exodus {
 /// nothing where it is not supported. In three dimensions QUAD is a shell.
 std::optional<fem::Topology> topologyOf(const std::string& elementType, int nodesPerElement, int dimensions);
 
+/// What a file calls cells: as Topology's names, but for SHELL3, which Exodus has as TRISHELL3.
+const char* elementType(fem::Topology topology);
+
 /// Whether an element type is one of lines or points: BAR, BEAM, TRUSS, EDGE, LINE, SPHERE, POINT, ...
 bool isLower(const std::string& elementType);
 
@@ -21,7 +24,7 @@ int firstSide(const std::string& elementType, int dimensions);
 /// The element types that topologyOf knows, for messages.
 const char* acceptedElementTypes(int dimensions);
 
-/// Number of sides of an element; of a shell two faces and four edges.
+/// Number of sides of an element; of a shell two faces and its edges.
 int numSides(fem::Topology topology);
 
 }  // namespace atrapos::exodus

@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "CheckMesh.hpp"
+#include "ElementTypes.hpp"
 #include "FileCheck.hpp"
 #include "PartRecords.hpp"
 #include "atrapos/exodus/InfoRecords.hpp"
@@ -110,7 +111,7 @@ class MeshWriter {
   void defineBlock(const fem::Block& block) const {
     const int perElement = fem::nodesPerElement(block.topology);
     const auto count = static_cast<int64_t>(block.nodes.size()) / perElement;
-    file_.check(ex_put_block(file_.id(), EX_ELEM_BLOCK, block.id, fem::topologyName(block.topology), count,
+    file_.check(ex_put_block(file_.id(), EX_ELEM_BLOCK, block.id, elementType(block.topology), count,
                              perElement, 0, 0, static_cast<int64_t>(block.attributeNames.size())),
                 "defining block '" + block.name + "'");
   }

@@ -128,7 +128,8 @@ TEST(ExodusMesh, elementTypesByPrefixAndNodeCount) {
       {"tetra", Topology::Tet10},     {"WEDGE", Topology::Wedge15}, {"PENTA6", Topology::Wedge6},
       {"PENTA15", Topology::Wedge15}, {"SHELL", Topology::Shell8},  {"shell8", Topology::Shell8},
       {"QUAD8", Topology::Shell8},    {"QUAD", Topology::Shell8},   {"SHELL9", Topology::Shell9},
-      {"Quad", Topology::Shell9},     {"SHELL4", Topology::Shell4}, {"QUAD", Topology::Shell4}};
+      {"Quad", Topology::Shell9},     {"SHELL4", Topology::Shell4}, {"QUAD", Topology::Shell4},
+      {"TRI3", Topology::Shell3},     {"shell", Topology::Shell3},  {"TRISHELL3", Topology::Shell3}};
   for (const auto& [type, topology] : types) {
     SCOPED_TRACE(type);
     Raw raw;
@@ -258,12 +259,12 @@ TEST(ExodusMesh, whatIsNotSupportedIsNamed) {
   expectMessage(messageOf([&] { exodus::readMesh(file.directory().string()); }), "not a regular file");
 
   Raw raw;
-  for (const char* type : {"SHELL3", "TRISHELL3", "TRI3"}) {
+  for (const char* type : {"SHELL6", "TRISHELL6", "TRI6"}) {
     raw.type = type;
-    raw.nodesPerElement = 3;
+    raw.nodesPerElement = 6;
     raw.write(file());
     expectMessage(read(), "block '' (id 10): element type '" + std::string(type) +
-                              "' with 3 nodes is not supported; accepted are HEX");
+                              "' with 6 nodes is not supported; accepted are HEX");
   }
   raw = {};
   raw.type = "SHELL8";
@@ -391,12 +392,12 @@ TEST(ExodusMesh, roundTripOfShells) {
 // What the library itself says are the nodes of a shell's sides, for every name that we read as a shell.
 TEST(ExodusMesh, sidesOfShellsAreTheLibrarys) {
   const std::vector<std::pair<std::string, Topology>> types = {
-      {"SHELL4", Topology::Shell4}, {"SHELL8", Topology::Shell8}, {"SHELL9", Topology::Shell9},
-      {"SHELL", Topology::Shell8},  {"QUAD8", Topology::Shell8},  {"QUAD4", Topology::Shell4},
-      {"QUAD9", Topology::Shell9}};
+      {"SHELL4", Topology::Shell4}, {"SHELL8", Topology::Shell8},    {"SHELL9", Topology::Shell9},
+      {"SHELL", Topology::Shell8},  {"QUAD8", Topology::Shell8},     {"QUAD4", Topology::Shell4},
+      {"QUAD9", Topology::Shell9},  {"TRISHELL3", Topology::Shell3}, {"TRI3", Topology::Shell3}};
   for (const auto& [type, topology] : types) {
     const bool quad = type[0] == 'Q';  // four edges only
-    for (int side = 0; side < (quad ? 4 : 6); ++side) {
+    for (int side = 0; side < (quad ? 4 : topology == Topology::Shell3 ? 5 : 6); ++side) {
       SCOPED_TRACE(type + " side " + std::to_string(side + 1));
       const TempFile file;
       Raw raw;
@@ -421,7 +422,9 @@ TEST(ExodusMesh, sidesOfShellsAreTheLibrarys) {
       // Libraries before 7 know the corners only of the faces of nine nodes.
       const bool old = type == "SHELL9" && count < static_cast<int>(expected.size());
       ASSERT_EQ(count, old ? (side < 2 ? 4 : 2) : static_cast<int>(expected.size()));
-      for (int n = 0; n < count; ++n) EXPECT_EQ(nodes[n] - 1, expected[n]);
+      // Of triangles the library has the bottom from its third corner on, in the same sense.
+      const int turn = topology == Topology::Shell3 && side == 1 ? 2 : 0;
+      for (int n = 0; n < count; ++n) EXPECT_EQ(nodes[(n + turn) % count] - 1, expected[n]);
     }
   }
 }

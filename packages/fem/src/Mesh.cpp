@@ -26,8 +26,11 @@ int Mesh::numElements() const {
 }
 
 bool isShell(Topology topology) {
-  return topology == Topology::Shell4 || topology == Topology::Shell8 || topology == Topology::Shell9;
+  return topology == Topology::Shell3 || topology == Topology::Shell4 || topology == Topology::Shell8 ||
+         topology == Topology::Shell9;
 }
+
+int shellCorners(Topology topology) { return topology == Topology::Shell3 ? 3 : 4; }
 
 bool isPlane(Topology topology) {
   return topology == Topology::Quad4 || topology == Topology::Quad8 || topology == Topology::Quad9 ||
@@ -36,6 +39,7 @@ bool isPlane(Topology topology) {
 
 int nodesPerElement(Topology topology) {
   switch (topology) {
+    case Topology::Shell3:
     case Topology::Tri3:
       return 3;
     case Topology::Tri6:
@@ -83,6 +87,8 @@ const char* topologyName(Topology topology) {
       return "WEDGE6";
     case Topology::Wedge15:
       return "WEDGE15";
+    case Topology::Shell3:
+      return "SHELL3";
     case Topology::Shell4:
       return "SHELL4";
     case Topology::Shell8:

@@ -68,6 +68,7 @@ shards::CellTopology cellOf(Topology topology) {
     case Topology::Shell9:
     case Topology::Quad9:
       return shardsCell<shards::Quadrilateral<9>>();
+    case Topology::Shell3:
     case Topology::Tri3:
       return shardsCell<shards::Triangle<3>>();
     case Topology::Tri6:
@@ -76,9 +77,11 @@ shards::CellTopology cellOf(Topology topology) {
   unknownShape();
 }
 
-/// The cell whose sides are meant: a shell has two faces and four edges, its middle surface four edges.
+/// The cell whose sides are meant: a shell has two faces and its edges, its middle surface the edges.
 shards::CellTopology cellWithSides(Topology topology) {
   switch (topology) {
+    case Topology::Shell3:
+      return shardsCell<shards::ShellTriangle<3>>();
     case Topology::Shell4:
       return shardsCell<shards::ShellQuadrilateral<4>>();
     case Topology::Shell8:
@@ -345,6 +348,8 @@ std::vector<int> defaultDegrees(Topology topology) {
       return {5, 5};
     case Topology::Tri3:
       return {1};
+    case Topology::Shell3:
+      return {2};
     case Topology::Tri6:
       return {2};
   }

@@ -22,11 +22,20 @@ constexpr std::array<Place, 27> kPlaces{
      {middle, 2}, {middle, 3}, {top, 4},    {top, 5},    {top, 6},    {top, 7},    {middle, 8},
      {bottom, 8}, {top, 8},    {middle, 7}, {middle, 5}, {middle, 4}, {middle, 6}}};
 
-/// Sides of a shell (top, bottom, four edges) as sides of the solid, 0-based.
+/// Nodes of WEDGE6.
+constexpr std::array<Place, 6> kWedge{{{bottom, 0}, {bottom, 1}, {bottom, 2}, {top, 0}, {top, 1}, {top, 2}}};
+
+/// Sides of a shell (top, bottom, edges) as sides of the solid, 0-based.
 constexpr std::array<int, 6> kSides{5, 4, 0, 1, 2, 3};
+constexpr std::array<int, 5> kSidesOfWedge{4, 3, 0, 1, 2};
+
+int sideOf(Topology shell, int side) {
+  return shell == Topology::Shell3 ? kSidesOfWedge[side] : kSides[side];
+}
 
 Topology solidOf(Topology shell) {
-  return shell == Topology::Shell4   ? Topology::Hex8
+  return shell == Topology::Shell3   ? Topology::Wedge6
+         : shell == Topology::Shell4 ? Topology::Hex8
          : shell == Topology::Shell8 ? Topology::Hex20
                                      : Topology::Hex27;
 }
@@ -59,7 +68,7 @@ ShellBody shellBody(const Mesh& mesh, const ShellGeometry& shells) {
     for (int e = 0; e < s.numElements(); ++e) {
       const int* v = &s.nodes[2 * static_cast<std::size_t>(N) * e];
       for (int n = 0; n < nodesPerElement(block.topology); ++n) {
-        const auto [level, local] = kPlaces[n];
+        const auto [level, local] = N == 3 ? kWedge[n] : kPlaces[n];
         const int director = v[N + local] - shells.numMeshNodes;
         block.nodes.push_back(level == middle ? v[local] : body.numMeshNodes + 2 * director + (level == top));
       }
@@ -67,7 +76,8 @@ ShellBody shellBody(const Mesh& mesh, const ShellGeometry& shells) {
   }
   for (SideSet& set : body.mesh.sideSets)
     for (Side& side : set.sides)
-      if (isShell(mesh.blocks[addressOf(mesh, side.element).block].topology)) side.side = kSides[side.side];
+      if (const Topology cell = mesh.blocks[addressOf(mesh, side.element).block].topology; isShell(cell))
+        side.side = sideOf(cell, side.side);
   return body;
 }
 

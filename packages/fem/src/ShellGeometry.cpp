@@ -64,6 +64,8 @@ class Builder {
 
   const Block& block(int section) const { return mesh_.blocks[sections_[section].block]; }
   int perElement(int section) const { return result_.blocks[section].nodesPerElement; }
+  int corners(int section) const { return shellCorners(block(section).topology); }
+  bool hasMiddles(int section) const { return perElement(section) > corners(section); }
   std::string label(int section, int element) const {
     return elementLabel(mesh_, sections_[section].block, element);
   }
@@ -84,7 +86,7 @@ class Builder {
     for (const ShellSection& section : sections_) {
       const Block& b = mesh_.blocks.at(section.block);
       if (!isShell(b.topology))
-        fail(fmt::format("{}: has {}, no shells; a shell section is for SHELL4, SHELL8 or SHELL9",
+        fail(fmt::format("{}: has {}, no shells; a shell section is for SHELL3, SHELL4, SHELL8 or SHELL9",
                          blockLabel(b), topologyName(b.topology)));
       if (++count[section.block] > 1) fail(fmt::format("{}: has two shell sections", blockLabel(b)));
     }
@@ -98,7 +100,9 @@ class Builder {
   void addBlock(int section) {
     const Topology topology = block(section).topology;
     const Tabulation nodal = tabulateAt(topology, referenceNodes(topology)),
-                     centre = tabulateAt(topology, {0, 0});
+                     centre = tabulateAt(topology, topology == Topology::Shell3
+                                                       ? std::vector<double>{1.0 / 3, 1.0 / 3}
+                                                       : std::vector<double>{0, 0});
     ShellBlock shells;
     shells.block = sections_[section].block;
     shells.nodesPerElement = nodal.numNodes;
@@ -143,8 +147,8 @@ class Builder {
     std::map<std::pair<int, int>, std::vector<Use>> edges;
     for (std::size_t s = 0; s < sections_.size(); ++s)
       for (int e = 0; e < result_.blocks[s].numElements(); ++e)
-        for (int c = 0; c < 4; ++c) {
-          const Corner from{static_cast<int>(s), e, c}, to{static_cast<int>(s), e, (c + 1) % 4};
+        for (int c = 0, count = corners(static_cast<int>(s)); c < count; ++c) {
+          const Corner from{static_cast<int>(s), e, c}, to{static_cast<int>(s), e, (c + 1) % count};
           const int a = node(from.section, e, from.local), b = node(to.section, e, to.local);
           edges[std::minmax(a, b)].push_back({from, to});
         }
@@ -155,14 +159,14 @@ class Builder {
     for (const auto& edge : edges) {
       const std::vector<Use>& uses = edge.second;
       for (const Use& use : uses)
-        if ((perElement(use.from.section) == 4) != (perElement(uses[0].from.section) == 4))
+        if (hasMiddles(use.from.section) != hasMiddles(uses[0].from.section))
           fail(fmt::format(
               "{} and {} have a common edge that is straight for one and has a middle node for the "
-              "other: shells of 4 and of 8 nodes may share corners alone",
+              "other: shells with and without middle nodes may share corners alone",
               label(uses[0].from.section, uses[0].from.element), label(use.from.section, use.from.element)));
       if (uses.size() > 2)
         for (const Corner& c : {uses[0].from, uses[0].to}) atBranch_[node(c.section, c.element, c.local)] = 1;
-      if (uses.size() > 2 && perElement(uses[0].from.section) > 4)
+      if (uses.size() > 2 && hasMiddles(uses[0].from.section))
         atBranch_[node(uses[0].from.section, uses[0].from.element, 4 + uses[0].from.local)] = 1;
       for (std::size_t i = 0; i < uses.size(); ++i)
         for (std::size_t j = 0; j < i; ++j) {
@@ -233,12 +237,13 @@ class Builder {
                            nodeLabel(mesh_, meshNode), label(c.section, c.element)));
     } else {
       Vec3 sum{};
-      for (const Corner& c : faces) add(1, normal(c), sum);
-      const double length = norm(sum);
+      const std::vector<double> weights = weightsOf(faces);
+      for (std::size_t f = 0; f < faces.size(); ++f) add(weights[f], normal(faces[f]), sum);
+      const double length = norm(sum), all = std::accumulate(weights.begin(), weights.end(), 0.0);
       double mean = 0, least = 1;
-      for (const Corner& c : faces) {
-        const double cosine = length > 0 ? dot(sum, normal(c)) / length : 0;
-        mean += cosine / static_cast<double>(faces.size());
+      for (std::size_t f = 0; f < faces.size(); ++f) {
+        const double cosine = length > 0 ? dot(sum, normal(faces[f])) / length : 0;
+        mean += weights[f] * cosine / all;
         least = std::min(least, cosine);
       }
       // Steeper than 84 degrees a common director would be ten times as long as the half thickness.
@@ -269,6 +274,25 @@ class Builder {
       shells.directorScale[at(c)] = scale;
       for (int i = 0; i < 3; ++i) shells.directors[3 * at(c) + i] = scale * D[i];
     }
+  }
+
+  /// What the normals at a node count: with triangles there the angles of their corners, since how many share
+  /// a side of the node is chance; else the same.
+  std::vector<double> weightsOf(const std::vector<Corner>& faces) const {
+    std::vector<double> weights(faces.size(), 1.0);
+    if (std::none_of(faces.begin(), faces.end(), [this](const Corner& c) { return corners(c.section) == 3; }))
+      return weights;
+    for (std::size_t f = 0; f < faces.size(); ++f) {
+      const auto& [section, element, local] = faces[f];
+      const int count = corners(section);
+      const Vec3 at = position(node(section, element, local));
+      Vec3 next = position(node(section, element, (local + 1) % count)),
+           last = position(node(section, element, (local + count - 1) % count));
+      add(-1, at, next);
+      add(-1, at, last);
+      weights[f] = std::atan2(norm(cross(next, last)), dot(next, last));
+    }
+    return weights;
   }
 
   double thicknessAt(const Corner& c) const { return thickness_[c.section][at(c)]; }

@@ -13,6 +13,7 @@ namespace {
 
 /// The same cell seen from the other side: its first corner stays.
 std::vector<int> reversedNodes(Topology topology) {
+  if (topology == Topology::Shell3) return {0, 2, 1};
   std::vector<int> order{0, 3, 2, 1};
   if (topology != Topology::Shell4) order.insert(order.end(), {7, 6, 5, 4});
   if (topology == Topology::Shell9) order.push_back(8);
@@ -21,7 +22,7 @@ std::vector<int> reversedNodes(Topology topology) {
 
 /// Sides as Topology has them, 0-based: the faces change, and the edges run from the first corner the other
 /// way round.
-int reversedSide(int side) { return side < 2 ? 1 - side : 7 - side; }
+int reversedSide(int side, int corners) { return side < 2 ? 1 - side : corners + 3 - side; }
 
 class Orientation {
  public:
@@ -54,6 +55,7 @@ class Orientation {
   };
 
   const Block& blockOf(int e) const { return mesh_.blocks[elements_[e].block]; }
+  int corners(int e) const { return shellCorners(blockOf(e).topology); }
   int* nodesOf(int e) {
     Block& b = mesh_.blocks[elements_[e].block];
     return &b.nodes[static_cast<std::size_t>(elements_[e].inBlock) * nodesPerElement(b.topology)];
@@ -73,13 +75,14 @@ class Orientation {
     }
   }
 
-  /// Unit normal of the plane through the edge from corner c and the middle of the opposite edge: of the
-  /// element's side that is at the edge.
+  /// Unit normal of the plane through the edge from corner c and the middle of the opposite edge (corner): of
+  /// the element's side that is at the edge.
   Vec3 normalAt(int e, int c) {
     const int* n = nodesOf(e);
-    const Vec3 a = place(n[c]), b = place(n[(c + 1) % 4]);
-    Vec3 inwards = scaled(0.5, place(n[(c + 2) % 4])), along = b;
-    add(0.5, place(n[(c + 3) % 4]), inwards);
+    const int count = corners(e), opposite = (c + 2) % count;
+    const Vec3 a = place(n[c]), b = place(n[(c + 1) % count]);
+    Vec3 inwards = scaled(0.5, place(n[opposite])), along = b;
+    add(0.5, place(n[count == 3 ? opposite : (c + 3) % 4]), inwards);
     add(-0.5, a, inwards);
     add(-0.5, b, inwards);
     add(-1, a, along);
@@ -94,8 +97,8 @@ class Orientation {
     };
     std::map<std::pair<int, int>, std::vector<Use>> edges;
     for (int e = 0; e < static_cast<int>(elements_.size()); ++e)
-      for (int c = 0; c < 4; ++c) {
-        const int a = nodesOf(e)[c], b = nodesOf(e)[(c + 1) % 4];
+      for (int c = 0, count = corners(e); c < count; ++c) {
+        const int a = nodesOf(e)[c], b = nodesOf(e)[(c + 1) % count];
         edges[std::minmax(a, b)].push_back({e, c, a});
       }
     neighbours_.resize(elements_.size());
@@ -165,8 +168,8 @@ class Orientation {
     for (SideSet& set : mesh_.sideSets) {
       std::map<int, int> faces;  // part -> 1: tops, 2: bottoms, 3: both
       for (Side& side : set.sides) {
-        if (turned_.count(side.element) > 0) side.side = reversedSide(side.side);
         const auto shell = position.find(side.element);
+        if (turned_.count(side.element) > 0) side.side = reversedSide(side.side, corners(shell->second));
         if (shell != position.end() && side.side < 2) faces[partOf_[shell->second]] |= 1 + side.side;
       }
       for (const auto& [part, sides] : faces)

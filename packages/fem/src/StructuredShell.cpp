@@ -42,6 +42,7 @@ class SurfaceMesher {
     addNodeSets();
     addLineSets();
     addSideSets();
+    if (surface_.topology == Topology::Shell3) splitCells();
     return std::move(mesh_);
   }
 
@@ -59,9 +60,14 @@ class SurfaceMesher {
         f(cell);
   }
 
+  /// Of the cells that are made first: triangles come from quadrilaterals.
+  Topology firstCell() const {
+    return surface_.topology == Topology::Shell3 ? Topology::Shell4 : surface_.topology;
+  }
+
   template <class F>
   void forEachNodeOf(const Lattice& cell, const F& f) {
-    for (int n = 0; n < nodesPerElement(surface_.topology); ++n)
+    for (int n = 0; n < nodesPerElement(firstCell()); ++n)
       f(nodeAt({2 * cell[0] + kNodesOfCell[n][0], 2 * cell[1] + kNodesOfCell[n][1]}));
   }
 
@@ -85,7 +91,7 @@ class SurfaceMesher {
     Block block;
     block.name = surface_.blockName;
     block.id = 1;
-    block.topology = surface_.topology;
+    block.topology = firstCell();
     forEachCell(
         [&](const Lattice& cell) { forEachNodeOf(cell, [&](int node) { block.nodes.push_back(node); }); });
     if (surface_.thickness > 0) {
@@ -194,6 +200,38 @@ class SurfaceMesher {
     }
   }
 
+  /// Two triangles in place of each quadrilateral, with diagonals in turn.
+  void splitCells() {
+    constexpr int corners[2][2][3] = {{{0, 1, 2}, {0, 2, 3}}, {{0, 1, 3}, {1, 2, 3}}};
+    // Triangle of the cell and side of it, by diagonal and edge of the cell.
+    constexpr int edges[2][4][2] = {{{0, 2}, {0, 3}, {1, 3}, {1, 4}}, {{0, 2}, {1, 2}, {1, 3}, {0, 4}}};
+    Block& block = mesh_.blocks[0];
+    std::vector<int> nodes, diagonal;
+    forEachCell([&](const Lattice& at) {
+      const int* quad = &block.nodes[4 * diagonal.size()];
+      diagonal.push_back((at[0] + at[1]) % 2);
+      for (const auto& triangle : corners[diagonal.back()])
+        for (const int corner : triangle) nodes.push_back(quad[corner]);
+    });
+    block.topology = Topology::Shell3;
+    block.nodes = std::move(nodes);
+    block.attributes.resize(2 * block.attributes.size(), surface_.thickness);
+    for (SideSet& set : mesh_.sideSets) {
+      std::vector<Side> sides;
+      for (const Side& side : set.sides) {
+        const int first = 2 * side.element;
+        if (side.side < 2) {
+          sides.push_back({first, side.side});
+          sides.push_back({first + 1, side.side});
+        } else {
+          const auto& [triangle, edge] = edges[diagonal[side.element]][side.side - 2];
+          sides.push_back({first + triangle, edge});
+        }
+      }
+      set.sides = std::move(sides);
+    }
+  }
+
   const Surface& surface_;
   Lattice size_{};                // number of different lattice points in each direction
   int outer_ = 0;                 // the direction that changes last in the numbering
@@ -249,8 +287,9 @@ Surface common(const Options& options, const std::string& title) {
     points *= 2.0 * n + 1.0;
   }
   require(points < std::numeric_limits<int>::max(), title, "too many divisions for one mesh");
-  require(isShell(options.topology), title,
-          std::string("cells must be SHELL4, SHELL8 or SHELL9, got ") + topologyName(options.topology));
+  require(
+      isShell(options.topology), title,
+      std::string("cells must be SHELL3, SHELL4, SHELL8 or SHELL9, got ") + topologyName(options.topology));
   require(std::isfinite(options.thickness) && options.thickness >= 0, title,
           "thickness must not be below 0, got " + std::to_string(options.thickness));
   Surface surface;

@@ -562,7 +562,7 @@ TEST(ReferenceCell, DefaultCubatureHasTheDocumentedPoints) {
   const std::map<Topology, int> points{{Topology::Hex8, 8},    {Topology::Hex20, 8},  {Topology::Hex27, 27},
                                        {Topology::Tet4, 1},    {Topology::Tet10, 4},  {Topology::Wedge6, 6},
                                        {Topology::Wedge15, 9}, {Topology::Shell4, 4}, {Topology::Shell8, 4},
-                                       {Topology::Shell9, 9}};
+                                       {Topology::Shell9, 9},  {Topology::Shell3, 3}};
   for (const auto& [cell, count] : points) {
     SCOPED_TRACE(name(cell));
     const Tabulation t = tabulate(cell);
@@ -632,6 +632,16 @@ TEST(ReferenceCell, SidesOfShellsAreTwoFacesThenFourEdges) {
           EXPECT_NEAR(cell.values[q * numNodes + n], expected, rounding);
         }
     }
+  }
+}
+
+TEST(ReferenceCell, SidesOfTriangularShellsAreTwoFacesThenThreeEdges) {
+  const std::vector<std::vector<int>> exodus{{0, 1, 2}, {0, 2, 1}, {0, 1}, {1, 2}, {2, 0}};
+  ASSERT_EQ(numSides(Topology::Shell3), 5);
+  EXPECT_THROW(sideNodes(Topology::Shell3, 5), std::out_of_range);
+  for (int side = 0; side < 5; ++side) {
+    EXPECT_EQ(sideNodes(Topology::Shell3, side), exodus[side]);
+    EXPECT_EQ(sideFace(Topology::Shell3, side), side < 2 ? Face::Tri3 : Face::Line2);
   }
 }
 

@@ -287,6 +287,30 @@ TEST(ShellGeometry, BranchesJoinWhatContinues) {
   EXPECT_EQ(shellGeometry(mesh, sections(mesh, 0.2), wide).numDirectors(), mesh.numNodes() + 5);
 }
 
+// A ridge with one quadrilateral on its right and two triangles, or one, for the same square on its left: the
+// director halves the fold wherever the same angle lies on either side of the node.
+TEST(ShellGeometry, TrianglesCountWithTheAngleOfTheirCorner) {
+  const double s = std::sin(5 * degree), c = std::cos(5 * degree);
+  Mesh mesh;
+  for (double x : {-c, 0.0, c})
+    for (double y : {0.0, 1.0}) mesh.coordinates.insert(mesh.coordinates.end(), {x, y, -s * std::abs(x) / c});
+  Block left, right;
+  left.name = "left";
+  left.topology = Topology::Shell3;
+  left.nodes = {2, 1, 0, 2, 3, 1};  // the diagonal from node 2 on the ridge
+  right.name = "right";
+  right.id = 1;
+  right.topology = Topology::Shell4;
+  right.nodes = {2, 4, 5, 3};
+  mesh.blocks = {left, right};
+  const ShellGeometry shells = shellGeometry(mesh, sections(mesh, 0.2));
+  for (const int node : {2, 3}) {
+    const Vec shared = director(shells, shells.firstDirector[node]);
+    EXPECT_NEAR(shared[0], 0, rounding);
+    EXPECT_NEAR(shared[2], 0.1 / c, rounding);  // the mitre
+  }
+}
+
 TEST(ShellGeometry, ChainsOfSmallAnglesShareADirector) {
   // Facets of a cone of 15 degrees each: at the corners of a ring, neighbours differ by less than 20 degrees.
   ShellCylinderOptions o;

@@ -103,6 +103,35 @@ TEST(ShellOrientation, SidesAndThicknessesStayInPlace) {
   EXPECT_TRUE(orientShells(mixed, foldAngle)[0].sidesMixed);
 }
 
+// Triangles, alone and with quadrilaterals: their own number of edges.
+TEST(ShellOrientation, Triangles) {
+  Mesh mesh = plate({4, 2}, Topology::Shell3);
+  // The first square becomes one quadrilateral of a block of its own.
+  Block quad = mesh.blocks[0];
+  quad.name = "quad";
+  quad.id = 2;
+  quad.topology = Topology::Shell4;
+  quad.nodes = {quad.nodes[0], quad.nodes[1], quad.nodes[2], quad.nodes[5]};
+  quad.attributes.clear();
+  quad.attributeNames.clear();
+  mesh.blocks[0].nodes.erase(mesh.blocks[0].nodes.begin(), mesh.blocks[0].nodes.begin() + 6);
+  mesh.blocks[0].attributes.clear();
+  mesh.blocks[0].attributeNames.clear();
+  mesh.blocks.push_back(quad);
+  mesh.sideSets = {{"sides", 1, {{3, 0}, {3, 2}, {3, 3}, {3, 4}}}};
+  const Mesh right = mesh;
+  int* nodes =
+      &mesh.blocks[0].nodes[9];  // of element 3: turned over, its edges counted from the first corner
+  std::swap(nodes[1], nodes[2]);
+  mesh.sideSets[0].sides = {{3, 1}, {3, 4}, {3, 3}, {3, 2}};
+  const auto parts = orientShells(mesh, foldAngle);
+  ASSERT_EQ(parts.size(), 1u);  // the quadrilateral hangs together with the triangles
+  EXPECT_EQ(parts[0].turned, 1);
+  EXPECT_EQ(allNodes(mesh), allNodes(right));
+  for (std::size_t i = 0; i < 4; ++i)
+    EXPECT_EQ(mesh.sideSets[0].sides[i].side, right.sideSets[0].sides[i].side);
+}
+
 // Folds of any angle go on; at a branch what continues each other; the web is a part of its own.
 TEST(ShellOrientation, PartsGoOnAtFoldsAndThroughBranches) {
   Mesh box =

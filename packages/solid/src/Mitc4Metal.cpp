@@ -1,4 +1,4 @@
-#include "atrapos/solid/Mitc4Metal.hpp"
 #include "atrapos/fem/PointLawOf.hpp"
+#include "atrapos/solid/TiedShellMetal.hpp"
 
 ATRAPOS_POINT_LAW(atrapos::solid::Mitc4Metal<false>)

@@ -2,7 +2,7 @@
 #include <stdexcept>
 
 #include "ShellPlaces.hpp"
-#include "atrapos/solid/Mitc4Law.hpp"
+#include "atrapos/solid/TiedShellLaw.hpp"
 
 namespace atrapos::solid {
 

@@ -60,7 +60,7 @@ void addAt(const ShellElements& elements, int e, const double* N, double zeta, c
 
 /// Nodes of an edge within the element: start, end, and the middle where it has one.
 std::vector<int> nodesOf(const ShellElements& elements, const ShellEdge& edge) {
-  std::vector<int> nodes{edge.edge, (edge.edge + 1) % 4};
+  std::vector<int> nodes{edge.edge, (edge.edge + 1) % elements.corners()};
   if (elements.nodesPerElement == 8) nodes.push_back(4 + edge.edge);
   return nodes;
 }
@@ -78,10 +78,11 @@ struct EdgeShape {
 
 void checkEdges(const ShellElements& elements, const std::vector<ShellEdge>& edges) {
   for (const ShellEdge& edge : edges)
-    if (edge.element < 0 || edge.element >= elements.count() || edge.edge < 0 || edge.edge > 3)
+    if (edge.element < 0 || edge.element >= elements.count() || edge.edge < 0 ||
+        edge.edge >= elements.corners())
       throw std::invalid_argument(
-          fmt::format("shell edge {} of element {}: there are 4 edges and {} elements", edge.edge + 1,
-                      edge.element + 1, elements.count()));
+          fmt::format("shell edge {} of element {}: there are {} edges and {} elements", edge.edge + 1,
+                      edge.element + 1, elements.corners(), elements.count()));
 }
 
 Vec3 edgeTangent(const ShellElements& elements, const ShellEdge& edge, const EdgeShape& shape) {

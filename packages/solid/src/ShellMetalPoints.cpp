@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "ShellSurface.hpp"
+#include "atrapos/solid/Mitc3Base.hpp"
 #include "atrapos/solid/Mitc4Base.hpp"
 #include "atrapos/solid/ShellPoints.hpp"
 
@@ -43,6 +44,16 @@ void turnBase(const double* base, const std::array<Vec3, 3>& axes, double* to) {
       to[3 * k + i] = axes[k][0] * base[i] + axes[k][1] * base[3 + i] + axes[k][2] * base[6 + i];
 }
 
+template <class Element>
+ShellMetalPoints tiedPointsOf(fem::EnhancedPoints enhanced, int numData) {
+  constexpr int before = 3 * Element::vectors + Element::template Place<double>::numData;
+  return pointsOf(std::move(enhanced), numData,
+                  [](const double* from, const std::array<Vec3, 3>& axes, double* to) {
+                    std::copy_n(from, before, to);
+                    turnBase(from + before, axes, to + before);
+                  });
+}
+
 }  // namespace
 
 ShellMetalPoints shellMetalPoints(const ShellElements& elements, const ShellCubature& cubature, int numData) {
@@ -64,12 +75,12 @@ ShellMetalPoints assumedShearMetalPoints(const ShellElements& elements, const Sh
 
 ShellMetalPoints mitc4MetalPoints(const ShellElements& elements, double poissonRatio,
                                   const ShellCubature& cubature, int numData) {
-  constexpr int before = 21 + Mitc4Place<double>::numData;
-  return pointsOf(mitc4Points(elements, poissonRatio, cubature), numData,
-                  [](const double* from, const std::array<Vec3, 3>& axes, double* to) {
-                    std::copy_n(from, before, to);
-                    turnBase(from + before, axes, to + before);
-                  });
+  return tiedPointsOf<Mitc4>(mitc4Points(elements, poissonRatio, cubature), numData);
+}
+
+ShellMetalPoints mitc3MetalPoints(const ShellElements& elements, double poissonRatio,
+                                  const ShellCubature& cubature, int numData) {
+  return tiedPointsOf<Mitc3>(mitc3Points(elements, poissonRatio, cubature), numData);
 }
 
 }  // namespace atrapos::solid

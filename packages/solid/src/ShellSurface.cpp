@@ -36,9 +36,19 @@ GaussRule gaussRule(int points) {
   }
 }
 
-fem::Face faceOf(int nodes) { return nodes == 4 ? fem::Face::Quad4 : fem::Face::Quad8; }
+fem::Face faceOf(int nodes) {
+  return nodes == 3 ? fem::Face::Tri3 : nodes == 4 ? fem::Face::Quad4 : fem::Face::Quad8;
+}
 
 PlanePoints::PlanePoints(int perDirection, int nodes) {
+  if (nodes == 3) {
+    if (perDirection != 2)
+      throw std::invalid_argument("shell cubature: triangles have three points in the plane");
+    xi = {1.0 / 6, 1.0 / 6, 2.0 / 3, 1.0 / 6, 1.0 / 6, 2.0 / 3};
+    weights.assign(3, 1.0 / 6);
+    table = fem::tabulateFaceAt(fem::Face::Tri3, xi);
+    return;
+  }
   const GaussRule line = gaussRule(perDirection);
   for (int j = 0; j < perDirection; ++j)
     for (int i = 0; i < perDirection; ++i) {

@@ -22,7 +22,7 @@ inline Vec3 unit(const Vec3& a) {
   return {a[0] / size, a[1] / size, a[2] / size};
 }
 
-/// The surface of an element of 8 or 4 nodes.
+/// The surface of an element of 8, 4 or 3 nodes.
 fem::Face faceOf(int nodes);
 
 /// The shape functions of all nodes at a point, and the derivatives of one's by xi and eta.
@@ -40,12 +40,13 @@ struct GaussRule {
 /// 2 to 10 Gauss points of [-1, 1], ascending; throws std::invalid_argument for another number.
 GaussRule gaussRule(int points);
 
-/// The points of a cubature in the plane, xi fastest, with the shape functions there.
+/// The points of a cubature in the plane, xi fastest, with the shape functions there. Triangles have three,
+/// each nearest to a corner, in the order of these.
 struct PlanePoints {
   std::vector<double> xi, weights;  ///< [point][2], [point]
   fem::Tabulation table;
 
-  /// nodes: of the element, 8 or 4.
+  /// nodes: of the element, 8, 4 or 3. Throws std::invalid_argument where a triangle is to have others.
   PlanePoints(int perDirection, int nodes);
   int count() const { return static_cast<int>(weights.size()); }
 };

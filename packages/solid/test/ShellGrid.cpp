@@ -27,18 +27,31 @@ ShellElements ShellGrid::elements() const {
   constexpr int di[8] = {0, 2, 2, 0, 1, 2, 1, 0}, dj[8] = {0, 0, 2, 2, 0, 1, 2, 1};
   ShellElements result;
   result.nodesPerElement = nodesPerElement;
+  // Triangles of a square by its corners, for either diagonal.
+  constexpr int triangles[2][2][3] = {{{0, 1, 2}, {0, 2, 3}}, {{0, 1, 3}, {1, 2, 3}}};
+  std::vector<std::vector<int>> cells;
   for (int ej = 0; ej < nv; ++ej)
     for (int ei = 0; ei < nu; ++ei) {
-      std::vector<int> nodes;
-      for (int a = 0; a < nodesPerElement; ++a) nodes.push_back(node(2 * ei + di[a], 2 * ej + dj[a]));
-      for (int n : nodes) result.nodes.push_back(n);
-      for (int n : nodes) result.nodes.push_back(director(n));
-      for (int n : nodes) {
-        const Vec3 d = D(n);
-        result.midsurface.insert(result.midsurface.end(), x[n].begin(), x[n].end());
-        result.directors.insert(result.directors.end(), d.begin(), d.end());
+      const auto at = [&](int a) { return node(2 * ei + di[a], 2 * ej + dj[a]); };
+      if (nodesPerElement == 3) {
+        for (const auto& corners : triangles[(ei + ej) % 2]) {
+          cells.push_back({});
+          for (int a = 0; a < 3; ++a) cells.back().push_back(at(corners[(a + turn) % 3]));
+        }
+        continue;
       }
+      cells.push_back({});
+      for (int a = 0; a < nodesPerElement; ++a) cells.back().push_back(at(a));
     }
+  for (const std::vector<int>& nodes : cells) {
+    for (int n : nodes) result.nodes.push_back(n);
+    for (int n : nodes) result.nodes.push_back(director(n));
+    for (int n : nodes) {
+      const Vec3 d = D(n);
+      result.midsurface.insert(result.midsurface.end(), x[n].begin(), x[n].end());
+      result.directors.insert(result.directors.end(), d.begin(), d.end());
+    }
+  }
   return result;
 }
 
@@ -67,7 +80,13 @@ std::vector<ShellEdge> ShellGrid::side(int number) const {
   const int count = number % 2 == 0 ? nu : nv;
   for (int k = 0; k < count; ++k) {
     const int i = number == 1 ? nu - 1 : number == 3 ? 0 : k, j = number == 2 ? nv - 1 : number == 0 ? 0 : k;
-    edges.push_back({j * nu + i, number});
+    if (nodesPerElement == 3) {  // triangle of the square and its edge, by diagonal and side
+      constexpr int places[2][4][2] = {{{0, 0}, {0, 1}, {1, 1}, {1, 2}}, {{0, 0}, {1, 0}, {1, 1}, {0, 2}}};
+      const auto& place = places[(i + j) % 2][number];
+      edges.push_back({2 * (j * nu + i) + place[0], (place[1] + 3 - turn) % 3});
+    } else {
+      edges.push_back({j * nu + i, number});
+    }
   }
   return edges;
 }

@@ -19,8 +19,9 @@ using Surface = std::function<SurfacePoint(double s, double t)>;
 /// A map from [0, 1]^2 to parameters: distorts a grid within its surface.
 using Distortion = std::function<std::array<double, 2>(double s, double t)>;
 
-/// nu x nv elements of eight or four nodes on a mid-surface. Nodes have indices (i, j), 0 <= i <= 2 nu,
-/// 0 <= j <= 2 nv, on the lattice of half elements; both odd, with four nodes one of them: no node.
+/// nu x nv elements of eight or four nodes on a mid-surface, or as many squares of two triangles, with
+/// diagonals in turn. Nodes have indices (i, j), 0 <= i <= 2 nu, 0 <= j <= 2 nv, on the lattice of half
+/// elements; both odd, with four or three nodes one of them: no node.
 struct ShellGrid {
   int nu = 0, nv = 0, nodesPerElement = 8;
   std::vector<int> lattice;  ///< [j][i] node, -1 where there is none
@@ -37,6 +38,8 @@ struct ShellGrid {
   std::vector<int> lineJ(int j) const;
 
   ShellElements elements() const;
+  /// The corners of triangles in two squares next to each other come in another order by so many steps.
+  int turn = 0;
   /// Element edges along the outline: side 0: t = 0, 1: s = 1, 2: t = 1, 3: s = 0.
   std::vector<ShellEdge> side(int number) const;
 };

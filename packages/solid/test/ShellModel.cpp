@@ -10,10 +10,13 @@ namespace atrapos::solid::test {
 
 std::unique_ptr<fem::Term> shellTerm(const ShellGrid& grid, const SaintVenantKirchhoff& material,
                                      const ShellCubature& cubature, Shear shear) {
+  const double poisson = material.lambda / (2 * (material.lambda + material.mu));
+  if (shear == Shear::mitc3)
+    return fem::enhancedTerm(fem::pointLaw(Mitc3Law<SaintVenantKirchhoff>{material}),
+                             mitc3Points(grid.elements(), poisson, cubature));
   if (shear == Shear::mitc4)
-    return fem::enhancedTerm(
-        fem::pointLaw(Mitc4Law<SaintVenantKirchhoff>{material}),
-        mitc4Points(grid.elements(), material.lambda / (2 * (material.lambda + material.mu)), cubature));
+    return fem::enhancedTerm(fem::pointLaw(Mitc4Law<SaintVenantKirchhoff>{material}),
+                             mitc4Points(grid.elements(), poisson, cubature));
   if (shear == Shear::assumed)
     return fem::enhancedTerm(fem::pointLaw(AssumedShearLaw<SaintVenantKirchhoff>{material}),
                              assumedShearPoints(grid.elements(), cubature));

@@ -100,10 +100,11 @@ double morley(int n, double thickness, double p, Shear shear = Shear::compatible
 
 /// A clamped square plate of side 1 under a uniform load, one quarter: relative error of the central
 /// deflection, 1.265319087e-3 q a^4/D in thin theory (series of Timoshenko and Woinowsky-Krieger, to ten
-/// digits by Taylor and Govindjee 2004).
-double clampedPlateError(int n, double t, Shear shear = Shear::compatible) {
+/// digits by Taylor and Govindjee 2004). shake: how far corners are off, of the elements' size.
+double clampedPlateError(int n, double t, Shear shear = Shear::compatible, double shake = 0) {
   const double E = 1e12;
-  const ShellGrid grid = shellGrid(n, n, t, flat(0.5, 0.5), undistorted, nodesOf(shear));
+  const ShellGrid grid =
+      shaken(shellGrid(n, n, t, flat(0.5, 0.5), undistorted, nodesOf(shear)), shake * 0.5 / n);
   fem::FeModel model = shellModel(grid, SaintVenantKirchhoff::fromYoung(E, 0.3), {}, shear);
   symmetric(model, grid, grid.lineI(0), 'x');
   symmetric(model, grid, grid.lineJ(0), 'y');
@@ -319,5 +320,32 @@ TEST(FourNodes, BendingInThePlane) {
   for (double skew : {0.0, 0.5}) {
     EXPECT_NEAR(bentInPlane(1, skew, Shear::mitc4), 1, 1e-5) << skew;
     EXPECT_NEAR(bentInPlane(5, skew, Shear::mitc4), 1, 1e-5) << skew;
+  }
+}
+
+// Three nodes, squares of two triangles. Bounds: the errors measured (docs/shells.md), half as much again.
+TEST(ThreeNodes, Benchmarks) {
+  const Shear three = Shear::mitc3;
+  const double roof = 0.3014, fine = scordelisLo(32, three), medium = scordelisLo(16, three);
+  EXPECT_NEAR(fine, roof, 0.016 * roof);
+  EXPECT_GT(std::log2((roof - medium) / (roof - fine)), 1.5);
+  EXPECT_NEAR(pinchedCylinder(32, three), 1.8248e-5, 0.05 * 1.8248e-5);
+  EXPECT_NEAR(hemisphere(16, {}, three), 0.0935, 0.02 * 0.0935);
+  EXPECT_NEAR(hemisphere(32, {}, three), 0.0935, 0.01 * 0.0935);
+  EXPECT_NEAR(morley(32, 0.01, 1, three), 4.0786e-4, 0.01 * 4.0786e-4);
+  EXPECT_NEAR(cook(32, three), 23.96, 0.02 * 23.96);  // constant strains in the plane
+}
+
+// No locking whatever the thickness, and order 2; also where corners are off by up to a fifth of the
+// elements' size.
+TEST(ThreeNodes, ClampedPlate) {
+  for (double t : {1e-3, 1e-5}) {
+    const double e4 = clampedPlateError(4, t, Shear::mitc3), e8 = clampedPlateError(8, t, Shear::mitc3),
+                 e16 = clampedPlateError(16, t, Shear::mitc3);
+    EXPECT_NEAR(e4, 0, 0.1) << t;
+    EXPECT_NEAR(std::log2(e4 / e8), 2, 0.1) << t;
+    EXPECT_NEAR(std::log2(e8 / e16), 2, 0.1) << t;
+    EXPECT_NEAR(clampedPlateError(8, t, Shear::mitc3, 0.2), 0, 0.04) << t;
+    EXPECT_NEAR(clampedPlateError(16, t, Shear::mitc3, 0.2), 0, 0.01) << t;
   }
 }

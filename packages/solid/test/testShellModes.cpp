@@ -109,6 +109,20 @@ TEST(ShellModes, AssumedShear) {
   }
 }
 
+// Three nodes: no others either.
+TEST(ShellModes, ThreeNodes) {
+  for (double nu : {0.0, 0.3}) {
+    const auto count = [&](const ShellGrid& grid) {
+      return zeros(eigenvalues(grid, reduced, nu, Shear::mitc3));
+    };
+    EXPECT_EQ(count(flatGrid(1, 1, 0.1, 3)), rigid);
+    EXPECT_EQ(count(skewQuadrilateral(3)), rigid);
+    EXPECT_EQ(count(arc(1, 3)), rigid);
+    EXPECT_EQ(count(flatGrid(3, 3, 0.01, 3)), rigid);
+    EXPECT_EQ(count(shaken(flatGrid(2, 2, 0.1, 3), 0.2)), rigid);
+  }
+}
+
 // Four nodes: one element alone has no others either.
 TEST(ShellModes, FourNodes) {
   for (double nu : {0.0, 0.3}) {

@@ -68,7 +68,10 @@ fem::FeModel curvedModel(const Material& material, int nodes = 8) {
   const ShellGrid grid = curvedGrid(nodes);
   fem::FeModel model;
   model.dofs = fem::DofMap::displacements(2 * grid.numNodes());
-  if (nodes == 4)
+  if (nodes == 3)
+    model.terms.push_back(
+        fem::enhancedTerm(fem::pointLaw(Mitc3Law<Material>{material}), mitc3Points(grid.elements(), 0.3)));
+  else if (nodes == 4)
     model.terms.push_back(
         fem::enhancedTerm(fem::pointLaw(Mitc4Law<Material>{material}), mitc4Points(grid.elements(), 0.3)));
   else
@@ -131,6 +134,14 @@ TEST(AssumedShearOrders, TangentAndOrders) {
   expectOrders(problem, u, 0.4);
 }
 
+TEST(Mitc3Orders, TangentAndOrders) {
+  fem::FeModel model = curvedModel(UnsymmetricMaterial{}, 3);
+  const Numbers u = randomState(model, 0.02, 17), direction = randomState(model, 0.02, 18);
+  fem::FeProblem problem(std::move(model));
+  expectTangent(problem, u, direction, 0);
+  expectOrders(problem, u, 0.4);
+}
+
 TEST(Mitc4Orders, TangentAndOrders) {
   fem::FeModel model = curvedModel(UnsymmetricMaterial{}, 4);
   const Numbers u = randomState(model, 0.02, 17), direction = randomState(model, 0.02, 18);
@@ -139,13 +150,14 @@ TEST(Mitc4Orders, TangentAndOrders) {
   expectOrders(problem, u, 0.4);
 }
 
-// The tangent of a material with an energy is symmetric on any quadrilaterals, warped ones too.
-TEST(Mitc4Orders, TangentIsSymmetric) {
-  ShellGrid grid = curvedGrid(4);
+// The tangent of a material with an energy is symmetric on any quadrilaterals, warped ones too, and
+// triangles.
+void expectSymmetry(Shear shear) {
+  ShellGrid grid = curvedGrid(nodesOf(shear));
   const Numbers moves = randomNumbers(3 * grid.numNodes(), 0.05, 9);
   for (int n = 0; n < grid.numNodes(); ++n)
     for (int i = 0; i < 3; ++i) grid.x[n][i] += moves[3 * n + i];
-  fem::FeProblem problem(shellModel(grid, SaintVenantKirchhoff::fromYoung(1, 0.3), {}, Shear::mitc4));
+  fem::FeProblem problem(shellModel(grid, SaintVenantKirchhoff::fromYoung(1, 0.3), {}, shear));
   const Numbers u = randomNumbers(6 * grid.numNodes(), 0.02, 1), a = randomNumbers(u.size(), 1, 2),
                 b = randomNumbers(u.size(), 1, 3);
   const Tangent K = tangent(problem, u, 0);
@@ -153,6 +165,8 @@ TEST(Mitc4Orders, TangentIsSymmetric) {
   EXPECT_NEAR(aKb, bKa, 1e-13 * norm(a) * norm(K.times(b)));  // rounding of the sums
   EXPECT_GT(std::abs(aKb), 1e-6);
 }
+TEST(Mitc4Orders, TangentIsSymmetric) { expectSymmetry(Shear::mitc4); }
+TEST(Mitc3Orders, TangentIsSymmetric) { expectSymmetry(Shear::mitc3); }
 
 // The enhanced parameters depend on the state alone: the same bits after any other state.
 TYPED_TEST(ShellOrders, ResidualHasNoMemory) {

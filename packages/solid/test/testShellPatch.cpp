@@ -68,8 +68,7 @@ Numbers bent(const ShellGrid& grid, const Vec3& k) {
 }
 
 /// The linear problem with the outline driven to `exact`: largest error inside, in units of the largest u.
-double patchError(const ShellGrid& grid, const Numbers& exact, Shear shear = Shear::compatible) {
-  fem::FeModel model = shellModel(grid, material, {}, shear);
+double patchError(fem::FeModel model, const ShellGrid& grid, const Numbers& exact) {
   const auto outer = outline(grid);
   for (int n = 0; n < grid.numNodes(); ++n)
     for (int i = 0; i < 3 && outer[n]; ++i) {
@@ -79,6 +78,10 @@ double patchError(const ShellGrid& grid, const Numbers& exact, Shear shear = She
   fem::FeProblem problem(std::move(model));
   EXPECT_GT(problem.numFreeDofs(), 0);
   return largest(sum(linearSolution(problem), -1, exact)) / largest(exact);
+}
+
+double patchError(const ShellGrid& grid, const Numbers& exact, Shear shear = Shear::compatible) {
+  return patchError(shellModel(grid, material, {}, shear), grid, exact);
 }
 
 /// Strain energy u.K u/2 of the linear element.
@@ -145,7 +148,8 @@ void expectHomogeneousState(Shear shear) {
   double expected[6];
   material.observe(A.data(), nullptr, expected);
   const auto seen = problem.term(0).observe(fem::field(*vectorOf(problem, u)), 0);
-  ASSERT_EQ(seen.values.size(), 9u * 8 * 6);
+  const std::size_t points = shear == Shear::mitc3 ? 18 * 6 : 9 * 8;
+  ASSERT_EQ(seen.values.size(), points * 6);
   double worst = 0;
   for (std::size_t i = 0; i < seen.values.size(); ++i)
     worst = std::max(worst, std::abs(seen.values[i] - expected[i % 6]));
@@ -155,11 +159,12 @@ void expectHomogeneousState(Shear shear) {
 TEST(ShellPatch, HomogeneousStateOnQuadrilaterals) { expectHomogeneousState(Shear::compatible); }
 TEST(ShellPatch, HomogeneousStateWithAssumedShear) { expectHomogeneousState(Shear::assumed); }
 TEST(ShellPatch, HomogeneousStateWithFourNodes) { expectHomogeneousState(Shear::mitc4); }
+TEST(ShellPatch, HomogeneousStateWithThreeNodes) { expectHomogeneousState(Shear::mitc3); }
 
 // Constant bending and twist: exact on parallelograms.
 TEST(ShellPatch, BendingAndTwistOnParallelograms) {
   // Linear solutions on a thin mesh: rounding times (1/thickness)^2 times a few nodes.
-  for (Shear shear : {Shear::compatible, Shear::assumed, Shear::mitc4}) {
+  for (Shear shear : {Shear::compatible, Shear::assumed, Shear::mitc4, Shear::mitc3}) {
     const ShellGrid grid = parallelograms(shear);
     EXPECT_LT(patchError(grid, bent(grid, {1, 0, 0}), shear), 1e-11);
     EXPECT_LT(patchError(grid, bent(grid, {0, 1, 0}), shear), 1e-11);
@@ -192,6 +197,58 @@ TEST(ShellPatch, BendingOfFourNodesOnQuadrilaterals) {
     EXPECT_LT(patchError(grid, bent(grid, k), Shear::mitc4), 1e-11);
 }
 
+// Three nodes: the same on any triangles, whichever corners come first.
+TEST(ShellPatch, BendingOfThreeNodesOnTriangles) {
+  ShellGrid grid = quadrilaterals(Shear::mitc3);
+  for (grid.turn = 0; grid.turn < 3; ++grid.turn)
+    for (const Vec3& k : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}})
+      EXPECT_LT(patchError(grid, bent(grid, k), Shear::mitc3), 1e-11);  // rounding times (1/t)^2
+}
+
+ShellElements some(const ShellElements& all, const std::vector<int>& which) {
+  ShellElements result;
+  const int N = result.nodesPerElement = all.nodesPerElement;
+  for (const int e : which) {
+    result.nodes.insert(result.nodes.end(), &all.nodes[2 * N * e], &all.nodes[2 * N * e] + 2 * N);
+    result.midsurface.insert(result.midsurface.end(), all.R(e), all.R(e) + 3 * N);
+    result.directors.insert(result.directors.end(), all.D(e), all.D(e) + 3 * N);
+  }
+  return result;
+}
+
+// Squares of one SHELL4 and of two SHELL3 in turn: the same constant bending, and the same membrane.
+TEST(ShellPatch, MixedThreeAndFourNodes) {
+  ShellGrid grid = quadrilaterals(Shear::mitc4);
+  const ShellElements four = some(grid.elements(), {0, 2, 4, 6, 8});
+  grid.nodesPerElement = 3;
+  const ShellElements three = some(grid.elements(), {2, 3, 6, 7, 10, 11, 14, 15});
+  Matrix small{1e-3, 2e-4, 0, -4e-4, 5e-4, 0, 0, 0, 0};
+  small[8] = -0.3 / 0.7 * (small[0] + small[4]);  // S_33 = 0
+  for (const Numbers& exact : {bent(grid, {1, 0, 0}), bent(grid, {0, 0, 1}), homogeneous(grid, small)}) {
+    fem::FeModel model = shellModel(grid, material, {}, Shear::mitc3);
+    model.terms.clear();
+    model.terms.push_back(
+        fem::enhancedTerm(fem::pointLaw(Mitc4Law<SaintVenantKirchhoff>{material}), mitc4Points(four, 0.3)));
+    model.terms.push_back(
+        fem::enhancedTerm(fem::pointLaw(Mitc3Law<SaintVenantKirchhoff>{material}), mitc3Points(three, 0.3)));
+    EXPECT_LT(patchError(std::move(model), grid, exact), 1e-11);
+  }
+}
+
+// The forces of any state do not depend on which corners come first.
+TEST(ShellPatch, TrianglesHaveNoFirstCorner) {
+  ShellGrid grid = shaken(shellGrid(3, 3, thickness, flat(1, 1), undistorted, 3), 0.08);
+  const Numbers u = randomNumbers(6 * grid.numNodes(), 0.01, 5);
+  const auto forces = [&](int turn) {
+    grid.turn = turn;
+    fem::FeProblem problem(shellModel(grid, material, {}, Shear::mitc3));
+    return residual(problem, u, 0).r;
+  };
+  const Numbers first = forces(0);
+  EXPECT_GT(largest(first), 1e-3);
+  for (int turn : {1, 2}) EXPECT_LT(largest(sum(forces(turn), -1, first)) / largest(first), 1e-12);
+}
+
 // Energy of constant bending = that of the plate, D ((kx + ky)^2 - 2 (1 - nu)(kx ky - kxy^2))/2 per area,
 // D = E t^3/(12 (1 - nu^2)). Without the enhanced strain the thickness would lock: the factor (1 - nu)^2/(1 -
 // 2 nu) = 1.225 at nu = 0.3.
@@ -207,7 +264,7 @@ TEST(ShellPatch, PlateStiffness) {
 
 // Rotations of any angle cost nothing, on curved and distorted elements.
 TEST(ShellPatch, FiniteRotationCostsNoForce) {
-  for (Shear shear : {Shear::compatible, Shear::assumed, Shear::mitc4}) {
+  for (Shear shear : {Shear::compatible, Shear::assumed, Shear::mitc4, Shear::mitc3}) {
     for (const ShellGrid& grid : {quadrilaterals(shear), shellGrid(2, 2, thickness, cylinder(1, 0, 1, 0, 1),
                                                                    undistorted, nodesOf(shear))}) {
       fem::FeProblem problem(shellModel(grid, material, {}, shear));

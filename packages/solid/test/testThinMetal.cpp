@@ -12,10 +12,10 @@
 #include "atrapos/fem/LawTerm.hpp"
 #include "atrapos/fem/ReferenceCell.hpp"
 #include "atrapos/fem/StructuredPlane.hpp"
-#include "atrapos/solid/Mitc4Metal.hpp"
 #include "atrapos/solid/PlaneBody.hpp"
 #include "atrapos/solid/ShellMetal.hpp"
 #include "atrapos/solid/ShellResults.hpp"
+#include "atrapos/solid/TiedShellMetal.hpp"
 #include "atrapos/solid/VonMises.hpp"
 #include "support/Meshes.hpp"
 #include "support/Vectors.hpp"
@@ -148,6 +148,10 @@ fem::FeProblem square(const Metal& m) {
 /// The term of a metal in a shell.
 std::unique_ptr<fem::Term> metalTerm(const ShellGrid& grid, const Metal& m, int layers, Shear shear) {
   const ShellCubature cubature{2, layers};
+  if (shear == Shear::mitc3) {
+    const auto at = mitc3MetalPoints(grid.elements(), nu, cubature, Mitc3Metal<true>::numData);
+    return fem::lawTerm(fem::pointLaw(Mitc3Metal<true>{m}), at.points, at.data);
+  }
   if (shear == Shear::mitc4) {
     const auto at = mitc4MetalPoints(grid.elements(), nu, cubature, Mitc4Metal<true>::numData);
     return fem::lawTerm(fem::pointLaw(Mitc4Metal<true>{m}), at.points, at.data);
@@ -193,7 +197,7 @@ TEST(ThinMetal, BarsAreUniaxial) {
     EXPECT_EQ(out.outcome.events, 1);  // all points at once
     expectBar(problem, out.steps, {m});
   }
-  for (const Shear shear : {Shear::compatible, Shear::assumed, Shear::mitc4}) {
+  for (const Shear shear : {Shear::compatible, Shear::assumed, Shear::mitc4, Shear::mitc3}) {
     const ShellGrid grid = shellGrid(2, 1, 0.1, flat(1, 1), undistorted, nodesOf(shear));
     fem::FeModel model;
     model.dofs = fem::DofMap::displacements(2 * grid.numNodes());

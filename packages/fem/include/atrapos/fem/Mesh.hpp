@@ -7,9 +7,9 @@ namespace atrapos::fem {
 
 /// Cell shapes with their node count; node and side order are those of Exodus II (= Shards).
 ///
-/// Shells are quadrilaterals in space, given by their middle surface. Their sides are: 1 the top face, whose
-/// outward normal is that of the node order (counter-clockwise seen from the tip of the normal); 2 the bottom
-/// face; 3 to 6 the edges from corner 1 to 2, 2 to 3, 3 to 4, 4 to 1.
+/// Shells are quadrilaterals and triangles in space, given by their middle surface. Their sides are: 1 the
+/// top face, whose outward normal is that of the node order (counter-clockwise seen from the tip of the
+/// normal); 2 the bottom face; 3 to 6 (3 to 5) the edges from corner 1 to 2, 2 to 3, 3 to 4, 4 to 1 (3 to 1).
 ///
 /// Plane cells (quadrilaterals and triangles) are the cross-sections of plane bodies, in the plane of x and
 /// y; their sides are their edges, counter-clockwise.
@@ -21,6 +21,7 @@ enum class Topology {
   Tet10,
   Wedge6,
   Wedge15,
+  Shell3,
   Shell4,
   Shell8,
   Shell9,
@@ -93,11 +94,14 @@ struct Mesh {
   }
 };
 
+/// Corners of a shell: 3 or 4.
+int shellCorners(Topology topology);
+
 /// Number of nodes of a cell.
 int nodesPerElement(Topology topology);
 
-/// Exodus' name of a cell type: HEX8, HEX20, HEX27, TET4, TET10, WEDGE6, WEDGE15, SHELL4, SHELL8, SHELL9,
-/// QUAD4, QUAD8, QUAD9, TRI3, TRI6.
+/// The name of a cell type, Exodus' but for SHELL3 (TRISHELL3): SHELL3, HEX8, HEX20, HEX27, TET4, TET10,
+/// WEDGE6, WEDGE15, SHELL4, SHELL8, SHELL9, QUAD4, QUAD8, QUAD9, TRI3, TRI6.
 const char* topologyName(Topology topology);
 
 /// Position of the block, node set or side set with this name or (decimal) id; -1 where there is none.

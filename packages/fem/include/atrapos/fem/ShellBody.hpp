@@ -7,11 +7,11 @@
 
 namespace atrapos::fem {
 
-/// The bodies of shells as a mesh of solids, for pictures and for comparison with solids: SHELL4 becomes
-/// HEX8, SHELL8 HEX20 and SHELL9 HEX27, each with exactly the shape X = R + zeta D of the shell. Blocks, sets
-/// and ids are those of the mesh, and so are its nodes, which stand on the middle surface; the sides of sets
-/// become those of the solids. Elements of different thickness at a common director have its mean thickness
-/// there.
+/// The bodies of shells as a mesh of solids, for pictures and for comparison with solids: SHELL3 becomes
+/// WEDGE6, SHELL4 HEX8, SHELL8 HEX20 and SHELL9 HEX27, each with exactly the shape X = R + zeta D of the
+/// shell. Blocks, sets and ids are those of the mesh, and so are its nodes, which stand on the middle
+/// surface; the sides of sets become those of the solids. Elements of different thickness at a common
+/// director have its mean thickness there.
 struct ShellBody {
   Mesh mesh;
   int numMeshNodes = 0;  ///< of the shells; then come bottom and top of each director

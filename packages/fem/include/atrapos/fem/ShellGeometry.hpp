@@ -20,7 +20,8 @@ struct PrescribedDirector {
 
 struct ShellGeometryOptions {
   /// Degrees, in (0, 180). Faces at a node whose normals differ by at most this angle, directly or by way of
-  /// others there, share one director: the mean of their unit normals, as long as the mitre of the fold asks.
+  /// others there, share one director: the mean of their unit normals (where triangles are by the angles of
+  /// their corners), as long as the mitre of the fold asks.
   /// Where more than two elements meet at an edge the angle is 45 degrees at most.
   /// Other faces have directors of their own and share the displacement of the node only: a hinge, until
   /// joinShells makes it a rigid joint (ShellJoints.hpp).

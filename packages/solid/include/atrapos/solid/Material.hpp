@@ -2,8 +2,8 @@
 
 #include "atrapos/fem/PointLaw.hpp"
 #include "atrapos/solid/AssumedShearLaw.hpp"
-#include "atrapos/solid/Mitc4Law.hpp"
 #include "atrapos/solid/ShellLaw.hpp"
+#include "atrapos/solid/TiedShellLaw.hpp"
 
 /// A material of solids is a law of the displacement gradient (taylor/Law.hpp: H to the first Piola-Kirchhoff
 /// stress, 9 each by rows) with `template <class T> taylor::Symmetric3<T> secondPiola(const
@@ -14,10 +14,12 @@
   ATRAPOS_DECLARE_POINT_LAW(M)                                  \
   ATRAPOS_DECLARE_POINT_LAW(atrapos::solid::ShellLaw<M>)        \
   ATRAPOS_DECLARE_POINT_LAW(atrapos::solid::AssumedShearLaw<M>) \
-  ATRAPOS_DECLARE_POINT_LAW(atrapos::solid::Mitc4Law<M>)
+  ATRAPOS_DECLARE_POINT_LAW(atrapos::solid::Mitc4Law<M>)        \
+  ATRAPOS_DECLARE_POINT_LAW(atrapos::solid::Mitc3Law<M>)
 
 #define ATRAPOS_MATERIAL(M)                             \
   ATRAPOS_POINT_LAW(M)                                  \
   ATRAPOS_POINT_LAW(atrapos::solid::ShellLaw<M>)        \
   ATRAPOS_POINT_LAW(atrapos::solid::AssumedShearLaw<M>) \
-  ATRAPOS_POINT_LAW(atrapos::solid::Mitc4Law<M>)
+  ATRAPOS_POINT_LAW(atrapos::solid::Mitc4Law<M>)        \
+  ATRAPOS_POINT_LAW(atrapos::solid::Mitc3Law<M>)

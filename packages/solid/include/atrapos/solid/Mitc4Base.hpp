@@ -1,6 +1,6 @@
 #pragma once
 
-#include "atrapos/solid/ShellBase.hpp"
+#include "atrapos/solid/TiedPoint.hpp"
 
 /// Algebra of the four-node shell's assumed strains (docs/theory/shell_mitc4.md). An element has seven
 /// vectors,
@@ -8,8 +8,7 @@
 ///     a = x_,xi and b = x_,eta at the centre, m = x_,xi eta of its middle surface, directors d_1 ... d_4 of
 ///     its corners,
 ///
-/// of which every point makes fourteen, and thirteen products of these are all its strains. Sums over
-/// Cartesian components are made one component at a time: more would not stay in registers.
+/// of which every point makes fourteen, and thirteen products of these are all its strains.
 namespace atrapos::solid {
 
 /// What a law of a four-node shell keeps of a point.
@@ -25,44 +24,6 @@ struct Mitc4Place {
 };
 
 namespace detail {
-
-// The vectors of a point: g_1, g_2, m + zeta d_,xi eta, d_,eta at xi = 0, d at xi = 0, d at eta = 0,
-// d_1 ... d_4, a, b, h (the hourglass part of m), d_,xi at eta = 0.
-constexpr int mitc4Vectors = 14, mitc4Products = 13;
-
-/// The pairs whose products strains are made of; equal ones count half.
-constexpr int mitc4Pairs[mitc4Products][2] = {{0, 0}, {1, 1}, {0, 1}, {0, 4},   {1, 5},   {2, 3}, {6, 6},
-                                              {7, 7}, {8, 8}, {9, 9}, {10, 12}, {11, 12}, {2, 13}};
-constexpr bool mitc4Square(int product) { return mitc4Pairs[product][0] == mitc4Pairs[product][1]; }
-
-constexpr auto listMitc4ProductTerms() {
-  taylor::detail::TermList<mitc4Products> t;
-  for (int m = 0; m < mitc4Products; ++m) t.add(m, mitc4Pairs[m][0], mitc4Pairs[m][1]);
-  return t.terms;
-}
-/// Of one component.
-struct Mitc4ProductTerms {
-  static constexpr bool ofOneBlock = true;
-  static constexpr int numLeft = mitc4Vectors, numRight = mitc4Vectors, numOut = mitc4Products;
-  static constexpr bool onlySquares(int out) { return mitc4Square(out); }
-  static constexpr auto list = listMitc4ProductTerms();
-};
-
-/// sum over the pairs (a, b) of s_m (a_p at b, a_q at a); a square counts once
-constexpr auto listMitc4ForceTerms() {
-  taylor::detail::TermList<20> t;
-  for (int m = 0; m < mitc4Products; ++m) {
-    const int a = mitc4Pairs[m][0], b = mitc4Pairs[m][1];
-    t.add(a, b, m);
-    if (a != b) t.add(b, a, m);
-  }
-  return t.terms;
-}
-struct Mitc4ForceTerms {
-  static constexpr bool ofOneBlock = false;
-  static constexpr int numLeft = mitc4Vectors, numRight = mitc4Products, numOut = mitc4Vectors;
-  static constexpr auto list = listMitc4ForceTerms();
-};
 
 /// From the element's seven vectors to the point's fourteen, of one component.
 template <class P>
@@ -154,24 +115,7 @@ struct Mitc4Weights {
   }
 };
 
-/// What changes of products have that is linear in the changes h of the vectors G at rest.
-template <class P>
-struct Mitc4LinearProducts {
-  const P* G;
-  template <class V>
-  KOKKOS_FORCEINLINE_FUNCTION void operator()(const V* h, V* c) const {
-    ATRAPOS_UNROLL
-    for (int m = 0; m < mitc4Products; ++m) {
-      const int a = mitc4Pairs[m][0], b = mitc4Pairs[m][1];
-      if (a == b)
-        c[m] = G[a] * h[a];
-      else
-        c[m] = G[a] * h[b] + G[b] * h[a];
-    }
-  }
-};
-
-/// The forces of Mitc4ForceTerms with passive G in place of the vectors.
+/// The forces of TiedForceTerms with passive G in place of the vectors.
 template <class P>
 struct Mitc4LinearForces {
   const P* G;
@@ -192,95 +136,33 @@ struct Mitc4LinearForces {
   }
 };
 
-/// v_i x A^i, by rows, of the vectors (x + zeta d)_,xi, (x + zeta d)_,eta, d at a point: with their changes
-/// the displacement gradient, with the vectors the deformation gradient.
-KOKKOS_INLINE_FUNCTION void mitc4Gradient(const double* vectors, const double* place, const double* A,
-                                          double* gradient) {
-  const Mitc4Place<double> at{place};
-  for (int i = 0; i < 3; ++i) {
-    double v[mitc4Vectors], d = 0;
-    Mitc4Spread<double>{at}(vectors + 7 * i, v);
-    for (int a = 0; a < 4; ++a) d += mitc4Shape(at, a) * v[6 + a];
-    for (int k = 0; k < 3; ++k)
-      gradient[3 * i + k] = v[0] * A[3 * k] + v[1] * A[3 * k + 1] + d * A[3 * k + 2];
-  }
-}
-
-/// Squares count half.
-struct Mitc4HalveSquares {
-  template <class V>
-  KOKKOS_FORCEINLINE_FUNCTION void operator()(const V* linear, const V* products, V* c) const {
-    ATRAPOS_UNROLL
-    for (int m = 0; m < mitc4Products; ++m) {
-      if (mitc4Square(m))
-        c[m] = linear[m] + 0.5 * products[m];
-      else
-        c[m] = linear[m] + products[m];
-    }
-  }
-};
-
 }  // namespace detail
 
-/// The fourteen vectors of a point and what they do.
-template <class T>
-class Mitc4Point {
-  using P = taylor::Passive<T>;
-  static constexpr int N = detail::mitc4Vectors, M = detail::mitc4Products;
+/// The Element of TiedPoint. Vectors of a point: g_1, g_2, m + zeta d_,xi eta, d_,eta at xi = 0, d at xi = 0,
+/// d at eta = 0, d_1 ... d_4, a, b, h (the hourglass part of m), d_,xi at eta = 0.
+struct Mitc4 {
+  static constexpr int vectors = 7, spread = 14;
+  static constexpr int pairs[][2] = {{0, 0}, {1, 1}, {0, 1}, {0, 4},   {1, 5},   {2, 3}, {6, 6},
+                                     {7, 7}, {8, 8}, {9, 9}, {10, 12}, {11, 12}, {2, 13}};
+  template <class P>
+  using Place = Mitc4Place<P>;
+  template <class P>
+  using Spread = detail::Mitc4Spread<P>;
+  template <class P>
+  using Gather = detail::Mitc4Gather<P>;
+  template <class P>
+  using Strain = detail::Mitc4Strain<P>;
+  template <class P>
+  using Weights = detail::Mitc4Weights<P>;
+  template <class P>
+  using LinearForces = detail::Mitc4LinearForces<P>;
 
- public:
-  /// change: of the element's seven vectors, which atRest has at rest ([component][vector], 21); place of the
-  /// point.
-  KOKKOS_FORCEINLINE_FUNCTION Mitc4Point(const T* change, const P* atRest, const P* place) : place_{place} {
-    ATRAPOS_UNROLL
-    for (int k = 0; k < 3; ++k) {
-      const detail::Mitc4Spread<P> spread{place_};
-      spread(atRest + 7 * k, rest_[k]);
-      taylor::detail::linear(spread, taylor::detail::Tensor<T, 7>(change + 7 * k), h_[k]);
-    }
+  /// The director of one component.
+  KOKKOS_INLINE_FUNCTION static double director(const Place<double>& at, const double* v) {
+    double d = 0;
+    for (int a = 0; a < 4; ++a) d += detail::mitc4Shape(at, a) * v[6 + a];
+    return d;
   }
-
-  /// Green-Lagrange strain in the components of the contravariant base A, [axis][direction].
-  KOKKOS_FORCEINLINE_FUNCTION taylor::Symmetric3<T> strain(const P* A) const {
-    taylor::detail::Tensor<T, M> sums[3];
-    ATRAPOS_UNROLL
-    for (int k = 0; k < 3; ++k) {
-      taylor::detail::Tensor<T, M> linear, products;
-      taylor::detail::linear(detail::Mitc4LinearProducts<P>{rest_[k]}, h_[k], linear);
-      taylor::detail::bilinear<detail::Mitc4ProductTerms>(h_[k], h_[k], products);
-      taylor::detail::linear(detail::Mitc4HalveSquares{}, linear, products, sums[k]);
-    }
-    taylor::detail::Tensor<T, M> two, changes;
-    taylor::detail::linear(taylor::detail::Plus<M>{}, sums[0], sums[1], two);
-    taylor::detail::linear(taylor::detail::Plus<M>{}, two, sums[2], changes);
-    taylor::Symmetric3<T> convected, E;
-    taylor::detail::linear(detail::Mitc4Strain<P>{place_}, changes, convected);
-    taylor::detail::linear(detail::ToCartesian<P>{A}, convected, E);
-    return E;
-  }
-
-  /// Work conjugates of the seven vectors for the second Piola-Kirchhoff stress, to out[21].
-  KOKKOS_FORCEINLINE_FUNCTION void forces(const taylor::Symmetric3<T>& S, const P* A, T* out) const {
-    taylor::Symmetric3<T> convected;
-    taylor::detail::Tensor<T, M> weights;
-    taylor::detail::linear(detail::ToConvected<P>{A}, S, convected);
-    taylor::detail::linear(detail::Mitc4Weights<P>{place_}, convected, weights);
-    ATRAPOS_UNROLL
-    for (int k = 0; k < 3; ++k) {
-      taylor::detail::Tensor<T, N> constant, product, sum;
-      taylor::detail::linear(detail::Mitc4LinearForces<P>{rest_[k]}, weights, constant);
-      taylor::detail::bilinear<detail::Mitc4ForceTerms>(h_[k], weights, product);
-      taylor::detail::linear(taylor::detail::Plus<N>{}, constant, product, sum);
-      taylor::detail::Tensor<T, 7> f;
-      taylor::detail::linear(detail::Mitc4Gather<P>{place_}, sum, f);
-      f.store(out + 7 * k);
-    }
-  }
-
- private:
-  Mitc4Place<P> place_;
-  P rest_[3][N];
-  taylor::detail::Tensor<T, N> h_[3];
 };
 
 }  // namespace atrapos::solid

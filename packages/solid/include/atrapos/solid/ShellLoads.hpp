@@ -14,7 +14,7 @@ namespace atrapos::solid {
 /// Surfaces of a shell by their zeta.
 constexpr double bottomSurface = -1, midSurface = 0, topSurface = 1;
 
-/// Edge 0..3 of an element (counted from 0): between the corners edge and edge + 1.
+/// Edge 0..3 (triangles: 0..2) of an element (counted from 0): between the corners edge and edge + 1.
 struct ShellEdge {
   int element = 0, edge = 0;
 };

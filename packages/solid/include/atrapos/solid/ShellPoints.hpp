@@ -6,10 +6,11 @@
 
 namespace atrapos::solid {
 
-/// Shell elements of eight or four nodes as FeProblem sees them: every node of the mid-surface has a node for
-/// its displacement v and one for the displacement w of its director, x = X + v + zeta w.
+/// Shell elements of eight, four or three nodes as FeProblem sees them: every node of the mid-surface has a
+/// node for its displacement v and one for the displacement w of its director, x = X + v + zeta w.
 ///
-/// Nodes in Exodus' order of SHELL8 and SHELL4: corners, then the middles of the edges 1-2, 2-3, 3-4, 4-1.
+/// Nodes in Exodus' order of SHELL8, SHELL4 and TRISHELL3: corners, then the middles of the edges 1-2, 2-3,
+/// 3-4, 4-1.
 struct ShellElements {
   std::vector<int> nodes;          ///< [element][2 N]: N nodes of v, then those of w
   std::vector<double> midsurface;  ///< [element][N][3] R, length
@@ -18,8 +19,9 @@ struct ShellElements {
   /// [element][N] the element's own director over that of the node, whose displacement is w: elements of
   /// different thickness may share a director. Empty: 1 everywhere.
   std::vector<double> directorScale;
-  int nodesPerElement = 8;  ///< N, 8 or 4
+  int nodesPerElement = 8;  ///< N, 8, 4 or 3
 
+  int corners() const { return nodesPerElement == 3 ? 3 : 4; }
   int count() const { return static_cast<int>(nodes.size()) / (2 * nodesPerElement); }
   double scale(int element, int a) const {
     return directorScale.empty() ? 1.0 : directorScale[at(element) + a];
@@ -36,15 +38,18 @@ struct ShellElements {
 
 /// Cubature of a shell element: Gauss points along each reference coordinate.
 struct ShellCubature {
-  int inPlane = 2;           ///< along xi and eta; 2: reduced, 3: full
+  int inPlane = 2;           ///< along xi and eta; 2: reduced, 3: full; triangles have three points for 2
   int throughThickness = 2;  ///< along zeta, up to 10
 };
 
-/// Parameters of the enhanced thickness strain: beta in span{1, xi, eta, xi eta}.
-constexpr int numShellParameters = 4;
+/// Points in the plane of an element of so many nodes.
+inline int pointsInPlane(const ShellCubature& cubature, int nodesPerElement) {
+  return nodesPerElement == 3 ? 3 : cubature.inPlane * cubature.inPlane;
+}
 
 /// For fem::enhancedTerm with the law ShellLaw<Material>: gradients of N_a and zeta N_a with respect to X = R
-/// + zeta D, volume weights, modes zeta {1, xi, eta, xi eta} and the scaled base vector g
+/// + zeta D, volume weights, modes zeta {1, xi, eta, xi eta}
+/// (triangles: without the last) and the scaled base vector g
 /// (docs/theory/shell.md). Points are in the order [eta][xi][zeta], zeta fastest. Throws std::runtime_error
 /// naming the element (counted from 1) where the Jacobian of X is not positive: the thickness is too large
 /// for the curvature, or the element is turned over or degenerate.
@@ -61,6 +66,11 @@ fem::EnhancedPoints assumedShearPoints(const ShellElements& elements, const Shel
 fem::EnhancedPoints mitc4Points(const ShellElements& elements, double poissonRatio,
                                 const ShellCubature& cubature = {});
 
+/// The same for Mitc3Law<Material>: elements of three nodes, three points in the plane. poissonRatio: of the
+/// material at rest; it says how far shear strains yield to bending within the element.
+fem::EnhancedPoints mitc3Points(const ShellElements& elements, double poissonRatio,
+                                const ShellCubature& cubature = {});
+
 /// Points of a law that remembers and has no enhanced strain, for fem::lawTerm, with its data at the start,
 /// [entity][point][datum].
 struct ShellMetalPoints {
@@ -68,13 +78,15 @@ struct ShellMetalPoints {
   std::vector<double> data;
 };
 
-/// For ShellMetal, AssumedShearMetal and Mitc4Metal with this many data: no point yields and variables are
-/// zero. The axes are the same for each point of a column through the thickness: the normal of the
-/// mid-surface, and along it the axis of space that is farthest from it, projected.
+/// For ShellMetal, AssumedShearMetal, Mitc4Metal and Mitc3Metal with this many data: no point yields and
+/// variables are zero. The axes are the same for each point of a column through the thickness: the normal of
+/// the mid-surface, and along it the axis of space that is farthest from it, projected.
 ShellMetalPoints shellMetalPoints(const ShellElements& elements, const ShellCubature& cubature, int numData);
 ShellMetalPoints assumedShearMetalPoints(const ShellElements& elements, const ShellCubature& cubature,
                                          int numData);
 ShellMetalPoints mitc4MetalPoints(const ShellElements& elements, double poissonRatio,
+                                  const ShellCubature& cubature, int numData);
+ShellMetalPoints mitc3MetalPoints(const ShellElements& elements, double poissonRatio,
                                   const ShellCubature& cubature, int numData);
 
 }  // namespace atrapos::solid
