@@ -1,6 +1,7 @@
 #include "atrapos/exodus/ResultReader.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "File.hpp"
 #include "atrapos/exodus/InfoRecords.hpp"
@@ -12,13 +13,22 @@ struct ResultReader::Impl {
     ex_init_params init{};
     file.check(ex_get_init_ext(file.id(), &init), "reading the sizes");
     numNodes = static_cast<std::size_t>(init.num_nodes);
-    numSteps = static_cast<int>(ex_inquire_int(file.id(), EX_INQ_TIME));
+    numSteps = countSteps();
     nodal = names(EX_NODAL);
     element = names(EX_ELEM_BLOCK);
     global = names(EX_GLOBAL);
     blockIds.resize(static_cast<std::size_t>(init.num_elem_blk));
     if (!blockIds.empty())
       file.check(ex_get_ids(file.id(), EX_ELEM_BLOCK, blockIds.data()), "reading the ids of the blocks");
+  }
+
+  /// The library has a negative number where the file has no dimension of times, as meshes of other programs
+  /// have none.
+  int countSteps() const {
+    const int64_t count = ex_inquire_int(file.id(), EX_INQ_TIME);
+    if (count > std::numeric_limits<int>::max())
+      throw Error(file.name() + ": has " + std::to_string(count) + " states, too many to be counted");
+    return count < 0 ? 0 : static_cast<int>(count);
   }
 
   std::vector<std::string> names(ex_entity_type type) const {

@@ -313,6 +313,24 @@ TEST(ExodusHostile, dimensionsOfNothing) {
   }
 }
 
+// The library's number of times is -1 then, which was taken for a length (found by the fuzz target `mesh`).
+TEST(ExodusHostile, withoutADimensionOfTimes) {
+  RawFile raw = sampleResults();
+  const auto varies = [&](const RawFile::Variable& v) {
+    return std::any_of(v.dimensions.begin(), v.dimensions.end(),
+                       [&](std::size_t d) { return raw.dimensions[d].unlimited; });
+  };
+  raw.variables.erase(std::remove_if(raw.variables.begin(), raw.variables.end(), varies),
+                      raw.variables.end());
+  for (auto& dimension : raw.dimensions)
+    if (dimension.unlimited) dimension.name = "time_other";
+  const TempFile file;
+  raw.write(file());
+  const exodus::ResultReader reader(file());
+  EXPECT_EQ(reader.numSteps(), 0);
+  EXPECT_TRUE(reader.times().empty());
+}
+
 TEST(ExodusHostile, hdf5InCircles) {
   const auto start = std::chrono::steady_clock::now();
   const std::string error = errorOf(std::string(ATRAPOS_TEST_DATA) + "/hdf5_loop.exo");
