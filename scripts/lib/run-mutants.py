@@ -45,7 +45,9 @@ def mutant(text, choose):
             word = choose.choice(EXTREMES)
         else:
             value = float(at.group()) * choose.choice([-1, 0.1, 0.5, 0.999, 1.001, 2, 10, 1000])
-            word = str(int(value)) if re.fullmatch(r"-?\d+", at.group()) else repr(value)
+            # A count of elements that is a thousand times as large is a long run and no defect.
+            whole = re.fullmatch(r"-?\d+", at.group())
+            word = str(int(float(at.group()) * choose.choice([-1, 0, 2, 3]))) if whole else repr(value)
         text = text[: at.start()] + word + text[at.end() :]
     return text
 

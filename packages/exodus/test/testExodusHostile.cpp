@@ -331,6 +331,14 @@ TEST(ExodusHostile, withoutADimensionOfTimes) {
   EXPECT_TRUE(reader.times().empty());
 }
 
+// As other programs leave it where only some blocks have a variable.
+TEST(ExodusHostile, elementVariablesThatABlockHasNot) {
+  RawFile raw = sampleResults();
+  auto& table = raw.variable("elem_var_tab");
+  std::fill(table.bytes.begin(), table.bytes.end(), '\0');
+  EXPECT_NE(errorOf(raw).find("has no element variable '"), std::string::npos);
+}
+
 TEST(ExodusHostile, hdf5InCircles) {
   const auto start = std::chrono::steady_clock::now();
   const std::string error = errorOf(std::string(ATRAPOS_TEST_DATA) + "/hdf5_loop.exo");

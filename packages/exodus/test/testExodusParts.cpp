@@ -304,6 +304,13 @@ TEST(PartResults, OfOtherRunsAreRefused) {
   { exodus::ResultWriter other(temp(), cut.part(1), {{"displ_x"}, {}, {}, {}, {}}); }
   EXPECT_NE(messageOf([&] { exodus::JoinedResults(temp(), 2); }).find("part 1 has other variables"),
             std::string::npos);
+  {
+    exodus::ResultWriter other(temp(), cut.part(1), kNames);
+    const std::vector<double> nodal(2 * cut.nodes(1).size()), element(2 * cut.elements(1).size());
+    for (const double time : {0.0, 0.25}) other.writeStep(time, nodal, element, wholeValues(0, 9, 1));
+  }
+  EXPECT_NE(messageOf([&] { exodus::JoinedResults(temp(), 2); }).find("part 1 has steps at other times"),
+            std::string::npos);
   std::filesystem::remove(temp("file.exo.2.1"));
   EXPECT_NE(messageOf([&] { exodus::JoinedResults(temp(), 2); }).find("file.exo.2.1"), std::string::npos);
 }
