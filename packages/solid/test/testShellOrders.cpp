@@ -107,6 +107,13 @@ SaintVenantKirchhoff make() {
   return SaintVenantKirchhoff::fromYoung(1, 0.3);
 }
 
+void expectTangentAndOrders(fem::FeModel model) {
+  const Numbers u = randomState(model, 0.02, 17), direction = randomState(model, 0.02, 18);
+  fem::FeProblem problem(std::move(model));
+  expectTangent(problem, u, direction, 0);
+  expectOrders(problem, u, 0.4);
+}
+
 }  // namespace
 
 TYPED_TEST_SUITE(ShellOrders, Materials);
@@ -127,28 +134,12 @@ TYPED_TEST(ShellOrders, ResidualStartsAtOrderKPlusOne) {
 }
 
 TEST(AssumedShearOrders, TangentAndOrders) {
-  fem::FeModel model = assumedShearModel(UnsymmetricMaterial{});
-  const Numbers u = randomState(model, 0.02, 17), direction = randomState(model, 0.02, 18);
-  fem::FeProblem problem(std::move(model));
-  expectTangent(problem, u, direction, 0);
-  expectOrders(problem, u, 0.4);
+  expectTangentAndOrders(assumedShearModel(UnsymmetricMaterial{}));
 }
 
-TEST(Mitc3Orders, TangentAndOrders) {
-  fem::FeModel model = curvedModel(UnsymmetricMaterial{}, 3);
-  const Numbers u = randomState(model, 0.02, 17), direction = randomState(model, 0.02, 18);
-  fem::FeProblem problem(std::move(model));
-  expectTangent(problem, u, direction, 0);
-  expectOrders(problem, u, 0.4);
-}
+TEST(Mitc3Orders, TangentAndOrders) { expectTangentAndOrders(curvedModel(UnsymmetricMaterial{}, 3)); }
 
-TEST(Mitc4Orders, TangentAndOrders) {
-  fem::FeModel model = curvedModel(UnsymmetricMaterial{}, 4);
-  const Numbers u = randomState(model, 0.02, 17), direction = randomState(model, 0.02, 18);
-  fem::FeProblem problem(std::move(model));
-  expectTangent(problem, u, direction, 0);
-  expectOrders(problem, u, 0.4);
-}
+TEST(Mitc4Orders, TangentAndOrders) { expectTangentAndOrders(curvedModel(UnsymmetricMaterial{}, 4)); }
 
 // The tangent of a material with an energy is symmetric on any quadrilaterals, warped ones too, and
 // triangles.
