@@ -293,7 +293,6 @@ std::vector<PointRow> Recorder::writePoints(const path::StepReport& report, cons
     hopfPoints_.push_back(row);
     rows.push_back(row);
   }
-  unexplained_ += report.unexplained;
   std::sort(rows.begin(), rows.end(),
             [](const PointRow& a, const PointRow& b) { return a.pathLength < b.pathLength; });
   for (const PointRow& row : rows) points_.append(text(row));

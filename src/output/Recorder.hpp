@@ -59,7 +59,6 @@ class Recorder final : public path::BranchObserver {
   /// Of the load factor, on all branches, those of the run that this one goes on with included.
   const std::vector<PointRow>& limitPoints() const { return limitPoints_; }
   const std::vector<PointRow>& hopfPoints() const { return hopfPoints_; }
-  int unexplained() const { return unexplained_; }
   int contactEvents() const { return watched_ + (watch_ ? watch_->count() : 0); }
   double worstResidual() const { return worstResidual_; }  ///< over all output points
   double outputSeconds() const { return outputSeconds_; }
@@ -121,7 +120,6 @@ class Recorder final : public path::BranchObserver {
   bool started_ = false;  ///< the start of the branch under way is written
   bool settled_ = false;
   std::vector<PointRow> limitPoints_, hopfPoints_;
-  int unexplained_ = 0;
   int watched_ = 0;  ///< by watches of other cases
   double worstResidual_ = 0, outputSeconds_ = 0;
   double synced_ = 0;  ///< seconds() where files were made to last

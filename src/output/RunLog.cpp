@@ -107,11 +107,12 @@ void RunLog::step(const path::StepReport& r, const Step& step, const std::vector
   if (r.jump > 0) line(fmt::format("{}forces jump by {:.2g} at a border of patches", kIndent, r.jump));
   if (r.unexplained > 0)
     line(fmt::format("{}{} eigenvalue(s) changed sign at a place not found", kIndent, r.unexplained));
-  if (settings_.hopf && !r.inertiaEnd)
+  if (r.uncounted && !uncounted_)
     line(fmt::format(
-        "{}the number of unstable eigenvalues at its end is not known: Hopf points of this step and "
-        "the next are not seen (hopf_eigenvalues)",
-        kIndent));
+        "{}the number of unstable eigenvalues at its end is not known: {} are not seen from this "
+        "step on, until it is",
+        kIndent, settings_.hopf ? "Hopf points (hopf_eigenvalues)" : "points of two eigenvalues"));
+  uncounted_ = r.uncounted;
   printed_ = step.seconds;
   tellTimeLeft(r, step);
 }

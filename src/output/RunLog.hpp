@@ -56,6 +56,7 @@ class RunLog {
   std::vector<std::string> monitors_;
   std::deque<Place> last_;  ///< of the path under way
   double printed_ = 0;      ///< seconds of the last line
+  bool uncounted_ = false;  ///< the last step was (StepReport::uncounted)
   double estimated_ = 0;    ///< seconds of the last line on the time left
 };
 

@@ -191,7 +191,8 @@ nlohmann::ordered_json runSummary(const deck::Deck& deck, const PathCase& pathCa
   json["worst_jump"] = worstJump;
   json["limit_points"] = recorder.limitPoints().size();
   json["bifurcation_points"] = diagram.points.size();
-  json["unexplained_sign_changes"] = recorder.unexplained();
+  json["unexplained_sign_changes"] = diagram.unexplained;
+  json["uncounted_steps"] = diagram.uncounted;
   json["load_limits"] = limitPointsOf(pathCase, recorder);
   if (deck.path.hopf) {
     json["hopf_points"] = hopfPointsOf(pathCase, recorder);
@@ -199,7 +200,7 @@ nlohmann::ordered_json runSummary(const deck::Deck& deck, const PathCase& pathCa
   }
   json["points"] = pointsOf(pathCase, diagram);
   json["branches"] = branchesOf(diagram);
-  json["branches_complete"] = diagram.complete;
+  json["branches_complete"] = diagram.complete && diagram.unexplained == 0 && diagram.uncounted == 0;
   for (const auto& [name, size] : pathCase.sizes()) json[name] = size;
   if (deck.path.series()) json["contact_events"] = recorder.contactEvents();
   pathCase.summarize(json);

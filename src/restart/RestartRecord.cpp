@@ -201,7 +201,8 @@ class Unpacker {
 /// ways.
 template <class Start, class F>
 void plainMembers(Start& s, path::Start*, const F& f) {
-  f(s.steps), f(s.pathLength), f(s.limitPoints), f(s.bifurcations), f(s.length), f(s.events), f(s.due);
+  f(s.steps), f(s.pathLength), f(s.limitPoints), f(s.bifurcations), f(s.length), f(s.fieldSizes), f(s.events),
+      f(s.due);
   f(s.order), f(s.padeFailures), f(s.padeWait), f(s.expectedNegative), f(s.stop);
 }
 template <class Landmark, class F>
@@ -210,7 +211,7 @@ void plainMembers(Landmark& m, path::Landmark*, const F& f) {
 }
 template <class Point, class F>
 void plainMembers(Point& p, path::CriticalPoint*, const F& f) {
-  f(p.a), f(p.stepLength), f(p.kind), f(p.residual), f(p.uncertainty);
+  f(p.a), f(p.stepLength), f(p.fieldSizes), f(p.kind), f(p.residual), f(p.uncertainty);
   f(p.negativeChange), f(p.nullity);
 }
 template <class Outcome, class F>
@@ -256,6 +257,7 @@ path::Start startOf(Unpacker& u) {
   if (u.yes()) u.get(s.tangent.emplace());
   u.require(s.state.u != Teuchos::null && std::isfinite(s.state.lambda) && std::isfinite(s.pathLength));
   u.require(s.limitPoints >= 0 && s.bifurcations >= 0);
+  for (const double size : s.fieldSizes) u.require(size >= 0 && std::isfinite(size));
   u.require(s.steps >= 0 && s.order >= 0 && s.order <= mostOrder);
   s.eigenvalues.resize(u.count());
   for (auto& e : s.eigenvalues) {
@@ -373,6 +375,8 @@ std::string packed(const path::BranchProgress& progress, std::size_t branches, s
   p.put(progress.followed);
   p.put(diagram.switchFactorizations);
   p.put(diagram.complete);
+  p.put(diagram.unexplained);
+  p.put(diagram.uncounted);
   p.put(current.end);
   // Of the landmarks the last one: those before are in the records of their steps.
   const bool marked = progress.path && !progress.path->landmarks.empty();
@@ -426,6 +430,9 @@ void apply(const std::string& record, bool last, const std::string& file,
   u.require(progress.followed >= 0);
   u.get(diagram.switchFactorizations);
   u.get(diagram.complete);
+  u.get(diagram.unexplained);
+  u.get(diagram.uncounted);
+  u.require(diagram.unexplained >= 0 && diagram.uncounted >= 0);
   u.get(diagram.branches[progress.current].end);
   std::vector<path::Landmark> landmarks;
   if (progress.path) landmarks = std::move(progress.path->landmarks);

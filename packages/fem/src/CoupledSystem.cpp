@@ -61,7 +61,8 @@ void CoupledSystem::gatherForces(const DofView& f) const {
       });
 }
 
-void CoupledSystem::addGaps(const ConstDofView& u, double lambda, double s, const DofView& f) const {
+void CoupledSystem::addGaps(const ConstDofView& u, double lambda, const ConstDofView& s,
+                            const DofView& f) const {
   if (empty()) return;
   const Rows r = rows_;
   Kokkos::parallel_for(
@@ -69,14 +70,15 @@ void CoupledSystem::addGaps(const ConstDofView& u, double lambda, double s, cons
         for (int c = 0; c < r.count; ++c) {
           double gap = u(r.slave(c)) - r.value(c) - lambda * r.rate(c);
           for (int m = r.start(c); m < r.start(c + 1); ++m) gap -= r.factor(m) * u(r.master(m));
-          f(r.slave(c)) += s * gap;
-          for (int m = r.start(c); m < r.start(c + 1); ++m) f(r.master(m)) -= r.factor(m) * s * gap;
+          const double own = s(r.slave(c));
+          f(r.slave(c)) += own * gap;
+          for (int m = r.start(c); m < r.start(c + 1); ++m) f(r.master(m)) -= r.factor(m) * own * gap;
         }
       });
 }
 
 void CoupledSystem::transform(const View<std::size_t*>& rowStart, const View<int*>& columns,
-                              const View<double*>& values, double s, const DofView& F) const {
+                              const View<double*>& values, const ConstDofView& s, const DofView& F) const {
   if (empty()) return;
   const Rows r = rows_;
   int missing = 0;
@@ -116,14 +118,15 @@ void CoupledSystem::transform(const View<std::size_t*>& rowStart, const View<int
         }
         for (int c = 0; c < r.count; ++c) {
           const int slave = r.slave(c), first = r.start(c), last = r.start(c + 1);
-          add(slave, slave, s);
-          F(slave) += s * r.rate(c);
+          const double own = s(slave);
+          add(slave, slave, own);
+          F(slave) += own * r.rate(c);
           for (int m = first; m < last; ++m) {
             const double factor = r.factor(m);
-            add(slave, r.master(m), -s * factor);
-            add(r.master(m), slave, -s * factor);
-            F(r.master(m)) -= s * factor * r.rate(c);
-            for (int n = first; n < last; ++n) add(r.master(m), r.master(n), s * factor * r.factor(n));
+            add(slave, r.master(m), -own * factor);
+            add(r.master(m), slave, -own * factor);
+            F(r.master(m)) -= own * factor * r.rate(c);
+            for (int n = first; n < last; ++n) add(r.master(m), r.master(n), own * factor * r.factor(n));
           }
         }
       },

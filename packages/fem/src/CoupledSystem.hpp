@@ -22,13 +22,13 @@ class CoupledSystem {
   void gatherForces(const DofView& f) const;
 
   /// Adds the rows of the couplings at a state whose forces are gathered: g_s = s (u_s - c.u - value - lambda
-  /// rate) at the slave, -c g_s at its masters.
-  void addGaps(const ConstDofView& u, double lambda, double s, const DofView& f) const;
+  /// rate) at the slave, -c g_s at its masters; s of every dof.
+  void addGaps(const ConstDofView& u, double lambda, const ConstDofView& s, const DofView& f) const;
 
   /// Turns the assembled tangent and load direction F into those of the coupled system. Rows have ascending
   /// columns; throws std::logic_error where the graph lacks an entry.
   void transform(const View<std::size_t*>& rowStart, const View<int*>& columns, const View<double*>& values,
-                 double s, const DofView& F) const;
+                 const ConstDofView& s, const DofView& F) const;
 
  private:
   /// The couplings as the kernels read them.

@@ -7,6 +7,7 @@
 #include <Tpetra_Vector.hpp>
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -50,13 +51,18 @@ std::vector<double> toHost(const ConstDofView& f) {
 /// A number for each balance of the model (DofMap::balances).
 using Sizes = std::vector<double>;
 
-/// Sums of squares of the first entries, as many as `balances` says which balance each belongs to, in one
+/// Sums of products of the first entries, as many as `balances` says which balance each belongs to, in one
 /// order: the numbers are the same for any number of threads.
-Sizes squares(const ConstDofView& f, const std::vector<int>& balances, std::size_t count) {
-  auto mirror = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), f);
+Sizes sumsOfProducts(const ConstDofView& f, const ConstDofView& g, const std::vector<int>& balances,
+                     std::size_t count) {
+  const auto x = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), f);
+  const auto y = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), g);
   Sizes sums(count, 0.0);
-  for (std::size_t i = 0; i < balances.size(); ++i) sums[balances[i]] += mirror(i) * mirror(i);
+  for (std::size_t i = 0; i < balances.size(); ++i) sums[balances[i]] += x(i) * y(i);
   return sums;
+}
+Sizes squares(const ConstDofView& f, const std::vector<int>& balances, std::size_t count) {
+  return sumsOfProducts(f, f, balances, count);
 }
 
 Sizes largest(Sizes a, const Sizes& b) {
@@ -100,15 +106,18 @@ struct FeProblem::Impl {
   DofView sum;                   // work
   DofView last;                  // U of the order completed last
   double lastLambda = 0;         // and its lambda
-  double diagonal = 0;           // s of the prescribed rows
+  DofView prescribed;            // s of the prescribed rows, by balance
+  bool hasPrescribed = false;    // since the first tangent
   std::vector<int> parameters;   // dofs of this rank that are parameters of laws
   std::vector<int> wholeCounts;  // [term] entities on all ranks (several ranks)
   int numParameters = 0, numMultipliers = 0;  // of the whole model
   double parameterInner = 1;                  // factor of a parameter's square in inner()
   double internalInner = 0;                   // and of an internal variable's
+  std::vector<double> fieldFactors;           // [balance] of the other unknowns; empty: 1
   bool hasInternal = false;                   // on some rank
   Sizes scaleFloor, initialForces;            // least scale of each balance
   std::vector<int> balances;                  // [own dof] number of its balance
+  std::vector<std::size_t> unitGroups;        // [balance] whose eigenvalues compare; empty: not known yet
   int numFree = 0;
   int pivots = 0;                                  // constraintPivots() of the last tangent
   std::vector<int> startConditions;                // events, then pieces
@@ -181,6 +190,10 @@ struct FeProblem::Impl {
   std::size_t numBalances() const { return model.dofs.balances().size(); }
   /// Norms over all ranks of their own entries.
   Sizes norms(const ConstDofView& f) const { return overRanks(squares(f, balances, numBalances())); }
+  /// Products of this rank's own entries.
+  Sizes products(const ConstDofView& f, const ConstDofView& g) const {
+    return sumsOfProducts(f, g, balances, numBalances());
+  }
   /// Roots of sums over all ranks.
   Sizes overRanks(Sizes sums) const {
     sums.resize(numBalances(), 0.0);
@@ -506,12 +519,12 @@ struct FeProblem::Impl {
     return stiffness;
   }
 
-  /// The size of the free dofs' diagonal, from the ranks' parts of the matrix.
+  /// The free dofs' largest diagonal entry in each balance, from the ranks' parts of the matrix: a support of
+  /// a temperature whose row had the size of a stiffness would have a residual of rounding beyond all heat.
   void findDiagonal() {
     const auto values = entries;
     const auto start = rowStart;
     const auto column = columns;
-    const auto isFixed = fixed;
     const DofView own = sum;
     Kokkos::parallel_for(
         "diagonal", Kokkos::RangePolicy<Execution>(0, own.size()), KOKKOS_LAMBDA(int d) {
@@ -520,15 +533,20 @@ struct FeProblem::Impl {
             if (column(e) == d) own(d) = values(e);
         });
     ranks->collect(own);
-    double largest = 0;
-    Kokkos::parallel_reduce(
-        "largest diagonal", Kokkos::RangePolicy<Execution>(0, numOwned()),
-        KOKKOS_LAMBDA(int d, double& m) {
-          if (!isFixed(d)) m = Kokkos::Experimental::fmax(m, Kokkos::Experimental::fabs(own(d)));
-        },
-        Kokkos::Max<double>(largest));
-    largest = ranks->max(largest);
-    diagonal = largest > 0 && std::isfinite(largest) ? largest : 1.0;
+    const auto isFixed = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), fixed);
+    const std::vector<double> diagonal = toHost(own);
+    Sizes largest(numBalances(), 0.0);
+    for (std::size_t d = 0; d < numOwned(); ++d)
+      if (!isFixed(d)) largest[balances[d]] = std::max(largest[balances[d]], std::abs(diagonal[d]));
+    for (double& size : largest) {
+      size = ranks->max(size);
+      if (!(size > 0 && std::isfinite(size))) size = 1;
+    }
+    std::vector<double> s(numLocal());
+    for (std::size_t d = 0; d < s.size(); ++d)
+      s[d] = largest[ranks->dofs().balanceOf(ranks->dofs().addressOf(static_cast<int>(d)).field)];
+    prescribed = toDevice(s);
+    hasPrescribed = true;
     // Where all forces vanish at first, what remains is the rounding of those that initial values have from
     // node to node.
     const DofView first = initial;
@@ -537,6 +555,69 @@ struct FeProblem::Impl {
         KOKKOS_LAMBDA(int d) { own(d) *= first(d); });
     initialForces = norms(own);
     for (double& size : initialForces) size = std::isfinite(size) ? 1e-6 * size : 0;
+  }
+
+  /// [own dof] whether its row is a support's or a coupling's.
+  std::vector<char> prescribedRows() const {
+    const auto isFixed = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), fixed);
+    std::vector<char> rows(numOwned());
+    for (std::size_t d = 0; d < rows.size(); ++d) rows[d] = isFixed(d);
+    for (const Coupling& c : coupled.couplings())
+      if (static_cast<std::size_t>(c.dof) < rows.size()) rows[c.dof] = 1;
+    return rows;
+  }
+
+  /// [balance] the mean of |diagonal entry| in rows that are not prescribed.
+  Sizes meanDiagonals(const CrsMatrix& matrix) const {
+    Vector diagonal(map);
+    matrix.getLocalDiagCopy(diagonal);
+    const std::vector<double> entry = toHost(writable(diagonal));
+    const std::vector<char> prescribedRow = prescribedRows();
+    Sizes sum(numBalances(), 0.0), count(numBalances(), 0.0);
+    for (std::size_t d = 0; d < entry.size(); ++d) {
+      if (prescribedRow[d]) continue;
+      sum[balances[d]] += std::abs(entry[d]);
+      ++count[balances[d]];
+    }
+    for (std::size_t b = 0; b < sum.size(); ++b) {
+      const double rows = ranks->sum(count[b]);
+      sum[b] = rows > 0 ? ranks->sum(sum[b]) / rows : 0;
+    }
+    return sum;
+  }
+
+  /// Balances that store something are one group, every other is one of its own.
+  void findUnitGroups(const Sizes& capacities) {
+    std::optional<std::size_t> first;
+    for (std::size_t b = 0; b < numBalances(); ++b) {
+      const bool stores = b < capacities.size() && capacities[b] > 0;
+      if (stores && !first) first = b;
+      unitGroups.push_back(stores ? *first : b);
+    }
+  }
+
+  /// Of the last tangent; null where one group only has entries on its diagonal (the rows of div v have
+  /// none).
+  RCP<const Vector> unitWeights() const {
+    const Sizes means = meanDiagonals(*K);
+    Sizes sum(numBalances(), 0.0), members(numBalances(), 0.0);
+    for (std::size_t b = 0; b < means.size(); ++b) {
+      if (!(means[b] > 0 && std::isfinite(means[b]))) continue;
+      sum[unitGroups[b]] += means[b];
+      ++members[unitGroups[b]];
+    }
+    const auto hasSize = [](double s) { return s > 0; };
+    if (std::count_if(sum.begin(), sum.end(), hasSize) < 2) return Teuchos::null;
+    const std::size_t first = std::find_if(sum.begin(), sum.end(), hasSize) - sum.begin();
+    const std::vector<char> prescribedRow = prescribedRows();
+    const std::vector<double> s = toHost(prescribed);
+    const auto weights = rcp(new Vector(map));
+    const auto to = weights->getDataNonConst();
+    for (std::size_t d = 0; d < numOwned(); ++d) {
+      const std::size_t own = unitGroups[balances[d]], group = sum[own] > 0 ? own : first;
+      to[d] = prescribedRow[d] ? s[d] : sum[group] / members[group];
+    }
+    return weights;
   }
 
   /// Nothing in the rows and columns of prescribed dofs.
@@ -559,12 +640,12 @@ struct FeProblem::Impl {
     const auto isFixed = fixed;
     const auto rates = rate;
     const int numDofs = static_cast<int>(F.size());
-    const double s = diagonal;
+    const DofView s = prescribed;
     Kokkos::parallel_for(
         "supports", Kokkos::RangePolicy<Execution>(0, numDofs), KOKKOS_LAMBDA(int d) {
           if (isFixed(d)) {
-            for (std::size_t e = start(d); e < start(d + 1); ++e) values(e) = column(e) == d ? s : 0.0;
-            F(d) = s * rates(d);
+            for (std::size_t e = start(d); e < start(d + 1); ++e) values(e) = column(e) == d ? s(d) : 0.0;
+            F(d) = s(d) * rates(d);
             return;
           }
           double carried = 0;
@@ -622,13 +703,13 @@ path::ResidualNorm FeProblem::residual(const path::State& at, Vector& r) {
   const Sizes scales = impl_->imbalance(state, lambda);
   const DofView out = writable(r), total = impl_->sum, value = impl_->value, rate = impl_->rate;
   const auto fixed = impl_->fixed;
-  const double s = impl_->diagonal;
+  const DofView s = impl_->prescribed;
   impl_->coupled.gatherForces(total);
   impl_->coupled.addGaps(state, lambda, s, total);
   impl_->ranks->collect(total);
   Kokkos::parallel_for(
       "residual", Kokkos::RangePolicy<Execution>(0, out.size()), KOKKOS_LAMBDA(int d) {
-        if (fixed(d)) total(d) = s * (state(d) - value(d) - lambda * rate(d));  // not the reaction
+        if (fixed(d)) total(d) = s(d) * (state(d) - value(d) - lambda * rate(d));  // not the reaction
         out(d) = total(d);
       });
   // The balance that is furthest off counts.
@@ -637,6 +718,13 @@ path::ResidualNorm FeProblem::residual(const path::State& at, Vector& r) {
   for (std::size_t b = 1; b < norms.size(); ++b)
     if (path::ResidualNorm other{norms[b], scales[b]}; !(other.relative() <= worst.relative())) worst = other;
   return worst;
+}
+
+double FeProblem::scaleAlong(const Vector& v, const path::State& state) {
+  const Sizes scales = impl_->imbalance(onRank(state), state.lambda);
+  if (scales.size() == 1) return scales[0];  // |v| = 1
+  const Sizes parts = impl_->norms(field(v));
+  return std::inner_product(scales.begin(), scales.end(), parts.begin(), 0.0);
 }
 
 RCP<const CrsMatrix> FeProblem::tangent(const path::State& at, Vector& F) {
@@ -655,9 +743,9 @@ RCP<const CrsMatrix> FeProblem::tangent(const path::State& at, Vector& F) {
       term->addTangent(state, at.lambda, TangentSink{impl_->rowStart, entries, direction});
   });
   // Once: were it that of the last tangent, the rounding of prescribed rows would tell what came before.
-  if (impl_->diagonal == 0) impl_->findDiagonal();
+  if (!impl_->hasPrescribed) impl_->findDiagonal();
   ranks.together([&] {
-    impl_->coupled.transform(impl_->rowStart, impl_->columns, entries, impl_->diagonal, direction);
+    impl_->coupled.transform(impl_->rowStart, impl_->columns, entries, impl_->prescribed, direction);
   });
   const DofView own = writable(F);
   if (!ranks.alone()) {
@@ -678,13 +766,13 @@ RCP<const CrsMatrix> FeProblem::mass(const path::State& at) {
   const View<double*> entries =
       ranks.alone() ? View<double*>(values) : View<double*>("capacities", impl_->columns.size());
   Kokkos::deep_copy(entries, 0.0);
-  const DofView none("none", impl_->load.size());
+  const DofView none("none", impl_->load.size()), noSize("no size", impl_->load.size());
   const ConstDofView state = onRank(at);
   bool stores = false;
   ranks.together([&] {
     for (const auto& term : impl_->model.terms)
       stores = term->addCapacity(state, at.lambda, TangentSink{impl_->rowStart, entries, none}) || stores;
-    impl_->coupled.transform(impl_->rowStart, impl_->columns, entries, 0, none);
+    impl_->coupled.transform(impl_->rowStart, impl_->columns, entries, noSize, none);
   });
   if (!ranks.alone()) {
     ranks.collectRows(impl_->rowStart, entries);
@@ -693,6 +781,17 @@ RCP<const CrsMatrix> FeProblem::mass(const path::State& at) {
   impl_->clearSupports(values);
   impl_->M->fillComplete(impl_->map, impl_->map);
   return stores ? impl_->M : Teuchos::null;
+}
+
+RCP<const Vector> FeProblem::eigenvalueWeights(const path::State& at) {
+  if (impl_->numBalances() < 2) return Teuchos::null;
+  if (impl_->unitGroups.empty()) {
+    const bool kept = !impl_->M.is_null();
+    const auto M = mass(at);
+    impl_->findUnitGroups(M.is_null() ? Sizes{} : impl_->meanDiagonals(*M));
+    if (!kept) impl_->M = Teuchos::null;
+  }
+  return impl_->unitWeights();
 }
 
 void FeProblem::beginSeries(const path::State& at, int maxOrder) {
@@ -741,8 +840,37 @@ void FeProblem::internalOrder(int k, const Vector& v, double mu, std::vector<dou
 }
 
 double FeProblem::inner(const path::Increment& x, const path::Increment& y) const {
-  return Problem::inner(x, y) + (impl_->parameterInner - 1) * impl_->ofParameters(*x.u, *y.u) +
-         impl_->internalInner * impl_->ofInternal(x, y);
+  const double internal = impl_->internalInner * impl_->ofInternal(x, y);
+  const auto& factors = impl_->fieldFactors;
+  if (factors.empty())
+    return Problem::inner(x, y) + (impl_->parameterInner - 1) * impl_->ofParameters(*x.u, *y.u) + internal;
+  const Sizes products = impl_->products(field(*x.u), field(*y.u));
+  double sum = 0;
+  for (std::size_t b = 0; b < products.size(); ++b) sum += factors[b] * impl_->ranks->sum(products[b]);
+  return sum + (impl_->parameterInner - factors[0]) * impl_->ofParameters(*x.u, *y.u) + internal;
+}
+
+std::vector<double> FeProblem::fieldChanges(const Vector& change, const path::State& to) {
+  if (impl_->numBalances() < 2) return {};
+  constexpr double counts =
+      1e-3;  // of the forces: a mesh leaves less of a field at rest, and rounding much less
+  Sizes norms = impl_->norms(field(change));
+  const Sizes scales = impl_->imbalance(onRank(to), to.lambda), at = impl_->norms(field(*to.u)),
+              stiffness = impl_->meanDiagonals(*impl_->K);
+  for (std::size_t b = 0; b < norms.size(); ++b) {
+    // A pressure has no stiffness of its own.
+    const bool moved =
+        stiffness[b] > 0 ? stiffness[b] * norms[b] > counts * scales[b] : norms[b] > counts * at[b];
+    if (!moved) norms[b] = 0;
+  }
+  return norms;
+}
+
+void FeProblem::weighFields(const std::vector<double>& factors) {
+  if (!factors.empty() && factors.size() != impl_->numBalances())
+    throw std::invalid_argument(std::to_string(factors.size()) + " factors of fields, but there are " +
+                                std::to_string(impl_->numBalances()) + " balances");
+  impl_->fieldFactors = factors;
 }
 
 double FeProblem::weight(const path::Increment& Xhat, std::optional<double> given) {

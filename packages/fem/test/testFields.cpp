@@ -56,6 +56,94 @@ TEST(Fields, EveryBalanceHasItsOwnScale) {
   EXPECT_GT(residual(problem, u, 1).norm.relative(), 0.1);  // of the forces it would be 1e-6
 }
 
+namespace {
+
+Numbers oneEach(const DofMap& dofs, double displacement, double temperature) {
+  Numbers v(dofs.numDofs());
+  for (int d = 0; d < dofs.numDofs(); ++d) v[d] = dofs.addressOf(d).field == 0 ? displacement : temperature;
+  return v;
+}
+
+}  // namespace
+
+// <x, y> = sum over the balances of factor times product, and Euclid's where there are no factors.
+TEST(Fields, FactorsMultiplyTheirProducts) {
+  FeProblem problem(heatedModel<3>(body()));
+  const DofMap& dofs = problem.model().dofs;
+  const auto x = vectorOf(problem, oneEach(dofs, 2, 0)), y = vectorOf(problem, oneEach(dofs, 0, 3)),
+             both = vectorOf(problem, oneEach(dofs, 2, 3));
+  const Numbers rest(dofs.numDofs(), 0.0);
+  tangent(problem, rest, 0.3);
+  const auto norms = problem.fieldChanges(*both, {both, 0.3});
+  ASSERT_EQ(norms.size(), 2u);
+  // Next to nothing of the forces there: that field has not moved.
+  const auto still = problem.fieldChanges(*vectorOf(problem, oneEach(dofs, 2, 1e-12)), {both, 0.3});
+  EXPECT_EQ(still[0], norms[0]);
+  EXPECT_EQ(still[1], 0);
+  const auto inner = [&](const auto& a, const auto& b) { return problem.inner({a, {}}, {b, {}}); };
+  EXPECT_NEAR(inner(x, x), norms[0] * norms[0], 1e-12 * norms[0] * norms[0]);
+  EXPECT_NEAR(inner(y, y), norms[1] * norms[1], 1e-12 * norms[1] * norms[1]);
+  problem.weighFields({0.25, 16});
+  EXPECT_NEAR(inner(x, x), 0.25 * norms[0] * norms[0], 1e-12 * norms[0] * norms[0]);
+  EXPECT_NEAR(inner(both, both), 0.25 * norms[0] * norms[0] + 16 * norms[1] * norms[1],
+              1e-12 * norms[1] * norms[1]);
+  EXPECT_EQ(inner(x, y), 0);
+  problem.weighFields({});
+  EXPECT_NEAR(inner(both, both), norms[0] * norms[0] + norms[1] * norms[1], 1e-12 * norms[1] * norms[1]);
+  EXPECT_THROW(problem.weighFields({1, 2, 3}), std::invalid_argument);
+}
+
+namespace {
+
+/// Largest and mean entry on the diagonal of the tangent, [field], in free rows and in prescribed ones.
+struct Diagonals {
+  double largest[2] = {0, 0}, mean[2] = {0, 0}, prescribed[2] = {0, 0};
+};
+Diagonals diagonalsOf(FeProblem& problem, const Numbers& u) {
+  const FeModel& model = problem.model();
+  const Tangent K = tangent(problem, u, 0);
+  Diagonals of;
+  int rows[2] = {0, 0};
+  for (int d = 0; d < model.dofs.numDofs(); ++d) {
+    const int field = model.dofs.addressOf(d).field;
+    const double size = std::abs(K.at(d, d));
+    if (model.supports.fixed(d)) {
+      of.prescribed[field] = size;
+      continue;
+    }
+    of.largest[field] = std::max(of.largest[field], size);
+    of.mean[field] += size;
+    ++rows[field];
+  }
+  for (int f = 0; f < 2; ++f) of.mean[f] /= rows[f];
+  return of;
+}
+
+}  // namespace
+
+// In rows of their own size supports leave nothing of the rounding of a stiffness in the balance of heat.
+TEST(Fields, PrescribedRowsHaveTheSizeOfTheirBalance) {
+  FeProblem problem(heatedModel<3>(body(), 1e-6));
+  const Diagonals of = diagonalsOf(problem, FeProblem::values(*problem.initialState(0)));
+  EXPECT_LT(of.largest[1], 1e-3 * of.largest[0]);
+  for (int f = 0; f < 2; ++f) EXPECT_DOUBLE_EQ(of.prescribed[f], of.largest[f]);
+}
+
+// Eigenvalues of a tangent that is not symmetric are measured by the mean of each field's own diagonal.
+TEST(Fields, EigenvaluesAreMeasuredByTheirBalance) {
+  FeProblem problem(heatedModel<3>(body(), 1e-6));
+  const Numbers u = FeProblem::values(*problem.initialState(0));
+  const Diagonals of = diagonalsOf(problem, u);
+  const auto weights = problem.eigenvalueWeights({vectorOf(problem, u), 0});
+  ASSERT_FALSE(weights.is_null());
+  const Numbers m = FeProblem::values(*weights);
+  const FeModel& model = problem.model();
+  for (int d = 0; d < model.dofs.numDofs(); ++d) {
+    const int field = model.dofs.addressOf(d).field;
+    EXPECT_NEAR(m[d] / (model.supports.fixed(d) ? of.prescribed : of.mean)[field], 1, 1e-12);
+  }
+}
+
 // Fields that a model does not have cost nothing: as many unknowns as nodes have components.
 TEST(Fields, UnknownsExistOnlyWhereAFieldIs) {
   const Mesh mesh = body();

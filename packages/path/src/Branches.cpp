@@ -41,7 +41,8 @@ Augmented augmented(const PathTangent& t, double sense = 1) {
 /// The diagram as it grows.
 class BranchFollower::Tracer final : public Observer {
  public:
-  Tracer(BranchProgress& progress, BranchObserver& observer) : progress(progress), observer_(observer) {}
+  Tracer(const Problem& problem, BranchProgress& progress, BranchObserver& observer)
+      : progress(progress), problem_(problem), observer_(observer) {}
 
   BranchProgress& progress;
   bool stopped = false;  ///< the caller's observer wants no more
@@ -49,6 +50,8 @@ class BranchFollower::Tracer final : public Observer {
   Branch& branch() { return progress.diagram.branches[progress.current]; }
 
   bool onStep(const StepReport& report, const Series& series) override {
+    progress.diagram.unexplained += report.unexplained;
+    progress.diagram.uncounted += report.uncounted;
     stopped = !observer_.onStep(progress.current, report, series);
     branch().end = endOn(report, series);
     progress.path = report.next;
@@ -94,7 +97,7 @@ class BranchFollower::Tracer final : public Observer {
       constexpr double same = 1e-6, roundings = 10;
       const double rounding = point.uncertainty * point.stepLength + known.uncertainty * known.stepLength;
       const double reach = same * std::min(point.stepLength, known.stepLength) + roundings * rounding;
-      if (std::sqrt(dot(gap, gap, w)) > reach) continue;
+      if (length(gap, w) > reach) continue;
       if (point.tangents.empty()) return true;
       // Crosses off where it came from; goes on where that is new.
       take(static_cast<int>(i), augmented(point.tangents[0], -1), w);
@@ -133,7 +136,7 @@ class BranchFollower::Tracer final : public Observer {
     for (HalfBranch& half : progress.halves) {
       if (half.point != point) continue;
       const auto t = augmented(progress.diagram.points[point].point.tangents[half.tangent], half.sense);
-      const double c = dot(t, direction, w) / std::sqrt(dot(t, t, w) * dot(direction, direction, w));
+      const double c = inner(t, direction, w) / (length(t, w) * length(direction, w));
       if (c > cosine) {
         cosine = c;
         best = &half;
@@ -163,12 +166,18 @@ class BranchFollower::Tracer final : public Observer {
       u->update(-1, *state.u, 1);
       // Accuracy of a path at the residual bound; a path next to the state but not through it is further.
       constexpr double same = 1e-3;
-      const Augmented gap{u, lambdaAt - state.lambda};
-      if (std::sqrt(dot(gap, gap, w)) <= same * report.length) return a;
+      if (length({u, lambdaAt - state.lambda}, w) <= same * report.length) return a;
     }
     return std::nullopt;
   }
 
+  /// As the path parameter measures: fields of different units beside each other.
+  double inner(const Augmented& x, const Augmented& y, double w) const {
+    return w * problem_.inner({x.u, {}}, {y.u, {}}) + x.lambda * y.lambda;
+  }
+  double length(const Augmented& x, double w) const { return std::sqrt(inner(x, x, w)); }
+
+  const Problem& problem_;
   BranchObserver& observer_;
 };
 
@@ -190,11 +199,7 @@ void BranchProgress::addHalves(int first) {
 
 BranchFollower::BranchFollower(Problem& problem, linear::TangentSolver& solver, Options options, Stops stops,
                                BranchOptions branches)
-    : problem_(problem),
-      solver_(solver),
-      options_(std::move(options)),
-      stops_(std::move(stops)),
-      branches_(branches) {
+    : problem_(problem), solver_(solver), options_(options), stops_(std::move(stops)), branches_(branches) {
   options_.validate();
   stops_.validate();
   if (branches_.maxDepth < 0) throw std::invalid_argument("branch options: maxDepth must be >= 0");
@@ -235,7 +240,7 @@ Outcome endOf(const Start& at) {
 }  // namespace
 
 void BranchFollower::goOn(BranchProgress& progress, BranchObserver& observer) {
-  Tracer tracer(progress, observer);
+  Tracer tracer(problem_, progress, observer);
   BranchDiagram& diagram = progress.diagram;
   if (progress.path) {
     const Start from = *progress.path;
@@ -287,6 +292,7 @@ void BranchFollower::goOn(BranchProgress& progress, BranchObserver& observer) {
     from.state = branch.start = *switched.state;
     from.tangent = branch.direction;
     from.weight = weight;
+    from.fieldSizes = point.fieldSizes;
     diagram.branches.push_back(std::move(branch));
     progress.path = from;
     observer.onBranch(diagram, progress.current);

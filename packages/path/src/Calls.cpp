@@ -43,6 +43,11 @@ ResidualNorm Calls::residual(const State& state, Vector& r) {
   return problemCall([&] { return problem_.residual(state, r); });
 }
 
+double Calls::scaleAlong(const Vector& v, const State& state) {
+  Stopwatch watch(work_.seconds.residual);
+  return problemCall([&] { return problem_.scaleAlong(v, state); });
+}
+
 RCP<const CrsMatrix> Calls::tangent(const State& state, Vector& F) {
   Stopwatch watch(work_.seconds.tangent);
   return problemCall([&] { return problem_.tangent(state, F); });
@@ -51,6 +56,12 @@ RCP<const CrsMatrix> Calls::tangent(const State& state, Vector& F) {
 RCP<const CrsMatrix> Calls::mass(const State& state) {
   Stopwatch watch(work_.seconds.tangent);
   return problemCall([&] { return problem_.mass(state); });
+}
+
+RCP<const Vector> Calls::eigenvalueWeights(const State& state) {
+  if (problem_.symmetric()) return Teuchos::null;
+  Stopwatch watch(work_.seconds.tangent);
+  return problemCall([&] { return problem_.eigenvalueWeights(state); });
 }
 
 void Calls::factor(const State& state, Vector& F) { factor(tangent(state, F)); }
@@ -110,6 +121,15 @@ void Calls::completeOrder(int k, const Vector& Uk, double lambdaK) {
 
 double Calls::weight(const Increment& Xhat, std::optional<double> given) {
   return problemCall([&] { return problem_.weight(Xhat, given); });
+}
+
+void Calls::weighFields(const std::vector<double>& factors) {
+  problemCall([&] { problem_.weighFields(factors); });
+}
+
+std::vector<double> Calls::fieldChanges(const Vector& change, const State& to) {
+  Stopwatch watch(work_.seconds.residual);
+  return problemCall([&] { return problem_.fieldChanges(change, to); });
 }
 
 std::vector<double> Calls::eventOrder(int k) {

@@ -18,6 +18,9 @@ Series pathResponse(Calls& calls, const State& from, const PathTangent& along, d
 
   auto f = calls.newVector(), v = calls.newVector();
   fillUnsymmetric(*f, 1);
+  // Alike in all fields, whatever their units.
+  if (const auto weights = calls.eigenvalueWeights(from); !weights.is_null())
+    f->elementWiseMultiply(1, *weights, *f, 0);
   calls.solve(*f, *v);
   // Small enough to be linear in (near a transcritical point the response goes with the root of it), large
   // enough to stand above rounding. The pole found is a guess, which Newton makes exact.

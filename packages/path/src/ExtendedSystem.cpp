@@ -12,10 +12,12 @@ namespace atrapos::path {
 namespace {
 
 /// Null vector of the factored matrix (or of its transpose) by inverse iteration from x, Euclidean norm 1.
-void inverseIteration(Calls& calls, Vector& x, bool transposed) {
+/// `weights`: what eigenvalues are measured by; null: 1.
+void inverseIteration(Calls& calls, const RCP<const Vector>& weights, Vector& x, bool transposed) {
   auto y = calls.newVector();
   x.scale(1 / x.norm2());
   for (int i = 0; i < 3; ++i) {
+    if (!weights.is_null()) x.elementWiseMultiply(1, *weights, x, 0);
     transposed ? calls.solveTransposed(x, *y) : calls.solve(x, *y);
     const double size = y->norm2();
     if (!std::isfinite(size) || !(size > 0)) return;
@@ -31,13 +33,14 @@ bool ExtendedSystem::enter(const State& state, const Augmented& path, bool held,
   else
     calls_.factor(state, *F_);
   phi_ = Teuchos::rcp(new Vector(*phi_, Teuchos::Copy));
+  const auto weights = calls_.eigenvalueWeights(state);
   // Of two eigenvalues next to each other an inverse iteration finds the one nearer to zero here.
   if (exact)
     phi_->scale(1 / phi_->norm2());
   else
-    inverseIteration(calls_, *phi_, false);
+    inverseIteration(calls_, weights, *phi_, false);
   p_ = Teuchos::rcp(new Vector(*phi_, Teuchos::Copy));
-  if (!calls_.problem().symmetric()) inverseIteration(calls_, *p_, true);
+  if (!calls_.problem().symmetric()) inverseIteration(calls_, weights, *p_, true);
 
   // Two directions that nearly span the kernel of [K, -F]: the null vector, and the response to the load with
   // the null vector taken out of it, which exists where the load has no part along p.

@@ -84,7 +84,7 @@ std::optional<Spectrum> Search::at(double a) {
   auto F = calls_.newVector();
   ++found_.factorizations;
   calls_.factor(state, *F);
-  auto counted = countUnstable(calls_, count_, calls_.mass(state));
+  auto counted = countUnstable(calls_, state, count_, EigenProblem::ofRates);
   if (!counted) return std::nullopt;
   return Spectrum{a, std::move(counted->nearest)};
 }

@@ -56,6 +56,10 @@ Polynomial between(double y0, double s0, double y1, double s1) {
 
 }  // namespace
 
+double speedOf(const PathTangent& t, double weight) {
+  return std::sqrt(weight * linear::dot(*t.x.u, *t.x.u) + t.lambda * t.lambda);
+}
+
 std::vector<Mode> nearestModes(Calls& calls, const State& state, const PathTangent& along, double weight,
                                const std::vector<Mode>& before, int count, Rates rates) {
   const int n = static_cast<int>(std::min<long long>(count, calls.problem().map()->getGlobalNumElements()));
@@ -86,7 +90,7 @@ std::vector<Mode> nearestModes(Calls& calls, const State& state, const PathTange
   int info = 0;
   Teuchos::LAPACK<int, double>().SYEV('V', 'L', n, A.data(), n, theta.data(), work.data(), 3 * n, &info);
   if (info != 0) return {};
-  const double size = std::sqrt(weight * linear::dot(*along.x.u, *along.x.u) + along.lambda * along.lambda);
+  const double size = speedOf(along, weight);
   const double scale = along.x.u->norm2();
   std::vector<Mode> modes;
   for (int j = 0; j < n; ++j) {

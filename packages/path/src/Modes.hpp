@@ -10,9 +10,12 @@ namespace atrapos::path {
 struct Mode {
   RCP<Vector> x;  ///< Euclidean norm 1
   double mu = 0;  ///< eigenvalue
-  /// d mu / d(path length) = x . D^2R(X', (x, 0)) / |X'|; not a number where it was not wanted.
+  /// d mu / d(path length) = x . D^2R(X', (x, 0)) / speedOf(X'); not a number where it was not wanted.
   double rate = 0;
 };
+
+/// |X'| = sqrt(w u' . u' + lambda'^2): the length that rates are by, whatever the path parameter measures.
+double speedOf(const PathTangent& t, double weight);
 
 /// The eigenvalues of the factored, symmetric tangent at `state` that are nearest to zero: inverse iterations
 /// on a block that starts with the vectors of `before`. `along` is X' there, of any length.
@@ -32,7 +35,7 @@ struct ModeZero {
 /// The eigenvalues followed at one place of a step.
 struct ModeSample {
   double a = 0;
-  double speed = 1;  ///< |X'| there
+  double speed = 1;  ///< speedOf(X') there
   std::vector<Mode> modes;
 };
 

@@ -70,6 +70,7 @@ void NewtonRun::equilibrate() {
 }
 
 void NewtonRun::startTangent(const Start& start) {
+  calls_.weighFields({});
   const auto weight = start.weight ? start.weight : options_.weight;
   if (start.tangent && weight) {
     weight_ = *weight;

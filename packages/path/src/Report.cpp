@@ -63,6 +63,7 @@ std::optional<long long> StepReport::negativeAt(double a) const {
   }
   if (a <= 0) return inertia->negative;
   if (a >= length && inertiaEnd) return inertiaEnd->negative;
+  if (uncounted) return std::nullopt;
   // What no mark explains has changed somewhere inside.
   if (unexplained > 0 || (limits == 0 && rest != 0)) return std::nullopt;
   if (passed == 0) return n;

@@ -63,6 +63,8 @@ void Run::follow(const Start& start) {
   applied_ = start.events;
   due_ = start.due;
   lastLength_ = start.length;
+  fieldSizes_ = FieldSizes(start.fieldSizes);
+  calls_.weighFields(fieldFactors());
   limitPoints_ = start.limitPoints;
   bifurcations_ = start.bifurcations;
   order_ = start.order > 0 ? start.order : options_.order;
@@ -70,7 +72,7 @@ void Run::follow(const Start& start) {
   padeWait_ = start.padeWait;
   if (!calls_.problem().remembers()) landmarks_.emplace(*calls_.problem().map(), start.landmarks);
   counted_ = start.expectedNegative;
-  for (const auto& e : start.eigenvalues) modes_.push_back({e.vector, e.value, e.rate});
+  for (const auto& e : start.eigenvalues) start_.modes.push_back({e.vector, e.value, e.rate});
   try {
     outcome_.final = calls_.settled(outcome_.final);
     equilibrate();
@@ -92,6 +94,8 @@ bool Run::step() {
   if (outcome_.steps == options_.maxSteps)
     return end(EndReason::stepLimit, line("the limit of ", options_.maxSteps, " steps is reached"));
   StepReport report;
+  const auto factors = fieldFactors();
+  calls_.weighFields(factors);
   Series series = nextSeries(report);
   if (sharpenState(series)) series = nextSeries(report);
   EndTangent tangent;
@@ -106,15 +110,13 @@ bool Run::step() {
   if (backAt_)
     return end(EndReason::pathClosed, line("the path is closed: step ", outcome_.steps,
                                            " comes to the state with which step ", *backAt_, " began"));
-  modes_ = std::move(tangent.modes);
-  real_ = tangent.real;
-  spectrum_ = std::move(tangent.spectrum);
+  start_ = std::move(tangent);
   clean(series);
   report.order = series.order();
   report.step = outcome_.steps + 1;
   report.lambdaStart = outcome_.final.lambda;
   report.pathLengthStart = outcome_.pathLength;
-  report.inertia = tangent.inertia;
+  report.inertia = start_.inertia;
   report.radius = series.radius(options_.delta);
   if (!series.standsStill()) weight_ = outcome_.weight = series.weight();  // a response to weigh
 
@@ -131,6 +133,7 @@ bool Run::step() {
   if (!atBreak) correct(series, trial, report, correctAbove());
   stop_ = trial.stop;
   due_ = trial.events;
+  lastFactors_ = factors;
   accept(std::move(trial), std::move(report), std::move(series));
   if (stop_) return end(EndReason::stopReached, stop_->text);
   return true;
@@ -139,6 +142,9 @@ bool Run::step() {
 /// The step's end becomes the state; the observer sees it later.
 void Run::accept(Trial trial, StepReport report, Series series) {
   trial.state = calls_.settled(trial.state);
+  auto change = copy(*trial.state.u);
+  change->update(-1, *outcome_.final.u, 1);
+  fieldSizes_.moved(calls_.fieldChanges(*change, trial.state), trial.state.lambda - outcome_.final.lambda);
   report.length = trial.a;
   report.residual = trial.residual;
   report.lambdaEnd = trial.state.lambda;
@@ -166,6 +172,7 @@ void Run::accept(Trial trial, StepReport report, Series series) {
 bool Run::settle(const EndTangent* end) {
   StepReport report = std::move(*pending_);
   pending_.reset();
+  calls_.weighFields(lastFactors_);
   const auto load = last_->lambdaFunction();
   const auto slope = load.derivative();
   const auto curvature = slope.numerator().derivative();  // of the sign of lambda'' where lambda' = 0
@@ -191,6 +198,7 @@ bool Run::settle(const EndTangent* end) {
             [](const Extremum& x, const Extremum& y) { return x.a < y.a; });
   if (end) {
     report.inertiaEnd = end->inertia;
+    report.uncounted = end->uncounted;
     explainStability(report, *end);
     locateHopfPoints(report, *end);
   }
@@ -199,7 +207,9 @@ bool Run::settle(const EndTangent* end) {
   limitPoints_ += static_cast<int>(report.limitPoints.size());
   bifurcations_ += static_cast<int>(report.criticalPoints.size());
   report.next = here();
-  return observer_.onStep(report, *last_);
+  const bool goOn = observer_.onStep(report, *last_);
+  calls_.weighFields(fieldFactors());
+  return goOn;
 }
 
 /// All that the next step needs.
@@ -210,6 +220,7 @@ Start Run::here() const {
   next.steps = outcome_.steps;
   next.pathLength = outcome_.pathLength;
   next.weight = weight_;
+  next.fieldSizes = fieldSizes_.sizes();
   next.length = lastLength_;
   next.events = applied_;
   next.due = due_;
@@ -218,7 +229,7 @@ Start Run::here() const {
   next.padeWait = padeWait_;
   if (landmarks_) next.landmarks = landmarks_->all();
   next.expectedNegative = expected_;
-  for (const Mode& m : modes_) next.eigenvalues.push_back({m.x, m.mu, m.rate});
+  for (const Mode& m : start_.modes) next.eigenvalues.push_back({m.x, m.mu, m.rate});
   next.limitPoints = limitPoints_;
   next.bifurcations = bifurcations_;
   next.stop =

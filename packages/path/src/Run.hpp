@@ -6,6 +6,7 @@
 #include <sstream>
 #include <string>
 
+#include "FieldSizes.hpp"
 #include "Landmarks.hpp"
 #include "Modes.hpp"
 #include "Newton.hpp"
@@ -66,13 +67,18 @@ class Run {
     std::vector<double> offset;  ///< what is left of those that are zero at the start
   };
 
-  /// What the tangent at a step's end tells.
+  /// What the tangent at an end of a step tells.
   struct EndTangent {
     std::optional<linear::Inertia> inertia;
+    bool uncounted = false;   ///< the inertia is asked for, and is not known
     double lambda1 = 0;       ///< load part of the unit tangent
     std::vector<Mode> modes;  ///< eigenvalues next to zero that are followed
-    int real = 0;             ///< of an unsymmetric tangent: negative eigenvalues that are real
+    // Of an unsymmetric tangent:
+    std::optional<int> determinant;              ///< its sign
+    int real = 0;                                ///< negative eigenvalues that are real
     std::vector<std::complex<double>> spectrum;  ///< next to zero, where Hopf points are looked for
+    /// A number of negative eigenvalues that is right, or right but for an even one. Empty: not known.
+    std::optional<long long> parity() const;
   };
 
   // Run.cpp: the loop.
@@ -152,6 +158,9 @@ class Run {
   void correct(const Series& series, Trial& trial, StepReport& report, double above);
   Border borderAt(const Series& series, double a, const std::optional<StopHit>& stop);
 
+  /// Those that the series to come is measured by.
+  std::vector<double> fieldFactors() const { return fieldSizes_.factors(weight_.value_or(0)); }
+
   /// Of the indices of events: breaks come behind the event functions.
   bool isBreak(int i) const { return i >= calls_.problem().eventCount(); }
 
@@ -183,12 +192,12 @@ class Run {
   int order_ = 0;                ///< of the next series
   int seriesOrders_ = 0, seriesBuilt_ = 0;  ///< orders of the accepted series in all; how many
   std::optional<double> weight_;
-  std::optional<Series> last_;                  ///< the last accepted series
-  std::optional<StepReport> pending_;           ///< its step, not yet seen by the observer
-  std::vector<Mode> modes_;                     ///< at the start of the pending step
-  int real_ = 0;                                ///< EndTangent::real there
-  std::vector<std::complex<double>> spectrum_;  ///< EndTangent::spectrum there
-  std::optional<PathTangent> tangent_;          ///< at the current state, of what led there
+  FieldSizes fieldSizes_;               ///< up to the current state
+  std::vector<double> lastFactors_;     ///< those of last_: it is measured by what was known at its start
+  std::optional<Series> last_;          ///< the last accepted series
+  std::optional<StepReport> pending_;   ///< its step, not yet seen by the observer
+  EndTangent start_;                    ///< at the start of the pending step
+  std::optional<PathTangent> tangent_;  ///< at the current state, of what led there
   std::vector<int> due_;      ///< event functions that fell to zero at the state and are not applied yet
   std::vector<int> applied_;  ///< applied at the state: their functions start at zero
   bool turned_ = false;       ///< lambda goes the other way after the events

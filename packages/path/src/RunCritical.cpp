@@ -10,6 +10,7 @@
 #include "Newton.hpp"
 #include "Run.hpp"
 #include "Stability.hpp"
+#include "atrapos/linear/Determinant.hpp"
 
 namespace atrapos::path {
 
@@ -125,7 +126,8 @@ std::vector<Mode> Run::modesHere(const PathTangent& along, double weight) {
   if (!options_.criticalPoints || options_.watchedModes == 0) return {};
   if (!calls_.problem().symmetric() || !calls_.inertia()) return {};
   try {
-    return nearestModes(calls_, outcome_.final, along, weight, modes_, options_.watchedModes, Rates::soon);
+    return nearestModes(calls_, outcome_.final, along, weight, start_.modes, options_.watchedModes,
+                        Rates::soon);
   } catch (const PathError&) {
     return {};  // next to a singular tangent: the numbers are beyond use
   }
@@ -136,13 +138,14 @@ std::vector<Mode> Run::modesHere(const PathTangent& along, double weight) {
 void Run::countHere(EndTangent& tangent) {
   tangent.inertia = calls_.inertia();
   if (calls_.problem().symmetric() || !options_.criticalPoints || options_.watchedModes == 0) return;
+  tangent.determinant = linear::determinantSign(calls_.solver());
   // As many as were unstable at the last step's start, and those that may follow.
   expected_ = counted_;
   const bool hopf = options_.hopfEigenvalues > 0;
   const int count = std::max(expected_ + options_.watchedModes + 1, options_.hopfEigenvalues);
   try {
-    const auto mass = hopf ? calls_.mass(outcome_.final) : Teuchos::null;
-    if (auto unstable = countUnstable(calls_, count, mass)) {
+    const auto of = hopf ? EigenProblem::ofRates : EigenProblem::ofTangent;
+    if (auto unstable = countUnstable(calls_, outcome_.final, count, of)) {
       counted_ = unstable->all;
       tangent.inertia = linear::Inertia{unstable->all, 0};
       tangent.real = unstable->real;
@@ -151,6 +154,12 @@ void Run::countHere(EndTangent& tangent) {
   } catch (const PathError&) {
     // Next to a singular tangent: the numbers are beyond use.
   }
+  tangent.uncounted = !tangent.inertia;
+}
+
+std::optional<long long> Run::EndTangent::parity() const {
+  if (inertia) return inertia->null > 0 ? std::nullopt : std::make_optional(inertia->negative);
+  return determinant ? std::make_optional<long long>(*determinant < 0) : std::nullopt;
 }
 
 /// Whether the load goes the other way at the pending step's end than at its start.
@@ -165,24 +174,22 @@ bool Run::loadTurned(const EndTangent& end) const {
 /// eigenvalues is lost other than at a limit point of lambda; this holds on a branch that leaves a pitchfork
 /// too, where no eigenvalue of K changes sign but lambda_1 does.
 void Run::explainStability(StepReport& report, const EndTangent& end) {
-  if (!options_.criticalPoints || !report.inertia || !report.inertiaEnd) return;
-  const auto before = *report.inertia, after = *report.inertiaEnd;
-  if (before.null > 0 || after.null > 0) return;
-  const std::vector<CountedPlace> counts{{0, before.negative, last_->lambdaCoefficient(1) > 0},
-                                         {report.length, after.negative, end.lambda1 > 0}};
+  const auto before = start_.parity(), after = end.parity();
+  if (!options_.criticalPoints || !before || !after) return;
+  const std::vector<CountedPlace> counts{{0, *before, last_->lambdaCoefficient(1) > 0},
+                                         {report.length, *after, end.lambda1 > 0}};
   const long long limits = static_cast<long long>(report.limitPoints.size());
   // Of an unsymmetric tangent a conjugate pair may cross the imaginary axis, which is no critical point: two
   // more prove nothing, an odd number does, and real ones are a reason to look.
   const bool symmetric = calls_.problem().symmetric();
-  const long long realChange = symmetric ? 0 : std::abs(end.real - real_);
+  const bool counted = start_.inertia && end.inertia;
+  const long long realChange = symmetric || !counted ? 0 : std::abs(end.real - start_.real);
   const int needed =
       symmetric ? provenBetween(counts[0], counts[1], report.limitPoints) : oddBetween(counts[0], counts[1]);
   // What the eigenvalues followed say beyond the count, in which two may cancel.
-  const auto length = [&](const PathTangent& t) {
-    return std::sqrt(last_->weight() * calls_.problem().inner(t.x, t.x) + t.lambda * t.lambda);
-  };
-  const std::vector<ModeSample> samples{{0, length(last_->tangent(0)), modes_},
-                                        {report.length, length(*tangent_), end.modes}};
+  const double w = last_->weight();
+  const std::vector<ModeSample> samples{{0, speedOf(last_->tangent(0), w), start_.modes},
+                                        {report.length, speedOf(*tangent_, w), end.modes}};
   const auto evidence = bifurcationZeros(*last_, report.length, samples, report.limitPoints);
   const int suspected = static_cast<int>(
       std::max<long long>(static_cast<long long>(evidence.zeros.size()), realChange - limits));
@@ -205,17 +212,19 @@ void Run::explainStability(StepReport& report, const EndTangent& end) {
   report.criticalPoints = std::move(found.points);
   for (auto& point : report.criticalPoints) {
     point.stepLength = report.length;
+    point.fieldSizes = fieldSizes_.sizes();
     if (point.kind == CriticalKind::multiple)
-      point.negativeChange = after.negative > before.negative ? point.nullity : -point.nullity;
+      point.negativeChange = *after > *before ? point.nullity : -point.nullity;
   }
 }
 
 /// Pairs that have crossed the imaginary axis inside the step. The solver's factorization is another one
 /// afterwards.
 void Run::locateHopfPoints(StepReport& report, const EndTangent& end) {
-  if (spectrum_.empty() || end.spectrum.empty() || !report.inertia || !report.inertiaEnd) return;
+  if (start_.spectrum.empty() || end.spectrum.empty() || !report.inertia || !report.inertiaEnd) return;
   const int count = std::max(options_.hopfEigenvalues, static_cast<int>(end.spectrum.size()));
-  HopfFound found = findHopfPoints(calls_, *last_, {0, spectrum_}, {report.length, end.spectrum}, count);
+  HopfFound found =
+      findHopfPoints(calls_, *last_, {0, start_.spectrum}, {report.length, end.spectrum}, count);
   outcome_.hopfFactorizations += found.factorizations;
   report.hopfPoints = std::move(found.points);
   // What neither these nor other points explain has crossed at a place that is not known.

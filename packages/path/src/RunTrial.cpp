@@ -140,7 +140,7 @@ PadeFit Run::rationalForm(const Series& series, double polynomial) {
   // next one room to pass it.
   constexpr double shortOf = 0.75, behind = -0.2, alongPath = 0.7;
   const auto& direction = *series.coefficient(1).u;
-  for (const Mode& mode : modes_) {
+  for (const Mode& mode : start_.modes) {
     if (std::abs(linear::dot(*mode.x, direction)) > alongPath * direction.norm2()) continue;
     const double zero = -mode.mu / mode.rate;  // no bound where the rate is not known
     if (zero > behind * polynomial && shortOf * zero < fit.range) fit.range = std::max(0.0, shortOf * zero);

@@ -177,7 +177,7 @@ bool Search::count(double a, int modes, Place& place) {
     if (!inertia || inertia->null > 0) continue;
     const double w = search_.series.weight();
     const auto t = search_.series.tangent(at);
-    place.speed = std::sqrt(w * calls_.problem().inner(t.x, t.x) + t.lambda * t.lambda);
+    place.speed = speedOf(t, w);
     place.modes = nearestModes(calls_, state, t, w, {}, std::max(modes, search_.watchedModes), Rates::all);
     place.count = {at, inertia->negative, t.lambda > 0};
     return true;

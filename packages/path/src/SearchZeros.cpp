@@ -65,7 +65,7 @@ void Search::sample(double a, std::vector<ModeSample>& samples) {
   factoredAt_ = a;
   const double w = search_.series.weight();
   const auto t = search_.series.tangent(a);
-  const double speed = std::sqrt(w * calls_.problem().inner(t.x, t.x) + t.lambda * t.lambda);
+  const double speed = speedOf(t, w);
   const auto place =
       std::find_if(samples.begin(), samples.end(), [&](const ModeSample& s) { return s.a > a; });
   const auto& before = place == samples.begin() ? samples.front().modes : (place - 1)->modes;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include <Tpetra_CrsMatrix.hpp>
+#include <Tpetra_Vector.hpp>
 
 #include "atrapos/linear/Determinant.hpp"
 #include "atrapos/linear/Eigenvalues.hpp"
@@ -23,13 +24,18 @@ bool endStable(const linear::NearestEigenvalues& found) {
 
 }  // namespace
 
-std::optional<Unstable> countUnstable(Calls& calls, int count, const RCP<const CrsMatrix>& mass) {
+std::optional<Unstable> countUnstable(Calls& calls, const State& at, int count, EigenProblem of) {
   if (calls.problem().constraintPivots() != 0) return std::nullopt;
   const auto sign = linear::determinantSign(calls.solver());
+  const auto mass = of == EigenProblem::ofRates ? calls.mass(at) : Teuchos::null;
+  const auto weights = mass.is_null() ? calls.eigenvalueWeights(at) : Teuchos::null;
   const linear::Inverse inverse = [&](const linear::MultiVector& x, linear::MultiVector& y) {
-    if (mass.is_null()) return calls.solve(x, y);
+    if (mass.is_null() && weights.is_null()) return calls.solve(x, y);
     linear::MultiVector weighed(x.getMap(), x.getNumVectors());
-    mass->apply(x, weighed);
+    if (weights.is_null())
+      mass->apply(x, weighed);
+    else
+      weighed.elementWiseMultiply(1, *weights, x, 0);
     calls.solve(weighed, y);
   };
   // More would cost more than the step; the number is then not told.

@@ -15,11 +15,15 @@ struct Unstable {
   std::vector<std::complex<double>> nearest{};
 };
 
-/// Eigenvalues with negative real part of K x = mu x, K the factored tangent, which need not be symmetric
-/// (docs/theory/path.md, "Unsymmetric tangents"), or of K x = mu M x (docs/theory/stability.md) where `mass`
-/// is given. `count` is how many of those next to zero are computed at first. Empty where they leave the
-/// numbers open, or where multipliers of constraints are among the unknowns.
-std::optional<Unstable> countUnstable(Calls& calls, int count,
-                                      const RCP<const CrsMatrix>& mass = Teuchos::null);
+/// Whose eigenvalues are counted.
+enum class EigenProblem {
+  ofTangent,  ///< K x = mu m x, m of Problem::eigenvalueWeights (docs/theory/path.md, "Unsymmetric tangents")
+  ofRates     ///< K x = mu M x, M of Problem::mass where there is one (docs/theory/stability.md)
+};
+
+/// Eigenvalues with negative real part, K the factored tangent at a state, which need not be symmetric.
+/// `count` is how many of those next to zero are computed at first. Empty where they leave the numbers open,
+/// or where multipliers of constraints are among the unknowns.
+std::optional<Unstable> countUnstable(Calls& calls, const State& at, int count, EigenProblem of);
 
 }  // namespace atrapos::path

@@ -7,6 +7,7 @@
 #include <Tpetra_Vector.hpp>
 
 #include "Augmented.hpp"
+#include "FieldSizes.hpp"
 #include "Newton.hpp"
 #include "Stability.hpp"
 
@@ -26,8 +27,7 @@ double leastDistance(Calls& calls, const CriticalPoint& point, const PathTangent
   const auto other = std::find_if(point.tangents.begin(), point.tangents.end(),
                                   [](const PathTangent& t) { return std::abs(t.lambda) > turns; });
   if (other == point.tangents.end()) return 0;
-  auto r = calls.newVector();
-  const double force = tolerance * calls.residual(point.state, *r).scale;
+  const double force = tolerance * calls.scaleAlong(*point.nullVectors.front(), point.state);
   const double B = SecondOrder(calls, point.state, point.nullVectors.front())({other->x.u, other->lambda},
                                                                               {direction.x.u, 0});
   constexpr double told = 1e-6;  // of the load factor
@@ -39,16 +39,103 @@ double leastDistance(Calls& calls, const CriticalPoint& point, const PathTangent
 
 }  // namespace
 
+namespace {
+
+/// States on the branch that leaves a point, one at a distance.
+class BranchStart {
+ public:
+  BranchStart(Calls& calls, const Options& options, const CriticalPoint& point, const PathTangent& direction,
+              double weight, double tolerance)
+      : calls_(calls),
+        point_(point),
+        direction_(direction),
+        weight_(weight),
+        tolerance_(tolerance),
+        accepted_(options.correctAbove * options.residualBound),
+        border_(holdPathParameter(calls.problem(), weight, direction)) {}
+
+  /// Corrected in the plane normal to the direction; empty where that does not lead to the branch. The solver
+  /// holds a tangent next to it afterwards.
+  std::optional<State> at(double s);
+  int factorizations() const { return factorizations_; }
+
+ private:
+  bool isOnBranch(const State& state) const;
+
+  Calls& calls_;
+  const CriticalPoint& point_;
+  const PathTangent& direction_;
+  double weight_, tolerance_, accepted_;
+  Border border_;
+  int factorizations_ = 0;
+};
+
+std::optional<State> BranchStart::at(double s) {
+  auto F = calls_.newVector(), r = calls_.newVector(), trial = calls_.newVector();
+  auto x1 = calls_.newVector(), x2 = calls_.newVector();
+  State state = point_.state.copy();
+  state.u->update(s, *direction_.x.u, 1);
+  state.lambda += s * direction_.lambda;
+  double residual = calls_.residual(state, *r).relative();
+  ++factorizations_;
+  try {
+    calls_.factor(state, *F);
+    calls_.solve(*F, *x2);
+    // The factorization of the first iteration serves all: the state moves by s^2, the tangent's smallest
+    // eigenvalue is proportional to s, so each contracts by s.
+    constexpr int maxIterations = 10;
+    for (int i = 0; i < maxIterations && residual > tolerance_; ++i) {
+      calls_.solve(*r, *x1);
+      const double dLambda = border_.c(x1) / (border_.c(x2) + border_.cLambda);
+      trial->update(1, *state.u, -1, *x1, 0);
+      trial->update(dLambda, *x2, 1);
+      const double now = calls_.residual(state.at(trial, state.lambda + dLambda), *r).relative();
+      if (!(now < 0.5 * residual)) break;
+      residual = now;
+      std::swap(state.u, trial);
+      state.lambda += dLambda;
+    }
+  } catch (const PathError&) {
+    return std::nullopt;
+  }
+  if (!(residual <= accepted_) || !isOnBranch(state)) return std::nullopt;
+  return calls_.settled(state);
+}
+
+/// Still the branch asked for: not back on the one that it leaves.
+bool BranchStart::isOnBranch(const State& state) const {
+  const auto dot = [&](const PathTangent& x, const PathTangent& y) {
+    return weight_ * calls_.problem().inner(x.x, y.x) + x.lambda * y.lambda;
+  };
+  PathTangent gap{{Teuchos::rcp(new Vector(*state.u, Teuchos::Copy)), {}},
+                  state.lambda - point_.state.lambda};
+  gap.x.u->update(-1, *point_.state.u, 1);
+  const PathTangent t{{direction_.x.u, {}}, direction_.lambda};
+  constexpr double sameDirection = 0.9;
+  return dot(gap, t) > sameDirection * std::sqrt(dot(gap, gap) * dot(t, t));
+}
+
+/// The direction of a branch as a unit of the path parameter that measures fields by these sizes.
+PathTangent unitDirection(const Problem& problem, const PathTangent& t, double weight) {
+  PathTangent unit = t;
+  const double size = std::sqrt(weight * problem.inner(t.x, t.x) + t.lambda * t.lambda);
+  unit.x.u = Teuchos::rcp(new Vector(*t.x.u, Teuchos::Copy));
+  unit.x.u->scale(1 / size);
+  unit.lambda /= size;
+  return unit;
+}
+
+}  // namespace
+
 Switched switchBranch(Problem& problem, linear::TangentSolver& solver, const Options& options,
-                      const CriticalPoint& point, const PathTangent& direction, double weight) {
+                      const CriticalPoint& point, const PathTangent& along, double weight) {
   Calls calls(problem, solver);
-  Switched result;
-  const Border border = holdPathParameter(problem, weight, direction);
+  const auto factors = FieldSizes(point.fieldSizes).factors(weight);
+  calls.weighFields(factors);
+  // What is long in one field's unit is next to nothing in another's.
+  const PathTangent direction = factors.empty() ? along : unitDirection(problem, along, weight);
   // Next to the point the tangent is almost singular, so the state is wrong by more than its residual says.
   const double tolerance = 1e-4 * options.residualBound;
-  const double accepted = options.correctAbove * options.residualBound;
-  auto F = calls.newVector(), r = calls.newVector(), trial = calls.newVector();
-  auto x1 = calls.newVector(), x2 = calls.newVector();
   const double usual = 1e-2 * point.stepLength;
   const double least = leastDistance(calls, point, direction, tolerance);
   const double first = std::max(usual, least);
@@ -56,47 +143,28 @@ Switched switchBranch(Problem& problem, linear::TangentSolver& solver, const Opt
   // A path that is straight up to the point makes long steps, whatever the scale of its branches.
   if (const double closest = std::max(1e-2 * usual, least); closest < 0.1 * usual)
     distances.push_back(closest);
+  BranchStart branch(calls, options, point, direction, weight, tolerance);
+  Switched result;
   for (const double s : distances) {
-    State state = point.state.copy();
-    state.u->update(s, *direction.x.u, 1);
-    state.lambda += s * direction.lambda;
-    double residual = calls.residual(state, *r).relative();
-    ++result.factorizations;
-    try {
-      calls.factor(state, *F);
-      calls.solve(*F, *x2);
-      // The factorization of the first iteration serves all: the state moves by s^2, the tangent's smallest
-      // eigenvalue is proportional to s, so each contracts by s.
-      constexpr int maxIterations = 10;
-      for (int i = 0; i < maxIterations && residual > tolerance; ++i) {
-        calls.solve(*r, *x1);
-        const double dLambda = border.c(x1) / (border.c(x2) + border.cLambda);
-        trial->update(1, *state.u, -1, *x1, 0);
-        trial->update(dLambda, *x2, 1);
-        const double now = calls.residual(state.at(trial, state.lambda + dLambda), *r).relative();
-        if (!(now < 0.5 * residual)) break;
-        residual = now;
-        std::swap(state.u, trial);
-        state.lambda += dLambda;
-      }
-    } catch (const PathError&) {
-      continue;
+    result.state = branch.at(s);
+    if (!result.state) continue;
+    // So far from the point that a gap shows: nearer, where the load, which goes like s^2, has moved less.
+    constexpr double shows = 1e-3;
+    const double gap = std::abs(result.state->lambda - point.state.lambda) /
+                       (shows * std::max(1.0, std::abs(point.state.lambda)));
+    if (s > usual && gap > 1) {
+      const auto nearer = branch.at(std::max(usual, s / std::sqrt(gap)));
+      result.state = nearer ? nearer : branch.at(s);
     }
-    if (!(residual <= accepted)) continue;
-    // Still the branch asked for: not back on the one that it leaves.
-    Augmented gap{Teuchos::rcp(new Vector(*state.u, Teuchos::Copy)), state.lambda - point.state.lambda};
-    gap.u->update(-1, *point.state.u, 1);
-    const Augmented t{direction.x.u, direction.lambda};
-    const double cosine = dot(gap, t, weight) / std::sqrt(dot(gap, gap, weight) * dot(t, t, weight));
-    constexpr double sameDirection = 0.9;
-    if (!(cosine > sameDirection)) continue;
-    result.state = calls.settled(state);
-    result.inertia = calls.inertia();
-    if (!problem.symmetric() && options.watchedModes > 0)
-      if (const auto unstable = countUnstable(calls, options.watchedModes + 1))
-        result.inertia = linear::Inertia{unstable->all, 0};
-    return result;
+    break;
   }
+  result.factorizations = branch.factorizations();
+  if (!result.state) return result;
+  result.inertia = calls.inertia();
+  if (!problem.symmetric() && options.watchedModes > 0)
+    if (const auto unstable =
+            countUnstable(calls, *result.state, options.watchedModes + 1, EigenProblem::ofTangent))
+      result.inertia = linear::Inertia{unstable->all, 0};
   return result;
 }
 

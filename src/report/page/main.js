@@ -188,7 +188,7 @@ function branchesSection() {
   const rows = data.summary.branches.map((b, i) => [b.stage ? `${i} ${b.stage}` : i, b.parent, b.imperfection, b.end === "path" ? b.ended : b.end, b.why, b.steps, b.load_factor]);
   section("Branches", table(["branch", "from", "imperfection", "end", "why", "steps", "load factor"], rows));
   if (data.summary.branches_complete === false)
-    document.body.lastChild.append(element("p", { class: "note" }, "Branches were left out (branch_depth, branch_count)."));
+    document.body.lastChild.append(element("p", { class: "note" }, "Branches were left out (branch_depth, branch_count), or points were not found (the table of steps)."));
 }
 
 function stepsSection() {

@@ -22,7 +22,7 @@ FeModel busyModel(const Mesh& mesh);
 /// HeatedSolid<source> with quadratic displacements (HEX20) and a temperature at corner nodes alone, some of
 /// it supported and driven; random loads on both fields.
 template <int source>
-FeModel heatedModel(const Mesh& mesh) {
+FeModel heatedModel(const Mesh& mesh, double conductivity = 0.6) {
   const Field temperature{"temperature", {""}, Role::primal};
   std::vector<char> isCorner(mesh.numNodes(), 0);
   for (std::size_t i = 0; i < mesh.blocks[0].nodes.size(); ++i)
@@ -35,7 +35,9 @@ FeModel heatedModel(const Mesh& mesh) {
   const Tabulation cell = tabulate(Topology::Hex20), shape = tabulateAt(Topology::Hex8, cell.points);
   PointSet points = volumePoints(mesh, mesh.blocks[0], cell);
   points.more = {valuesOf(temperature, points, shape), gradientsOf(temperature, points, shape)};
-  model.terms.push_back(lawTerm(pointLaw(HeatedSolid<source>{}), points));
+  HeatedSolid<source> law;
+  law.k = conductivity;
+  model.terms.push_back(lawTerm(pointLaw(law), points));
   for (int n = 0; n < mesh.numNodes(); ++n)
     if (mesh.coordinates[3 * n] < 0.1) {
       for (int i = 0; i < 3; ++i) model.prescribe(n, i, 0.01 * i, 0.1);

@@ -41,10 +41,16 @@ class FeProblem final : public path::Problem {
   linear::RCP<const path::Map> map() const override;
   bool symmetric() const override;
   path::ResidualNorm residual(const path::State& state, path::Vector& r) override;
+  /// The sum over the balances of scale times |v_b|.
+  double scaleAlong(const path::Vector& v, const path::State& state) override;
   linear::RCP<const path::CrsMatrix> tangent(const path::State& state, path::Vector& F) override;
   /// What the terms store (Term::addCapacity), on the tangent's graph; nothing in the rows and columns of
   /// prescribed dofs and of those eliminated by couplings. Null where no term stores anything.
   linear::RCP<const path::CrsMatrix> mass(const path::State& state) override;
+  /// The mean diagonal entry of each field's own block where several balances act together, which makes
+  /// eigenvalues the same in all units. Fields with a capacity (mass) are one in this: their rates compare.
+  /// Null where all are one.
+  linear::RCP<const path::Vector> eigenvalueWeights(const path::State& state) override;
   void beginSeries(const path::State& state, int maxOrder) override;
   void orderRhs(int k, path::Vector& Fk) override;
   void completeOrder(int k, const path::Vector& Uk, double lambdaK) override;
@@ -53,10 +59,16 @@ class FeProblem final : public path::Problem {
   int internalCount() const override;
   void internalOrder(int k, const path::Vector& v, double mu, std::vector<double>& y) const override;
 
-  /// Displacements, and parameters of laws and internal variables with their own weights:
-  /// w <x, y> = w x_u . y_u + w_t x_t . y_t + w_i x_i . y_i.
+  /// The fields of each balance times its factor (weighFields), and parameters of laws and internal variables
+  /// with their own weights: w <x, y> = w sum_b c_b x_b . y_b + w_t x_t . y_t + w_i x_i . y_i.
   double inner(const path::Increment& x, const path::Increment& y) const override;
-  /// Chosen from the displacements alone.
+  /// By balance (DofMap::balances), with directors, multipliers and parameters in that of the displacements.
+  /// A field has moved where the forces of its change, by the mean diagonal entry of its own block in the
+  /// last tangent, are a thousandth of those of its balance.
+  std::vector<double> fieldChanges(const path::Vector& change, const path::State& to) override;
+  /// Throws std::invalid_argument where there are others than one a balance.
+  void weighFields(const std::vector<double>& factors) override;
+  /// Chosen from the unknowns without the parameters.
   double weight(const path::Increment& Xhat, std::optional<double> given) override;
 
   /// Event functions: those of the terms that change at events, one a contact point.

@@ -57,6 +57,8 @@ struct BranchDiagram {
   std::vector<BranchPoint> points;
   int switchFactorizations = 0;  ///< spent on starts of branches, besides those of the paths
   bool complete = true;          ///< false where maxDepth or maxBranches left branches out
+  int unexplained = 0;           ///< sum of StepReport::unexplained: points that were not found
+  int uncounted = 0;             ///< steps with StepReport::uncounted: points that may be there, unseen
 };
 
 /// Half a branch at a bifurcation point of a diagram.

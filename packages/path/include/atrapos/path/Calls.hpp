@@ -17,6 +17,9 @@ class Calls {
   /// r = R(state); the result may hold values that are not finite.
   ResidualNorm residual(const State& state, Vector& r);
 
+  /// Problem::scaleAlong.
+  double scaleAlong(const Vector& v, const State& state);
+
   /// Factors K_T(state) and fills F. Throws PathError: singularTangent or solverFailed, with the solver's
   /// message.
   void factor(const State& state, Vector& F);
@@ -35,6 +38,8 @@ class Calls {
 
   /// Problem::mass.
   RCP<const CrsMatrix> mass(const State& state);
+  /// Problem::eigenvalueWeights where the tangent is not symmetric, else null.
+  RCP<const Vector> eigenvalueWeights(const State& state);
 
   void beginSeries(const State& state, int maxOrder);
   void orderRhs(int k, Vector& Fk);
@@ -46,6 +51,8 @@ class Calls {
   State settled(const State& state);
 
   double weight(const Increment& Xhat, std::optional<double> given);
+  void weighFields(const std::vector<double>& factors);
+  std::vector<double> fieldChanges(const Vector& change, const State& to);
 
   /// Coefficient k of the Problem's event functions.
   std::vector<double> eventOrder(int k);

@@ -27,7 +27,11 @@ class ForcedProblem : public Problem {
   RCP<const Map> map() const override { return unforced_.map(); }
   bool symmetric() const override { return unforced_.symmetric(); }
   RCP<const CrsMatrix> mass(const State& state) override { return unforced_.mass(state); }
+  RCP<const Vector> eigenvalueWeights(const State& state) override {
+    return unforced_.eigenvalueWeights(state);
+  }
   ResidualNorm residual(const State& state, Vector& r) override;
+  double scaleAlong(const Vector& v, const State& state) override { return unforced_.scaleAlong(v, state); }
   RCP<const CrsMatrix> tangent(const State& state, Vector& F) override;
   void beginSeries(const State& state, int maxOrder) override { unforced_.beginSeries(state, maxOrder); }
   void orderRhs(int k, Vector& Fk) override { unforced_.orderRhs(k, Fk); }
@@ -58,6 +62,10 @@ class ForcedProblem : public Problem {
   int constraintPivots() const override { return unforced_.constraintPivots(); }
   std::string name(long long unknown) const override { return unforced_.name(unknown); }
   double inner(const Increment& x, const Increment& y) const override { return unforced_.inner(x, y); }
+  std::vector<double> fieldChanges(const Vector& change, const State& to) override {
+    return unforced_.fieldChanges(change, to);
+  }
+  void weighFields(const std::vector<double>& factors) override { unforced_.weighFields(factors); }
   double weight(const Increment& Xhat, std::optional<double> given) override {
     return unforced_.weight(Xhat, given);
   }

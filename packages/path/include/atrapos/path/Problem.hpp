@@ -40,6 +40,10 @@ class Problem {
   /// r = R(state); r is overwritten.
   virtual ResidualNorm residual(const State& state, Vector& r) = 0;
 
+  /// How large v . R(state) is to the forces that it is the difference of, v of norm 1: what a relative
+  /// residual of 1 may leave of it. Default: ResidualNorm::scale.
+  virtual double scaleAlong(const Vector& v, const State& state);
+
   /// K_T and F = -dR/dlambda at a state. The matrix is the Problem's own: its graph never changes, its values
   /// hold until the next call. With internal variables that follow rates K_T is their continuum tangent, that
   /// of the path through the state.
@@ -125,10 +129,24 @@ class Problem {
   /// dU/dt = -R. The matrix is the Problem's own, its values hold until the next call.
   virtual RCP<const CrsMatrix> mass(const State& /*state*/) { return Teuchos::null; }
 
+  /// What eigenvalues of a tangent that is not symmetric are measured by where no mass() says so: m > 0 in
+  /// K x = mu diag(m) x, of the last tangent. Signs of real eigenvalues do not depend on it, but which ones
+  /// are next to zero does where fields of different units act together. Null: all 1.
+  virtual RCP<const Vector> eigenvalueWeights(const State& /*state*/) { return Teuchos::null; }
+
   /// The inner product behind the path parameter (without its weight w and its load term):
   /// a = w <X - X0, X_1> + (lambda - lambda0) lambda_1 with X = (unknowns, internal variables).
   /// Default: the Euclidean product of the unknowns.
   virtual double inner(const Increment& x, const Increment& y) const;
+
+  /// Norms of the parts of a step's change that belong to fields of different units (displacements,
+  /// temperatures), the state behind it given: 0 for one that is at rest but for rounding and the mesh's
+  /// error. Empty where there is one such field.
+  virtual std::vector<double> fieldChanges(const Vector& /*change*/, const State& /*to*/) { return {}; }
+
+  /// What inner() multiplies the products of these fields by from now on, > 0 each; empty: 1. The Problem's
+  /// own state, as it is between two steps of a path.
+  virtual void weighFields(const std::vector<double>& /*factors*/) {}
 
   /// w of the path parameter for the step under way: `given` by the path (Options::weight, or that of its
   /// earlier steps), or chosen from the response Xhat to the load at its first step. Called before inner()

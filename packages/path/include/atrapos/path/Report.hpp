@@ -40,8 +40,9 @@ const char* toString(CriticalKind kind);
 
 /// A bifurcation point on the path (docs/theory/path.md).
 struct CriticalPoint {
-  double a = 0;           ///< on the step's series
-  double stepLength = 0;  ///< of the step: what is near and far here
+  double a = 0;                      ///< on the step's series
+  double stepLength = 0;             ///< of the step: what is near and far here
+  std::vector<double> fieldSizes{};  ///< Start::fieldSizes at the step's end
   CriticalKind kind = CriticalKind::transcritical;
   State state;          ///< corrected: exact to rounding at a simple point
   double residual = 0;  ///< relative, at `state`
@@ -94,6 +95,9 @@ struct Start {
   int limitPoints = 0;                 ///< passed before, counted against Stops::limitPoints
   int bifurcations = 0;                ///< the same against Stops::bifurcations
   std::optional<double> weight;        ///< w of the path; empty: by Options::weight
+  /// How far the fields and, last, the load factor have moved in a step at most. Empty: not at all, or the
+  /// unknowns have one unit.
+  std::vector<double> fieldSizes;
   double length = 0;                   ///< of the step that led here; 0: none
   std::vector<int> events;             ///< applied at this state: their functions are zero here
   std::vector<int> due;                ///< not applied yet at this state, and their functions are zero here
@@ -125,6 +129,9 @@ struct StepReport {
   bool pade = false;     ///< the step follows the rational form
   std::optional<linear::Inertia> inertia;     ///< of the tangent at the step's start
   std::optional<linear::Inertia> inertiaEnd;  ///< and at its end, i.e. the next step's start
+  /// The negative eigenvalues at the end had to be computed one by one (a tangent that is not symmetric), and
+  /// that left their number open: pairs of them may have changed sign in this step or the next, unseen.
+  bool uncounted = false;
   std::vector<LimitPoint> limitPoints;
   std::vector<Extremum> extrema;  ///< of the monitors, ascending in a
   /// Event functions that fell to zero at the step's end, or breaks there (indices from Problem::eventCount()
