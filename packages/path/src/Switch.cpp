@@ -143,6 +143,10 @@ Switched switchBranch(Problem& problem, linear::TangentSolver& solver, const Opt
   // A path that is straight up to the point makes long steps, whatever the scale of its branches.
   if (const double closest = std::max(1e-2 * usual, least); closest < 0.1 * usual)
     distances.push_back(closest);
+  // A branch that bends within these: nearer, though its load may be rounding there.
+  constexpr double nearest = 1e-4;
+  const double end = nearest * std::min(usual, distances.back());
+  while (distances.back() >= 10 * end) distances.push_back(0.1 * distances.back());
   BranchStart branch(calls, options, point, direction, weight, tolerance);
   Switched result;
   for (const double s : distances) {

@@ -144,6 +144,25 @@ TEST(Branches, ALoopThroughTwoPitchforksIsFollowedOnce) {
   EXPECT_GT(most, 0.5);
 }
 
+/// lambda = 1/2 + (quartic - 1/2) x^2 turns away from the null vector within 1/quartic: starts of branches a
+/// hundredth of the step away are on none of them.
+TEST(Branches, OneThatBendsAtOnceIsFound) {
+  for (const double quartic : {1e2, 1e4, 1e6}) {
+    Modes law;
+    law.quartic = quartic;
+    Traced<Modes> t(law, {0, 0}, 0, loads({0.9}));
+    ASSERT_EQ(t.diagram.branches.size(), 3u) << quartic;
+    for (int b = 1; b <= 2; ++b) {
+      const Branch& branch = t.diagram.branches[b];
+      ASSERT_EQ(branch.end, BranchEnd::path) << quartic;
+      EXPECT_EQ(branch.outcome.reason, EndReason::stopReached);
+      const double x = at(branch.outcome.final, 1), exact = std::sqrt(0.4 / (quartic - 0.5));
+      EXPECT_NEAR(std::abs(x), exact, 1e-5 * exact);  // half of the residual's bound, which is of the load
+    }
+    EXPECT_LT(at(t.diagram.branches[1].outcome.final, 1) * at(t.diagram.branches[2].outcome.final, 1), 0);
+  }
+}
+
 TEST(Branches, OnlyStableOnesOnRequest) {
   SwayTruss sway;
   JetProblem<SwayTruss> space(sway);
