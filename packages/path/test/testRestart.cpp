@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "../src/BestOrder.hpp"
+#include "../src/FieldSizes.hpp"
 #include "../src/GeometricProgression.hpp"
 #include "problems/Bifurcations.hpp"
 #include "problems/Record.hpp"
@@ -58,7 +59,8 @@ TEST(BestOrder, IsUsedWhileRunning) {
   Options options;
   options.autoOrder = true;
   options.order = 7;
-  options.fewerOrders = false;  // else a step with an end near, which the clock decides here, has fewer than 5
+  options.fewerOrders =
+      false;  // else a step with an end near, which the clock decides here, has fewer than 5
   JetProblem<TrussOnSpring> problem(TrussOnSpring{0.3});
   Stops stops;
   stops.functionals.push_back({"x", problem.vector({1, 0}), 2.2});
@@ -177,6 +179,29 @@ TEST(WatchedModes, ShowPointsThatCancelInTheCount) {
       ++runs;
     }
   EXPECT_LT(blindRuns, runs);  // the count alone does not see them everywhere
+}
+
+/// Fields that have moved count alike, and together as the load factor: w sum_b c_b s_b^2 = s_lambda^2. Units
+/// that are powers of two change nothing of that.
+TEST(FieldSizes, CountAlikeInAnyUnits) {
+  EXPECT_TRUE(FieldSizes().factors(2).empty());
+  FieldSizes one;
+  one.moved({3, 0}, 0.25);
+  EXPECT_TRUE(one.factors(2).empty());  // nothing to weigh it against
+  one.moved({1, 512}, -0.5);            // the largest of each
+  EXPECT_EQ(one.sizes(), (std::vector<double>{3, 512, 0.5}));
+  constexpr double w = 2;
+  const double s[2] = {2, 512};  // 3 counts as a power of two near it
+  const auto c = one.factors(w);
+  ASSERT_EQ(c.size(), 2u);
+  EXPECT_DOUBLE_EQ(w * (c[0] * s[0] * s[0] + c[1] * s[1] * s[1]), 0.25);
+  EXPECT_DOUBLE_EQ(c[0] * s[0] * s[0], c[1] * s[1] * s[1]);
+  FieldSizes other;
+  other.moved({3 * 1024.0, 0.5, 0}, 0.5);
+  const auto d = other.factors(w);
+  EXPECT_DOUBLE_EQ(d[0] * 1024 * 1024, c[0]);
+  EXPECT_DOUBLE_EQ(d[1] / (1024.0 * 1024), c[1]);
+  EXPECT_EQ(d[2], 1);  // has not moved
 }
 
 }  // namespace
