@@ -102,14 +102,15 @@ struct FeProblem::Impl {
   View<char*> fixed;
   detail::CoupledSystem coupled;
   DofView initial, value, rate, load, constantLoad;
-  DofView shared;                // state of the last call with the values at shared nodes (several ranks)
-  DofView sum;                   // work
-  DofView last;                  // U of the order completed last
-  double lastLambda = 0;         // and its lambda
-  DofView prescribed;            // s of the prescribed rows, by balance
-  bool hasPrescribed = false;    // since the first tangent
-  std::vector<int> parameters;   // dofs of this rank that are parameters of laws
-  std::vector<int> wholeCounts;  // [term] entities on all ranks (several ranks)
+  DofView shared;                   // state of the last call with the values at shared nodes (several ranks)
+  DofView sum;                      // work
+  DofView last;                     // U of the order completed last
+  double lastLambda = 0;            // and its lambda
+  std::vector<char> prescribedRow;  // [own dof] whether its row is a support's or a coupling's
+  DofView prescribed;               // s of the prescribed rows, by balance
+  bool hasPrescribed = false;       // since the first tangent
+  std::vector<int> parameters;      // dofs of this rank that are parameters of laws
+  std::vector<int> wholeCounts;     // [term] entities on all ranks (several ranks)
   int numParameters = 0, numMultipliers = 0;  // of the whole model
   double parameterInner = 1;                  // factor of a parameter's square in inner()
   double internalInner = 0;                   // and of an internal variable's
@@ -148,6 +149,7 @@ struct FeProblem::Impl {
     if (!ranks->alone()) shared = DofView("shared", numLocal());
     coupled = detail::CoupledSystem(ranks->couplings());
     uploadConditions(couplings);
+    findPrescribedRows();
     share();
     events.emplace(model.terms, *ranks);
     for (std::size_t d = 0; d < numOwned(); ++d)
@@ -557,14 +559,12 @@ struct FeProblem::Impl {
     for (double& size : initialForces) size = std::isfinite(size) ? 1e-6 * size : 0;
   }
 
-  /// [own dof] whether its row is a support's or a coupling's.
-  std::vector<char> prescribedRows() const {
+  void findPrescribedRows() {
     const auto isFixed = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), fixed);
-    std::vector<char> rows(numOwned());
-    for (std::size_t d = 0; d < rows.size(); ++d) rows[d] = isFixed(d);
+    prescribedRow.resize(numOwned());
+    for (std::size_t d = 0; d < prescribedRow.size(); ++d) prescribedRow[d] = isFixed(d);
     for (const Coupling& c : coupled.couplings())
-      if (static_cast<std::size_t>(c.dof) < rows.size()) rows[c.dof] = 1;
-    return rows;
+      if (static_cast<std::size_t>(c.dof) < prescribedRow.size()) prescribedRow[c.dof] = 1;
   }
 
   /// [balance] the mean of |diagonal entry| in rows that are not prescribed.
@@ -572,7 +572,6 @@ struct FeProblem::Impl {
     Vector diagonal(map);
     matrix.getLocalDiagCopy(diagonal);
     const std::vector<double> entry = toHost(writable(diagonal));
-    const std::vector<char> prescribedRow = prescribedRows();
     Sizes sum(numBalances(), 0.0), count(numBalances(), 0.0);
     for (std::size_t d = 0; d < entry.size(); ++d) {
       if (prescribedRow[d]) continue;
@@ -609,7 +608,6 @@ struct FeProblem::Impl {
     const auto hasSize = [](double s) { return s > 0; };
     if (std::count_if(sum.begin(), sum.end(), hasSize) < 2) return Teuchos::null;
     const std::size_t first = std::find_if(sum.begin(), sum.end(), hasSize) - sum.begin();
-    const std::vector<char> prescribedRow = prescribedRows();
     const std::vector<double> s = toHost(prescribed);
     const auto weights = rcp(new Vector(map));
     const auto to = weights->getDataNonConst();
@@ -850,10 +848,12 @@ double FeProblem::inner(const path::Increment& x, const path::Increment& y) cons
   return sum + (impl_->parameterInner - factors[0]) * impl_->ofParameters(*x.u, *y.u) + internal;
 }
 
-std::vector<double> FeProblem::fieldChanges(const Vector& change, const path::State& to) {
+std::vector<double> FeProblem::fieldChanges(const path::State& from, const path::State& to) {
   if (impl_->numBalances() < 2) return {};
-  constexpr double counts =
-      1e-3;  // of the forces: a mesh leaves less of a field at rest, and rounding much less
+  // Of the forces: a mesh leaves less of a field at rest, and rounding much less.
+  constexpr double counts = 1e-3;
+  Vector change(*to.u, Teuchos::Copy);
+  change.update(-1, *from.u, 1);
   Sizes norms = impl_->norms(field(change));
   const Sizes scales = impl_->imbalance(onRank(to), to.lambda), at = impl_->norms(field(*to.u)),
               stiffness = impl_->meanDiagonals(*impl_->K);

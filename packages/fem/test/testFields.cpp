@@ -74,10 +74,11 @@ TEST(Fields, FactorsMultiplyTheirProducts) {
              both = vectorOf(problem, oneEach(dofs, 2, 3));
   const Numbers rest(dofs.numDofs(), 0.0);
   tangent(problem, rest, 0.3);
-  const auto norms = problem.fieldChanges(*both, {both, 0.3});
+  const atrapos::path::State from{vectorOf(problem, rest), 0.3};
+  const auto norms = problem.fieldChanges(from, {both, 0.3});
   ASSERT_EQ(norms.size(), 2u);
   // Next to nothing of the forces there: that field has not moved.
-  const auto still = problem.fieldChanges(*vectorOf(problem, oneEach(dofs, 2, 1e-12)), {both, 0.3});
+  const auto still = problem.fieldChanges(from, {vectorOf(problem, oneEach(dofs, 2, 1e-12)), 0.3});
   EXPECT_EQ(still[0], norms[0]);
   EXPECT_EQ(still[1], 0);
   const auto inner = [&](const auto& a, const auto& b) { return problem.inner({a, {}}, {b, {}}); };

@@ -15,6 +15,11 @@ double dot(const Augmented& x, const Augmented& y, double weight) {
   return weight * linear::dot(*x.u, *y.u) + x.lambda * y.lambda;
 }
 
+double dot(const Problem& problem, const Augmented& x, const Augmented& y, double weight) {
+  const std::vector<double> none(problem.internalCount(), 0.0);
+  return weight * problem.inner({x.u, none}, {y.u, none}) + x.lambda * y.lambda;
+}
+
 Augmented copy(const Augmented& x) { return {Teuchos::rcp(new Vector(*x.u, Teuchos::Copy)), x.lambda}; }
 
 void add(Augmented& x, double factor, const Augmented& y) {

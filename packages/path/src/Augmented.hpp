@@ -16,6 +16,10 @@ struct Augmented {
 /// w u . v + lambda mu.
 double dot(const Augmented& x, const Augmented& y, double weight);
 
+/// w <u, v> + lambda mu with the Problem's inner product of the unknowns, in which fields of different units
+/// are measured beside each other.
+double dot(const Problem& problem, const Augmented& x, const Augmented& y, double weight);
+
 Augmented copy(const Augmented& x);
 /// x + factor y.
 void add(Augmented& x, double factor, const Augmented& y);

@@ -136,7 +136,7 @@ class BranchFollower::Tracer final : public Observer {
     for (HalfBranch& half : progress.halves) {
       if (half.point != point) continue;
       const auto t = augmented(progress.diagram.points[point].point.tangents[half.tangent], half.sense);
-      const double c = inner(t, direction, w) / (length(t, w) * length(direction, w));
+      const double c = dot(problem_, t, direction, w) / (length(t, w) * length(direction, w));
       if (c > cosine) {
         cosine = c;
         best = &half;
@@ -171,11 +171,7 @@ class BranchFollower::Tracer final : public Observer {
     return std::nullopt;
   }
 
-  /// As the path parameter measures: fields of different units beside each other.
-  double inner(const Augmented& x, const Augmented& y, double w) const {
-    return w * problem_.inner({x.u, {}}, {y.u, {}}) + x.lambda * y.lambda;
-  }
-  double length(const Augmented& x, double w) const { return std::sqrt(inner(x, x, w)); }
+  double length(const Augmented& x, double w) const { return std::sqrt(dot(problem_, x, x, w)); }
 
   const Problem& problem_;
   BranchObserver& observer_;

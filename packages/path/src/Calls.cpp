@@ -127,9 +127,9 @@ void Calls::weighFields(const std::vector<double>& factors) {
   problemCall([&] { problem_.weighFields(factors); });
 }
 
-std::vector<double> Calls::fieldChanges(const Vector& change, const State& to) {
+std::vector<double> Calls::fieldChanges(const State& from, const State& to) {
   Stopwatch watch(work_.seconds.residual);
-  return problemCall([&] { return problem_.fieldChanges(change, to); });
+  return problemCall([&] { return problem_.fieldChanges(from, to); });
 }
 
 std::vector<double> Calls::eventOrder(int k) {

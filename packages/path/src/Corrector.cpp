@@ -8,9 +8,7 @@
 namespace atrapos::path {
 
 double Corrector::dot(const Augmented& x, const Augmented& y, double weight) const {
-  const auto& problem = calls_.problem();
-  const std::vector<double> none(problem.internalCount(), 0.0);
-  return weight * problem.inner({x.u, none}, {y.u, none}) + x.lambda * y.lambda;
+  return path::dot(calls_.problem(), x, y, weight);
 }
 
 void Corrector::factor(const State& state) {

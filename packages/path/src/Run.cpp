@@ -142,9 +142,8 @@ bool Run::step() {
 /// The step's end becomes the state; the observer sees it later.
 void Run::accept(Trial trial, StepReport report, Series series) {
   trial.state = calls_.settled(trial.state);
-  auto change = copy(*trial.state.u);
-  change->update(-1, *outcome_.final.u, 1);
-  fieldSizes_.moved(calls_.fieldChanges(*change, trial.state), trial.state.lambda - outcome_.final.lambda);
+  fieldSizes_.moved(calls_.fieldChanges(outcome_.final, trial.state),
+                    trial.state.lambda - outcome_.final.lambda);
   report.length = trial.a;
   report.residual = trial.residual;
   report.lambdaEnd = trial.state.lambda;

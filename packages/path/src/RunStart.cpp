@@ -3,6 +3,7 @@
 
 #include <Tpetra_Vector.hpp>
 
+#include "Augmented.hpp"
 #include "Newton.hpp"
 #include "Run.hpp"
 
@@ -31,17 +32,13 @@ void Run::equilibrate() {
 bool Run::directionAgrees(const Series& series, const PathTangent& previous) const {
   if (order_ < 3) return true;  // a straight or parabolic step may turn by any angle
   if (!last_) return true;      // a direction given at the start says the sense only
-  const auto& problem = calls_.problem();
   // Of the unknowns alone: which internal variables take part may differ from series to series.
-  const std::vector<double> none(problem.internalCount(), 0.0);
-  const Increment before{previous.x.u, none}, now{series.coefficient(1).u, none};
-  const double lambda = series.lambdaCoefficient(1);
-  const auto dot = [&](const Increment& x, const Increment& y) {
-    return series.weight() * problem.inner(x, y);
+  const Augmented before{previous.x.u, previous.lambda};
+  const Augmented now{series.coefficient(1).u, series.lambdaCoefficient(1)};
+  const auto inner = [&](const Augmented& x, const Augmented& y) {
+    return dot(calls_.problem(), x, y, series.weight());
   };
-  const double length2 = dot(before, before) + previous.lambda * previous.lambda;
-  const double own2 = dot(now, now) + lambda * lambda;
-  return dot(now, before) + lambda * previous.lambda > options_.minCosine * std::sqrt(length2 * own2);
+  return inner(now, before) > options_.minCosine * std::sqrt(inner(before, before) * inner(now, now));
 }
 
 /// The pending step ends half as far along its series. False where it was shortened often enough.

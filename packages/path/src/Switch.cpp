@@ -104,25 +104,21 @@ std::optional<State> BranchStart::at(double s) {
 
 /// Still the branch asked for: not back on the one that it leaves.
 bool BranchStart::isOnBranch(const State& state) const {
-  const auto dot = [&](const PathTangent& x, const PathTangent& y) {
-    return weight_ * calls_.problem().inner(x.x, y.x) + x.lambda * y.lambda;
+  const auto inner = [&](const Augmented& x, const Augmented& y) {
+    return dot(calls_.problem(), x, y, weight_);
   };
-  PathTangent gap{{Teuchos::rcp(new Vector(*state.u, Teuchos::Copy)), {}},
-                  state.lambda - point_.state.lambda};
-  gap.x.u->update(-1, *point_.state.u, 1);
-  const PathTangent t{{direction_.x.u, {}}, direction_.lambda};
+  Augmented gap = copy(Augmented{state.u, state.lambda});
+  add(gap, -1, {point_.state.u, point_.state.lambda});
+  const Augmented t{direction_.x.u, direction_.lambda};
   constexpr double sameDirection = 0.9;
-  return dot(gap, t) > sameDirection * std::sqrt(dot(gap, gap) * dot(t, t));
+  return inner(gap, t) > sameDirection * std::sqrt(inner(gap, gap) * inner(t, t));
 }
 
 /// The direction of a branch as a unit of the path parameter that measures fields by these sizes.
 PathTangent unitDirection(const Problem& problem, const PathTangent& t, double weight) {
-  PathTangent unit = t;
-  const double size = std::sqrt(weight * problem.inner(t.x, t.x) + t.lambda * t.lambda);
-  unit.x.u = Teuchos::rcp(new Vector(*t.x.u, Teuchos::Copy));
-  unit.x.u->scale(1 / size);
-  unit.lambda /= size;
-  return unit;
+  Augmented unit = copy(Augmented{t.x.u, t.lambda});
+  scale(unit, 1 / std::sqrt(dot(problem, unit, unit, weight)));
+  return {{unit.u, t.x.internal}, unit.lambda};
 }
 
 }  // namespace

@@ -20,7 +20,7 @@ std::vector<std::unique_ptr<Term>> solidTerms(const Mesh& mesh);
 FeModel busyModel(const Mesh& mesh);
 
 /// HeatedSolid<source> with quadratic displacements (HEX20) and a temperature at corner nodes alone, some of
-/// it supported and driven; random loads on both fields.
+/// it supported and driven; random loads on both fields. `conductivity`: the law's k.
 template <int source>
 FeModel heatedModel(const Mesh& mesh, double conductivity = 0.6) {
   const Field temperature{"temperature", {""}, Role::primal};

@@ -65,7 +65,7 @@ class FeProblem final : public path::Problem {
   /// By balance (DofMap::balances), with directors, multipliers and parameters in that of the displacements.
   /// A field has moved where the forces of its change, by the mean diagonal entry of its own block in the
   /// last tangent, are a thousandth of those of its balance.
-  std::vector<double> fieldChanges(const path::Vector& change, const path::State& to) override;
+  std::vector<double> fieldChanges(const path::State& from, const path::State& to) override;
   /// Throws std::invalid_argument where there are others than one a balance.
   void weighFields(const std::vector<double>& factors) override;
   /// Chosen from the unknowns without the parameters.

@@ -52,7 +52,7 @@ class Calls {
 
   double weight(const Increment& Xhat, std::optional<double> given);
   void weighFields(const std::vector<double>& factors);
-  std::vector<double> fieldChanges(const Vector& change, const State& to);
+  std::vector<double> fieldChanges(const State& from, const State& to);
 
   /// Coefficient k of the Problem's event functions.
   std::vector<double> eventOrder(int k);

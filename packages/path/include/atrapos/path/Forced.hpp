@@ -62,8 +62,8 @@ class ForcedProblem : public Problem {
   int constraintPivots() const override { return unforced_.constraintPivots(); }
   std::string name(long long unknown) const override { return unforced_.name(unknown); }
   double inner(const Increment& x, const Increment& y) const override { return unforced_.inner(x, y); }
-  std::vector<double> fieldChanges(const Vector& change, const State& to) override {
-    return unforced_.fieldChanges(change, to);
+  std::vector<double> fieldChanges(const State& from, const State& to) override {
+    return unforced_.fieldChanges(from, to);
   }
   void weighFields(const std::vector<double>& factors) override { unforced_.weighFields(factors); }
   double weight(const Increment& Xhat, std::optional<double> given) override {

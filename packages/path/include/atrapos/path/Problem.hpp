@@ -139,10 +139,9 @@ class Problem {
   /// Default: the Euclidean product of the unknowns.
   virtual double inner(const Increment& x, const Increment& y) const;
 
-  /// Norms of the parts of a step's change that belong to fields of different units (displacements,
-  /// temperatures), the state behind it given: 0 for one that is at rest but for rounding and the mesh's
-  /// error. Empty where there is one such field.
-  virtual std::vector<double> fieldChanges(const Vector& /*change*/, const State& /*to*/) { return {}; }
+  /// Norms of the changes of fields of different units (displacements, temperatures) over a step: 0 for one
+  /// that is at rest but for rounding and the mesh's error. Empty where there is one such field.
+  virtual std::vector<double> fieldChanges(const State& /*from*/, const State& /*to*/) { return {}; }
 
   /// What inner() multiplies the products of these fields by from now on, > 0 each; empty: 1. The Problem's
   /// own state, as it is between two steps of a path.
