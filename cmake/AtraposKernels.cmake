@@ -35,24 +35,36 @@ if(ATRAPOS_KERNEL_LEVELS AND ATRAPOS_NATIVE)
   message(FATAL_ERROR "ATRAPOS_NATIVE compiles for this machine alone: set ATRAPOS_KERNEL_LEVELS to nothing")
 endif()
 
-# atrapos_kernels(<target> <sources...>)
+# atrapos_kernels(<target> <sources...> [WITH_TRILINOS])
+#
+# A level's objects see nothing of Trilinos (taylor/FunctionMarks.hpp), but with WITH_TRILINOS: laws that solve equations
+# of their own (taylor/Implicit.hpp) or read Kokkos' views.
 #
 # The linker keeps one copy of an inline function that several objects have, which might be one that the processor
 # cannot run: a level's objects become one, in which nothing but the tables of kernels is visible from outside.
 function(atrapos_kernels target)
-  target_sources(${target} PRIVATE ${ARGN})
+  cmake_parse_arguments(arg "WITH_TRILINOS" "" "" ${ARGN})
+  set(sources ${arg_UNPARSED_ARGUMENTS})
+  target_sources(${target} PRIVATE ${sources})
   if(NOT ATRAPOS_KERNEL_LEVELS)
     return()
   endif()
   target_compile_definitions(${target} PRIVATE ATRAPOS_KERNEL_LEVELS=${ATRAPOS_KERNEL_LANES})
   foreach(level IN LISTS ATRAPOS_KERNEL_LEVELS)
     set(objects ${target}_${level})
-    add_library(${objects} OBJECT ${ARGN})
+    add_library(${objects} OBJECT ${sources})
     target_compile_definitions(${objects} PRIVATE ATRAPOS_KERNEL_LEVEL)
     target_compile_options(${objects} PRIVATE -march=x86-64-${level})
-    target_include_directories(${objects} PRIVATE $<TARGET_PROPERTY:${target},INCLUDE_DIRECTORIES>)
-    target_link_libraries(${objects} PRIVATE $<BUILD_INTERFACE:atrapos_compile_options>
-      $<TARGET_PROPERTY:${target},LINK_LIBRARIES>)
+    target_link_libraries(${objects} PRIVATE $<BUILD_INTERFACE:atrapos_compile_options>)
+    if(arg_WITH_TRILINOS)
+      target_include_directories(${objects} PRIVATE $<TARGET_PROPERTY:${target},INCLUDE_DIRECTORIES>)
+      target_link_libraries(${objects} PRIVATE $<TARGET_PROPERTY:${target},LINK_LIBRARIES>)
+    else()
+      target_compile_definitions(${objects} PRIVATE ATRAPOS_WITHOUT_TRILINOS)
+      foreach(package IN LISTS ATRAPOS_PACKAGES)
+        target_include_directories(${objects} PRIVATE ${PROJECT_SOURCE_DIR}/packages/${package}/include)
+      endforeach()
+    endif()
     set_target_properties(${objects} PROPERTIES POSITION_INDEPENDENT_CODE ON)
     set(joined ${CMAKE_CURRENT_BINARY_DIR}/${target}_kernels_${level}.o)
     add_custom_command(OUTPUT ${joined}

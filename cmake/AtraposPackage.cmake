@@ -6,7 +6,7 @@ target_compile_options(atrapos_compile_options INTERFACE
   $<BUILD_INTERFACE:-Wall -Wextra -Wno-unknown-pragmas>
   $<$<AND:$<BOOL:${ATRAPOS_NATIVE}>,$<CONFIG:Release>>:-march=native>)
 
-# atrapos_package(<name> [SOURCES ...] [KERNELS ...] [DEPENDS ...] [PRIVATE_DEPENDS ...])
+# atrapos_package(<name> [SOURCES ...] [KERNELS ... [WITH_TRILINOS]] [DEPENDS ...] [PRIVATE_DEPENDS ...])
 # One library target atrapos_<name>, alias Atrapos::<name>; header-only where SOURCES is empty. KERNELS: sources for
 # atrapos_kernels.
 function(atrapos_package name)

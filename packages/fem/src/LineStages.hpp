@@ -1,8 +1,7 @@
 #pragma once
 
-#include <Kokkos_Macros.hpp>
-
 #include "atrapos/fem/PointLaw.hpp"
+#include "atrapos/taylor/FunctionMarks.hpp"
 #include "atrapos/taylor/Functions.hpp"
 
 /// What integrals over a part of a line are made of (docs/theory/moving_edges.md): laws that stand behind

@@ -1,11 +1,11 @@
 #pragma once
 
-#include <Kokkos_Macros.hpp>
 #include <string>
 #include <vector>
 
 #include "atrapos/solid/ShellBase.hpp"
 #include "atrapos/solid/Strain.hpp"
+#include "atrapos/taylor/FunctionMarks.hpp"
 #include "atrapos/taylor/Law.hpp"
 
 namespace atrapos::solid {

@@ -1,12 +1,12 @@
 #pragma once
 
-#include <Kokkos_Macros.hpp>
 #include <cmath>
 
 #include "atrapos/fem/PointLaw.hpp"
 #include "atrapos/solid/Metal.hpp"
 #include "atrapos/solid/Rubber.hpp"
 #include "atrapos/solid/Strain.hpp"
+#include "atrapos/taylor/FunctionMarks.hpp"
 #include "atrapos/taylor/Law.hpp"
 #include "atrapos/taylor/Rate.hpp"
 

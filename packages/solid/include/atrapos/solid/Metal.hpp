@@ -1,11 +1,11 @@
 #pragma once
 
-#include <Kokkos_Macros.hpp>
 #include <cmath>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "atrapos/taylor/FunctionMarks.hpp"
 #include "atrapos/taylor/Law.hpp"
 #include "atrapos/taylor/Rate.hpp"
 

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <Kokkos_Macros.hpp>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -8,6 +7,7 @@
 
 #include "atrapos/solid/Material.hpp"
 #include "atrapos/solid/Strain.hpp"
+#include "atrapos/taylor/FunctionMarks.hpp"
 #include "atrapos/taylor/Law.hpp"
 
 namespace atrapos::solid {

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <Kokkos_Macros.hpp>
 #include <string>
 #include <vector>
 
 #include "atrapos/solid/Strain.hpp"
+#include "atrapos/taylor/FunctionMarks.hpp"
 #include "atrapos/taylor/Law.hpp"
 
 namespace atrapos::solid {

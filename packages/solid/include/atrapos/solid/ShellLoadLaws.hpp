@@ -1,10 +1,10 @@
 #pragma once
 
-#include <Kokkos_Macros.hpp>
 #include <string>
 #include <vector>
 
 #include "atrapos/fem/PointLaw.hpp"
+#include "atrapos/taylor/FunctionMarks.hpp"
 #include "atrapos/taylor/Law.hpp"
 
 /// Laws of loads that follow a shell; their terms are made by ShellLoads.hpp (docs/theory/shell.md, "Loads").

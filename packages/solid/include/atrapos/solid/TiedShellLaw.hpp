@@ -1,12 +1,12 @@
 #pragma once
 
-#include <Kokkos_Macros.hpp>
 #include <string>
 #include <vector>
 
 #include "atrapos/solid/Mitc3Base.hpp"
 #include "atrapos/solid/Mitc4Base.hpp"
 #include "atrapos/solid/Strain.hpp"
+#include "atrapos/taylor/FunctionMarks.hpp"
 #include "atrapos/taylor/Law.hpp"
 
 namespace atrapos::solid {

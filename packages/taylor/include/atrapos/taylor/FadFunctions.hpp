@@ -1,12 +1,14 @@
 #pragma once
 
-#include <Sacado_Fad_SFad.hpp>
 #include <cmath>
 #include <type_traits>
+
+#include "atrapos/taylor/Fad.hpp"
 
 /// hypot, expm1, log1p and erf of Sacado Fad types over double, which Sacado has not: with them a law that
 /// calls one has a tangent. Argument-dependent look-up does not reach here, so a law says `using std::erf,
 /// atrapos::taylor::erf;` and calls erf unqualified.
+#if !defined(ATRAPOS_WITHOUT_TRILINOS)
 namespace atrapos::taylor {
 
 namespace detail {
@@ -64,3 +66,4 @@ KOKKOS_INLINE_FUNCTION detail::FadOf<B> hypot(double a, const B& b) {
 }
 
 }  // namespace atrapos::taylor
+#endif

@@ -1,7 +1,8 @@
 #pragma once
 
-#include <Kokkos_Macros.hpp>
 #include <cmath>
+
+#include "atrapos/taylor/FunctionMarks.hpp"
 
 // Requests to the compiler: unroll a short loop over the entries of a local array (left to itself it keeps
 // the array in memory), inline all calls of a function, and never inline a function, not even into one that

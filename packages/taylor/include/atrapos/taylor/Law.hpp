@@ -1,9 +1,9 @@
 #pragma once
 
-#include <Sacado_Fad_SFad.hpp>
 #include <cstddef>
 #include <vector>
 
+#include "atrapos/taylor/Fad.hpp"
 #include "atrapos/taylor/Functions.hpp"
 #include "atrapos/taylor/Sweep.hpp"
 
@@ -30,6 +30,7 @@ KOKKOS_INLINE_FUNCTION void value(const Law& law, const double* in, const double
   law(in, data, out);
 }
 
+#if !defined(ATRAPOS_WITHOUT_TRILINOS)
 /// out = law(in) and jacobian[i * numInputs + j] = d out[i] / d in[j].
 template <class Law>
 KOKKOS_INLINE_FUNCTION void tangent(const Law& law, const double* in, const double* data, double* out,
@@ -44,6 +45,7 @@ KOKKOS_INLINE_FUNCTION void tangent(const Law& law, const double* in, const doub
     for (int j = 0; j < Law::numInputs; ++j) jacobian[i * Law::numInputs + j] = y[i].dx(j);
   }
 }
+#endif
 
 namespace detail {
 

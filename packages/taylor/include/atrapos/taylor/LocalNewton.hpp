@@ -1,10 +1,10 @@
 #pragma once
 
-#include <Sacado_Fad_SFad.hpp>
 #include <cmath>
 #include <type_traits>
 #include <utility>
 
+#include "atrapos/taylor/Fad.hpp"
 #include "atrapos/taylor/SmallLu.hpp"
 
 namespace atrapos::taylor::detail {

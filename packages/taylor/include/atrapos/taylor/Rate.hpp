@@ -57,6 +57,7 @@ KOKKOS_INLINE_FUNCTION bool solveRate(const G&, const double*, const double*, do
   return true;
 }
 
+#if !defined(ATRAPOS_WITHOUT_TRILINOS)
 // Fad types: dz = A^-1 B dv
 template <int NV, int NZ, int ND, class G, class Fad>
 KOKKOS_INLINE_FUNCTION bool solveRate(const G& g, const Fad* v, const double* data, Fad* z) {
@@ -85,6 +86,7 @@ KOKKOS_INLINE_FUNCTION bool solveRate(const G& g, const Fad* v, const double* da
   }
   return regular;
 }
+#endif
 
 /// One execution of g in pass Y of the context that active v and z belong to, all with slots: vk and zk are
 /// their coefficients in that pass.

@@ -1,7 +1,8 @@
 #pragma once
 
-#include <Kokkos_Macros.hpp>
 #include <cmath>
+
+#include "atrapos/taylor/FunctionMarks.hpp"
 
 namespace atrapos::taylor::detail {
 
