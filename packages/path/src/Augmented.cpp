@@ -20,7 +20,9 @@ double dot(const Problem& problem, const Augmented& x, const Augmented& y, doubl
   return weight * problem.inner({x.u, none}, {y.u, none}) + x.lambda * y.lambda;
 }
 
-Augmented copy(const Augmented& x) { return {Teuchos::rcp(new Vector(*x.u, Teuchos::Copy)), x.lambda}; }
+RCP<Vector> copy(const Vector& v) { return Teuchos::rcp(new Vector(v, Teuchos::Copy)); }
+
+Augmented copy(const Augmented& x) { return {copy(*x.u), x.lambda}; }
 
 void add(Augmented& x, double factor, const Augmented& y) {
   x.u->update(factor, *y.u, 1);

@@ -20,6 +20,7 @@ double dot(const Augmented& x, const Augmented& y, double weight);
 /// are measured beside each other.
 double dot(const Problem& problem, const Augmented& x, const Augmented& y, double weight);
 
+RCP<Vector> copy(const Vector& v);
 Augmented copy(const Augmented& x);
 /// x + factor y.
 void add(Augmented& x, double factor, const Augmented& y);

@@ -6,8 +6,9 @@
 
 #include <Tpetra_Vector.hpp>
 
+#include "Line.hpp"
 #include "Newton.hpp"
-#include "Run.hpp"
+#include "Rounded.hpp"
 
 namespace atrapos::path {
 

@@ -31,9 +31,7 @@ Outcome PathFollower::runFrom(const Start& start, Observer& observer) {
   double total = 0;
   {
     Stopwatch watch(total);
-    Run run(problem_, solver_, options_, stops_, monitors_, observer, outcome);
-    run.follow(start);
-    static_cast<Work&>(outcome) = run.work();
+    outcome = Run(problem_, solver_, options_, stops_, monitors_, observer, start).follow();
   }
   outcome.seconds.total = total;
   return outcome;

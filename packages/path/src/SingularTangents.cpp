@@ -1,3 +1,5 @@
+#include "SingularTangents.hpp"
+
 #include <Tpetra_CrsMatrix.hpp>
 #include <Tpetra_Vector.hpp>
 #include <algorithm>
@@ -6,8 +8,8 @@
 #include <vector>
 
 #include "Augmented.hpp"
+#include "Line.hpp"
 #include "Newton.hpp"
-#include "Run.hpp"
 #include "atrapos/linear/Dot.hpp"
 #include "atrapos/linear/OnAllRanks.hpp"
 
@@ -63,40 +65,44 @@ std::string largestEntries(const Problem& problem, const Vector& x) {
 /// F with a part along the left null vector psi: a limit point, U = U_0 + s phi, lambda = lambda_0 + c s^2,
 /// c = psi . D^2R(phi, phi) / (2 psi . F). Without: a bifurcation point, which the path passes along
 /// K Uhat = F, phi . Uhat = 0. Where that state's tangent is singular too, a mechanism.
-void Run::startAside(const PathError& cause) {
+void SingularTangents::startAside(const PathError& cause) {
+  Calls& calls = path_.calls;
+  Position& here = path_.here;
+  Outcome& outcome = path_.outcome;
+  const double direction = path_.options.direction;
   const auto giveUp = [&](const std::string& why) {
-    throw PathError(cause.reason(), line("at lambda = ", outcome_.final.lambda, ": ", cause.what(),
+    throw PathError(cause.reason(), line("at lambda = ", here.state.lambda, ": ", cause.what(),
                                          "; the path cannot start here", why));
   };
   if (!mechanism_.empty()) giveUp(", nor next to it: " + mechanism_);
-  State state = outcome_.final.copy();
-  auto F = calls_.newVector(), phi = calls_.newVector();
-  const auto K = calls_.tangent(state, *F);
+  State state = here.state.copy();
+  auto F = calls.newVector(), phi = calls.newVector();
+  const auto K = calls.tangent(state, *F);
   fillUnsymmetric(*phi, 1);
   auto psi = copy(*phi);
   try {
-    ++outcome_.restarts;
-    calls_.factor(shifted(*K));
-    inverseIterations(calls_, *phi, false);
-    if (calls_.problem().symmetric())
+    ++outcome.restarts;
+    calls.factor(shifted(*K));
+    inverseIterations(calls, *phi, false);
+    if (calls.problem().symmetric())
       psi = phi;
     else
-      inverseIterations(calls_, *psi, true);
+      inverseIterations(calls, *psi, true);
   } catch (const PathError&) {
     giveUp("");
   }
   if (!std::isfinite(phi->norm2())) giveUp("");
-  mechanism_ = largestEntries(calls_.problem(), *phi);
+  mechanism_ = largestEntries(calls.problem(), *phi);
 
   const double load = linear::dot(*psi, *F), unit = std::max(1.0, std::abs(state.lambda));
   constexpr double none = 1e-6, aside = 1e-4;  // of the load; of the load factor
   Border border;
   if (std::abs(load) > none * F->norm2()) {
-    const double bend = SecondOrder(calls_, state, psi)({phi, 0}) / (2 * load);
+    const double bend = SecondOrder(calls, state, psi)({phi, 0}) / (2 * load);
     if (!std::isfinite(bend) || bend == 0) giveUp(": " + mechanism_);
-    if (!tangent_ && bend * options_.direction < 0)
+    if (!here.tangent && bend * direction < 0)
       giveUp(line(": the load factor ", bend < 0 ? "falls" : "grows", " on both sides of it; ", mechanism_));
-    const double along = tangent_ ? linear::dot(*tangent_->x.u, *phi) : phi->meanValue();
+    const double along = here.tangent ? linear::dot(*here.tangent->x.u, *phi) : phi->meanValue();
     const double s = std::copysign(std::sqrt(aside * unit / std::abs(bend)), along);
     state.u->update(s, *phi, 1);
     state.lambda += bend * s * s;
@@ -105,52 +111,51 @@ void Run::startAside(const PathError& cause) {
     // One border only: the second unknown is zero.
     Bordered system;
     system.K = K;
-    system.columns = {psi, calls_.newVector()};
-    system.rows = {phi, calls_.newVector()};
+    system.columns = {psi, calls.newVector()};
+    system.rows = {phi, calls.newVector()};
     system.d[1][1] = 1;
-    const auto Uhat = system.solve(calls_, F, {0, 0});
+    const auto Uhat = system.solve(calls, F, {0, 0});
     if (!Uhat.good) giveUp(": " + mechanism_);
-    const double sense = tangent_ ? std::copysign(1.0, tangent_->lambda) : options_.direction;
+    const double sense = here.tangent ? std::copysign(1.0, here.tangent->lambda) : direction;
     state.u->update(sense * aside * unit, *Uhat.x, 1);
     state.lambda += sense * aside * unit;
     border = holdLoad();
   }
   constexpr int maxHalvings = 0;
-  const auto found =
-      newton(calls_, state, *r_, border, correctAbove(), options_.maxStartIterations, maxHalvings);
-  outcome_.startIterations += found.iterations;
+  const auto found = newton(calls, state, *here.r, border, path_.correctAbove(),
+                            path_.options.maxStartIterations, maxHalvings);
+  outcome.startIterations += found.iterations;
   if (!found.converged) giveUp(", and no equilibrium is found next to it; " + mechanism_);
-  ++outcome_.restarts;  // the factorization that failed
-  outcome_.final = calls_.settled(state);
-  residual_ = found.residual;
+  ++outcome.restarts;  // the factorization that failed
+  here.state = calls.settled(state);
+  here.residual = found.residual;
 }
 
-/// The tangent is singular at the state: go on a little along the last series and start there.
-void Run::stepOverSingularity(const PathError& cause, int attempt) {
+/// Along the last series.
+void SingularTangents::stepOver(const PathError& cause, int attempt) {
+  Position& here = path_.here;
   const auto giveUp = [&](const std::string& why) {
-    throw PathError(cause.reason(),
-                    line("at lambda = ", outcome_.final.lambda, ": ", cause.what(), "; ", why));
+    throw PathError(cause.reason(), line("at lambda = ", here.state.lambda, ": ", cause.what(), "; ", why));
   };
-  if (!last_) {
+  if (!path_.last) {
     startAside(cause);
     return;
   }
+  LastStep& last = *path_.last;
   constexpr int maxAttempts = 3;
   if (attempt > maxAttempts) giveUp("stepping over it along the previous series did not help");
   // Small against the step, so that the residual, which grows like a^(K+1), hardly changes.
-  const double shift = std::min(1e-3 * std::pow(4.0, attempt - 1) * lastLength_,
-                                0.5 * (stops_.pathLength - outcome_.pathLength));
+  const double shift = std::min(1e-3 * std::pow(4.0, attempt - 1) * here.lastLength,
+                                0.5 * (path_.stops.pathLength - here.pathLength));
   Trial trial;
-  trial.a = lastEnd_ + shift;
-  evaluate(*last_, trial);
-  if (!(trial.residual <= bound())) giveUp("the previous series does not reach past it");
-  ++outcome_.restarts;
-  lastEnd_ = trial.a;
-  outcome_.pathLength += shift;
-  outcome_.final = trial.state;
-  residual_ = trial.residual;
-  r_ = trial.r;
-  tangent_ = last_->tangent(lastEnd_);
+  trial.a = last.at + shift;
+  evaluate(path_, last.series, trial);
+  if (!(trial.residual <= path_.bound())) giveUp("the previous series does not reach past it");
+  ++path_.outcome.restarts;
+  last.at = trial.a;
+  here.moveTo(trial.state, trial.r, trial.residual);
+  here.pathLength += shift;
+  here.tangent = last.series.tangent(trial.a);
 }
 
 }  // namespace atrapos::path

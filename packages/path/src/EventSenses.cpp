@@ -1,0 +1,82 @@
+#include "EventSenses.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Tpetra_Vector.hpp>
+
+#include "PathUnderWay.hpp"
+
+namespace atrapos::path {
+
+namespace {
+
+/// max |c_k| length^k over k >= 1.
+double size(const std::vector<double>& c, double length) {
+  double largest = 0, power = length;
+  for (std::size_t k = 1; k < c.size(); ++k, power *= length)
+    largest = std::max(largest, std::abs(c[k]) * power);
+  return largest;
+}
+
+/// Whether a function that is zero at a = 0, as its first derivatives are below `first`, rises in a sense
+/// (+1, -1), looked at on this length; what is below `noise` counts as zero.
+bool rises(const std::vector<double>& c, double sense, double length, double noise, std::size_t first = 1) {
+  const double small = std::max(noise, 1e-9 * size(c, length));
+  double power = std::pow(length, first);
+  for (std::size_t k = first; k < c.size(); ++k, power *= length)
+    if (std::abs(c[k]) * power > small) return (k % 2 == 1 ? sense : 1) * c[k] > 0;
+  return true;  // stays zero: nothing is violated
+}
+
+/// The length on which senses are looked at.
+double reachOf(const PathUnderWay& path, const Series& series) {
+  return std::min(series.radius(path.options.delta), path.options.maxStep);
+}
+
+}  // namespace
+
+Polynomial eventPolynomial(const Series& series, int i, const std::vector<int>& zero) {
+  auto c = series.eventCoefficients(i);
+  if (std::find(zero.begin(), zero.end(), i) != zero.end()) c[0] = 0;
+  return Polynomial(std::move(c));
+}
+
+std::vector<int> falling(const PathUnderWay& path, const Series& series, const std::vector<int>& candidates,
+                         double sense, const std::vector<int>& flat) {
+  const double reach = reachOf(path, series);
+  const int functions = series.eventCount();
+  double largest = 0;
+  for (const int i : candidates)
+    if (i < functions) largest = std::max(largest, size(series.eventCoefficients(i), reach));
+  constexpr double rounding = 1e-12;
+  // Far enough to tell the pieces apart, near enough for the sense that the path starts in.
+  constexpr double ahead = 1e-3;
+  State place;
+  std::vector<int> violated;
+  for (const int i : candidates) {
+    if (i < functions) {
+      const std::size_t first = std::binary_search(flat.begin(), flat.end(), i) ? 2 : 1;
+      if (!rises(series.eventCoefficients(i), sense, reach, rounding * largest, first)) violated.push_back(i);
+      continue;
+    }
+    if (place.u.is_null())
+      place = series.state(sense * ahead * (std::isfinite(reach) ? reach : path.here.lastLength));
+    if (!path.calls.continues(place, i)) violated.push_back(i);
+  }
+  return violated;
+}
+
+std::vector<int> overdue(const PathUnderWay& path, const Series& series) {
+  const double reach = reachOf(path, series);
+  std::vector<int> due;
+  for (int i = 0; i < series.eventCount(); ++i) {
+    const Polynomial p = eventPolynomial(series, i, path.here.applied);
+    const auto& c = p.coefficients();
+    if (series.eventGrows(i) ? c[1] * reach < -1e-9 * size(c, reach) : c[0] < 0 && !rises(c, 1, reach, 0))
+      due.push_back(i);
+  }
+  return due;
+}
+
+}  // namespace atrapos::path

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <vector>
+
+#include "atrapos/path/Polynomial.hpp"
+#include "atrapos/path/Series.hpp"
+
+namespace atrapos::path {
+
+struct PathUnderWay;
+
+/// Event function i without its value at the start where that is a known root (one of `zero`).
+Polynomial eventPolynomial(const Series& series, int i, const std::vector<int>& zero);
+
+/// The candidates that fall along the series in this sense (+1, -1), ascending. A break falls where the
+/// series leaves its piece. `flat`: those whose functions begin with their second derivatives, ascending.
+std::vector<int> falling(const PathUnderWay& path, const Series& series, const std::vector<int>& candidates,
+                         double sense, const std::vector<int>& flat = {});
+
+/// Functions that are below zero at the start of the series by what the residual bound allows, and fall.
+std::vector<int> overdue(const PathUnderWay& path, const Series& series);
+
+}  // namespace atrapos::path

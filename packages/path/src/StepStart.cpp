@@ -1,0 +1,121 @@
+#include "StepStart.hpp"
+
+#include <cmath>
+
+#include <Tpetra_Vector.hpp>
+
+#include "Augmented.hpp"
+#include "EventChoice.hpp"
+#include "EventSenses.hpp"
+#include "Line.hpp"
+#include "Newton.hpp"
+#include "Rounded.hpp"
+#include "SeriesHere.hpp"
+
+namespace atrapos::path {
+
+void StepStart::equilibrate() {
+  Calls& calls = path_.calls;
+  Position& here = path_.here;
+  here.state = calls.settled(here.state);
+  State state = here.state.copy();
+  here.residual = calls.residual(state, *here.r).relative();
+  if (!std::isfinite(here.residual))
+    throw PathError(EndReason::notFinite, "the residual at the start is not finite");
+  const double allowed = !here.tangent          ? path_.correctAbove()
+                         : here.applied.empty() ? path_.bound()
+                                                : path_.boundAtEvents();
+  if (here.residual <= allowed) return;
+  constexpr int maxHalvings = 10;
+  const auto result = newton(calls, state, *here.r, holdLoad(), path_.correctAbove(),
+                             path_.options.maxStartIterations, maxHalvings);
+  path_.outcome.startIterations = result.iterations;
+  if (!result.converged)
+    throw PathError(EndReason::startNotInEquilibrium,
+                    line("no equilibrium found at the start, lambda = ", state.lambda, ": ", result.trouble,
+                         " (relative residual ", result.residual, ')'));
+  here.residual = result.residual;
+  here.state = calls.settled(state);
+}
+
+Series StepStart::series(StepReport& report) {
+  Position& here = path_.here;
+  // Not empty here: events were applied at this very state before the path was interrupted.
+  const bool restarted = !here.applied.empty();
+  Series series = !here.due.empty() ? EventChoice(path_, report).series()
+                  : restarted       ? seriesAfterRestart(path_)
+                                    : smoothSeries(report);
+  for (auto due = overdue(path_, series); !due.empty(); due = overdue(path_, series)) {
+    ++path_.outcome.eventTrials;
+    ++report.restarts;
+    here.due = due;
+    series = EventChoice(path_, report).series();
+  }
+  return series;
+}
+
+Series StepStart::smoothSeries(StepReport& report) {
+  Position& here = path_.here;
+  for (int attempt = 1;;) {
+    SeriesRequest request;
+    here.relaxOver = path_.options.relaxResidual ? here.lastLength : 0;
+    if (here.relaxOver > 0) {
+      request.residual = here.r.get();
+      request.relaxOver = here.relaxOver;
+    }
+    try {
+      Series series = seriesHere(path_, request, {});
+      if (directionAgrees(series)) return series;
+    } catch (const PathError& error) {
+      if (error.reason() != EndReason::singularTangent) throw;
+      singular_.stepOver(error, attempt);
+      ++attempt;
+      ++report.restarts;
+      continue;
+    }
+    if (!retreat())
+      throw PathError(EndReason::directionLost,
+                      line("at lambda = ", here.state.lambda,
+                           ": the path's direction at the end of a step is not that of its series, and "
+                           "shorter steps do not help"));
+  }
+}
+
+/// The direction at a step's end, once by the derivative of the series that led there and once by the tangent
+/// found there, is the same to the accuracy of that derivative, unless the two lie on different branches.
+bool StepStart::directionAgrees(const Series& series) const {
+  if (path_.order < 3) return true;  // a straight or parabolic step may turn by any angle
+  if (!path_.last) return true;      // a direction given at the start says the sense only
+  // Of the unknowns alone: which internal variables take part may differ from series to series.
+  const PathTangent& previous = *path_.here.tangent;
+  const Augmented before{previous.x.u, previous.lambda};
+  const Augmented now{series.coefficient(1).u, series.lambdaCoefficient(1)};
+  const auto inner = [&](const Augmented& x, const Augmented& y) {
+    return dot(path_.calls.problem(), x, y, series.weight());
+  };
+  return inner(now, before) > path_.options.minCosine * std::sqrt(inner(before, before) * inner(now, now));
+}
+
+/// The pending step ends half as far along its series. False where it was shortened often enough.
+bool StepStart::retreat() {
+  constexpr int maxRetreats = 4;
+  if (!path_.pending || path_.pending->retreats == maxRetreats) return false;
+  StepReport report = *path_.pending;
+  Trial trial;
+  trial.a = rounded(0.5 * report.length);
+  if (trial.a < path_.options.minStep) return false;
+  evaluate(path_, path_.last->series, trial);
+  ++report.retreats;
+  Outcome& outcome = path_.outcome;
+  ++outcome.retreats;
+  --outcome.steps;
+  outcome.corrections -= report.corrections;  // counted again by accept
+  outcome.cutBacks -= report.cutBacks;
+  // Two branches are near, and the residual is what turns the path from one to the other.
+  constexpr double sharper = 1e-4;
+  correct(path_, path_.last->series, trial, report, sharper * path_.correctAbove());
+  path_.accept(std::move(trial), std::move(report), std::move(*path_.last));
+  return true;
+}
+
+}  // namespace atrapos::path

@@ -1,0 +1,29 @@
+#pragma once
+
+#include "SingularTangents.hpp"
+
+namespace atrapos::path {
+
+/// How a step begins: the series at the position.
+class StepStart {
+ public:
+  explicit StepStart(PathUnderWay& path) : path_(path), singular_(path) {}
+
+  /// The position where the path starts becomes one of its states. Throws PathError: notFinite,
+  /// startNotInEquilibrium.
+  void equilibrate();
+
+  /// The series of the next step. What it takes to have one moves the position: events, a singular tangent,
+  /// another direction than that of the step behind, which is then shorter. Throws PathError.
+  Series series(StepReport& report);
+
+ private:
+  Series smoothSeries(StepReport& report);
+  bool directionAgrees(const Series& series) const;
+  bool retreat();
+
+  PathUnderWay& path_;
+  SingularTangents singular_;
+};
+
+}  // namespace atrapos::path

@@ -1,0 +1,125 @@
+#include "Trial.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <Tpetra_CrsMatrix.hpp>
+#include <Tpetra_Vector.hpp>
+
+#include "EventSenses.hpp"
+#include "PathUnderWay.hpp"
+
+namespace atrapos::path {
+
+namespace {
+
+/// Where each event function falls through zero first on (0, end]; infinity where it does not.
+std::vector<double> falls(const Series& series, double end, const std::vector<int>& zero) {
+  std::vector<double> at(series.eventCount(), std::numeric_limits<double>::infinity());
+  for (int i = 0; i < series.eventCount(); ++i) {
+    const Polynomial p = eventPolynomial(series, i, zero);
+    Rational g = series.scalar(p.coefficients());
+    if (series.eventGrows(i))
+      g = g.derivative();
+    else if (p.coefficients()[0] == 0)
+      g = g.withoutRootAtZero();
+    const auto slope = g.numerator().derivative();  // the root taken out at 0 does not change its sign
+    for (const double a : g.roots(end))
+      if (slope(a) <= 0) {
+        at[i] = a;
+        break;
+      }
+  }
+  return at;
+}
+
+/// The forces of what the orders leave out of the internal variables. Equilibrium alone does not tell: the
+/// truncated series may be in balance with one another. But K_T is made of the rates that the variables have
+/// at the state, so K_T u' - F lambda' is the force of the difference between these rates and the series'
+/// own, (K + 1) / a times that of the remainder.
+double rateDefect(Calls& calls, const Series& series, const Trial& trial) {
+  const PathTangent rate = series.tangent(trial.a);
+  auto F = calls.newVector(), defect = calls.newVector();
+  calls.tangent(trial.state, *F)->apply(*rate.x.u, *defect);
+  defect->update(-rate.lambda, *F, 1);
+  return defect->norm2() * std::abs(trial.a) / (series.order() + 1);
+}
+
+}  // namespace
+
+void limit(const PathUnderWay& path, const Series& series, Trial& trial, const std::vector<int>& zero) {
+  trial.events.clear();
+  trial.stop = firstStop(path.stops, series, path.here.pathLength, 1.001 * trial.a, !path.here.tangent);
+  if (trial.stop) trial.a = trial.stop->a;
+  if (series.eventCount() == 0) return;
+  // Far beyond the radius (a series that all but terminates) the high orders are rounding and hide the roots:
+  // what is found last lies within what was searched last.
+  double first = trial.a;
+  std::vector<double> at;
+  for (double end = 1.001 * trial.a;; end = 1.001 * first) {
+    at = falls(series, end, zero);
+    const double next = *std::min_element(at.begin(), at.end());
+    if (!(next < 0.9 * first)) {
+      first = next;
+      break;
+    }
+    first = next;
+  }
+  const double end = trial.stop ? trial.a : 1.001 * trial.a;
+  if (!(first <= end)) return;
+  trial.stop.reset();
+  trial.a = first;
+  // Together by symmetry, though not to the last digit.
+  constexpr double together = 1e-6;
+  for (int i = 0; i < series.eventCount(); ++i)
+    if (at[i] <= (1 + together) * first) trial.events.push_back(i);
+  std::sort(trial.events.begin(), trial.events.end(), [&](int i, int j) { return at[i] < at[j]; });
+  for (const int i : path.calls.eventsBeside(trial.events, series.state(first)))
+    if (std::find(trial.events.begin(), trial.events.end(), i) == trial.events.end())
+      trial.events.push_back(i);
+}
+
+void limit(const PathUnderWay& path, const Series& series, Trial& trial) {
+  limit(path, series, trial, path.here.applied);
+}
+
+void evaluate(const PathUnderWay& path, const Series& series, Trial& trial) {
+  Calls& calls = path.calls;
+  trial.state = series.state(trial.a);
+  if (trial.stop && trial.stop->kind == StopHit::Kind::loadFactor)  // but for the rounding of the root
+    trial.state.lambda = path.stops.loadFactors[trial.stop->index];
+  trial.r = calls.newVector();
+  const ResidualNorm size = calls.residual(trial.state, *trial.r);
+  trial.residual = size.relative();
+  if (calls.problem().remembers())
+    trial.residual = std::max(trial.residual, rateDefect(calls, series, trial) / size.scale);
+}
+
+bool astray(const PathUnderWay& path, const Trial& trial) {
+  if (!path.calls.hasPieces() || path.calls.problem().eventCount() == 0) return false;
+  std::vector<int> functions;
+  for (const int i : trial.events)
+    if (!path.isBreak(i)) functions.push_back(i);
+  return path.calls.eventsAstray(trial.state, functions);
+}
+
+void correct(const PathUnderWay& path, const Series& series, Trial& trial, StepReport& report, double above) {
+  if (trial.residual <= above || path.options.maxCorrections == 0) return;
+  const Border border = borderAt(path, series, trial.a, trial.stop);
+  // The state is under the bound already: where an iteration does not help, it stays as it is.
+  const auto result = newton(path.calls, trial.state, *trial.r, border, above, path.options.maxCorrections,
+                             /*maxHalvings*/ 0);
+  report.corrections += result.iterations;
+  trial.residual = result.residual;
+}
+
+Border borderAt(const PathUnderWay& path, const Series& series, double a,
+                const std::optional<StopHit>& stop) {
+  if (!stop || stop->kind == StopHit::Kind::pathLength)
+    return holdPathParameter(path.calls.problem(), series.weight(), series.tangent(a));
+  if (stop->kind == StopHit::Kind::loadFactor) return holdLoad();
+  return holdFunctional(path.stops.functionals[stop->index].weights);
+}
+
+}  // namespace atrapos::path
