@@ -128,11 +128,16 @@ void EventChoice::apply(const std::vector<int>& chosen) {
   Position& here = path_.here;
   Outcome& outcome = path_.outcome;
   here.applied = candidates_;
-  here.turned = here.tangent && (here.tangent->lambda > 0) != (found_->lambdaCoefficient(1) > 0);
+  const bool turns = here.tangent && (here.tangent->lambda > 0) != (found_->lambdaCoefficient(1) > 0);
   if (!chosen.empty()) ++outcome.events;
   if (here.jump > 0) ++outcome.jumps;
   outcome.worstJump = std::max(outcome.worstJump, here.jump);
-  if (!path_.pending) return;
+  report_.limitPoints.clear();
+  if (!path_.pending) {  // the step that led here was seen before the path was interrupted
+    if (turns) report_.limitPoints.push_back({0, here.state.lambda, here.tangent->lambda > 0, false});
+    return;
+  }
+  here.turned = turns;
   path_.pending->jump = here.jump;
   path_.pending->events = difference(path_.pending->events, chosen);
 }

@@ -22,9 +22,9 @@ struct Position {
   std::optional<StopHit> stop;         ///< that the path has reached
   std::vector<int> due;                ///< event functions that fell to zero here and are not applied yet
   std::vector<int> applied;            ///< applied here: their functions start at zero
-  bool turned = false;                 ///< lambda goes the other way after the events
-  double jump = 0;                     ///< the residual that corrections beyond a break have taken away here
-  int standing = 0;                    ///< events in a row without a step of sensible length
+  bool turned = false;  ///< lambda goes the other way after the events, which the pending step is to say
+  double jump = 0;      ///< the residual that corrections beyond a break have taken away here
+  int standing = 0;     ///< events in a row without a step of sensible length
 
   void moveTo(State newState, RCP<Vector> newR, double newResidual) {
     state = std::move(newState);

@@ -108,6 +108,7 @@ bool Run::settle(const EndTangent* end) {
   path_.pending.reset();
   const LastStep& last = *path_.last;
   calls_.weighFields(last.factors);
+  const std::vector<LimitPoint> atStart = std::move(report.limitPoints);
   report.limitPoints = limitPointsOf(path_, report, end);
   path_.here.turned = false;
   report.extrema = extremaOf(last.series, report.length, monitors_);
@@ -116,6 +117,7 @@ bool Run::settle(const EndTangent* end) {
     report.uncounted = end->uncounted;
     stability_.explain(report, *end, observer_);
   }
+  report.limitPoints.insert(report.limitPoints.begin(), atStart.begin(), atStart.end());
   path_.outcome.worstResidual = std::max(path_.outcome.worstResidual, report.residual);
   if (landmarks_) backAt_ = landmarks_->pass(report.step, last.series, report.length);
   limitPoints_ += static_cast<int>(report.limitPoints.size());

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>
@@ -285,6 +286,54 @@ TEST(Events, ARestartKeepsTheirBits) {
     follow(part, head.steps.back().next, 100, tail);
     same(tail, s + 1);
   }
+}
+
+/// A limit of steps ends a path where the load is about to turn at a stop: the path that goes on has that
+/// limit point where it begins.
+TEST(Events, ARestartTurnsWhereThePathWouldHave) {
+  struct Turn {
+    double pathLength, lambda;
+    bool maximum;
+  };
+  const auto turns = [](const Record& record) {
+    std::vector<Turn> all;
+    for (const auto& s : record.steps)
+      for (const auto& p : s.limitPoints)
+        if (!p.smooth) all.push_back({s.pathLengthStart + p.a, p.lambda, p.maximum});
+    return all;
+  };
+  Stops stops;
+  stops.loadFactors = {1.0};
+  const WithStops<TrussBody> body(TrussBody{}, {1.2});
+  const auto follow = [&](const Start* from, int maxSteps, Record& record) {
+    UnilateralProblem<TrussBody> problem(body);
+    SymmetricDenseSolver solver;
+    Start start;
+    start.state = {problem.vector({}), 0};
+    Options options;
+    options.maxSteps = maxSteps;
+    return PathFollower(problem, solver, options, stops).runFrom(from ? *from : start, record);
+  };
+  Record whole;
+  EXPECT_EQ(follow(nullptr, 100, whole).reason, EndReason::stopReached);
+  const auto expected = turns(whole);
+  ASSERT_EQ(expected.size(), 1u);
+  const auto at = std::find_if(whole.steps.begin(), whole.steps.end(),
+                               [](const StepReport& s) { return !s.events.empty(); });
+  ASSERT_NE(at, whole.steps.end());
+  Record head, tail;
+  EXPECT_EQ(follow(nullptr, at->step, head).reason, EndReason::stepLimit);
+  EXPECT_TRUE(turns(head).empty());  // it is not known yet how the path goes on
+  const Start& next = head.steps.back().next;
+  EXPECT_EQ(next.due, std::vector<int>{0});
+  EXPECT_EQ(follow(&next, 100, tail).reason, EndReason::stopReached);
+  const auto found = turns(tail);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].pathLength, expected[0].pathLength);
+  EXPECT_EQ(found[0].lambda, expected[0].lambda);
+  EXPECT_EQ(found[0].maximum, expected[0].maximum);
+  EXPECT_EQ(tail.steps.back().next.limitPoints, whole.steps.back().next.limitPoints);
+  for (const auto& p : tail.steps[0].limitPoints) EXPECT_FALSE(p.smooth);
 }
 
 /// A function that falls whatever is done about it.
