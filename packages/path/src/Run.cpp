@@ -56,16 +56,25 @@ void Run::followFromStart() {
 }
 
 bool Run::step() {
-  const Options& options = path_.options;
-  Position& here = path_.here;
-  Outcome& outcome = path_.outcome;
-  if (outcome.steps == options.maxSteps)
-    return end(EndReason::stepLimit, line("the limit of ", options.maxSteps, " steps is reached"));
+  if (path_.outcome.steps == path_.options.maxSteps)
+    return end(EndReason::stepLimit, line("the limit of ", path_.options.maxSteps, " steps is reached"));
   StepReport report;
   const auto factors = path_.fieldFactors();
   calls_.weighFields(factors);
   Series series = stepStart_.series(report);
   if (sharpenState(path_, series)) series = stepStart_.series(report);
+  if (!settleWith(series)) return false;
+  clean(path_, series);
+  begin(report, series);
+  Trial trial = endOf(series, report);
+  path_.accept(std::move(trial), std::move(report), {std::move(series), factors});
+  if (path_.here.stop) return end(EndReason::stopReached, path_.here.stop->text);
+  return true;
+}
+
+/// The tangent that the next step's series begins with tells of the pending step. False where the path ends
+/// with that.
+bool Run::settleWith(const Series& series) {
   const PathTangent along{series.coefficient(1), series.lambdaCoefficient(1)};
   EndTangent tangent = stability_.tangentHere(along, series.weight());
   tangent.lambda1 = along.lambda;
@@ -74,32 +83,38 @@ bool Run::step() {
     return end(EndReason::observerStopped, "ended by the observer");
   if (!passed().empty()) return end(EndReason::stopReached, passed());
   if (backAt_)
-    return end(EndReason::pathClosed, line("the path is closed: step ", outcome.steps,
+    return end(EndReason::pathClosed, line("the path is closed: step ", path_.outcome.steps,
                                            " comes to the state with which step ", *backAt_, " began"));
-  report.inertia = tangent.inertia;
   stability_.begin(std::move(tangent));
-  clean(path_, series);
+  return true;
+}
+
+/// A step starts at the position.
+void Run::begin(StepReport& report, const Series& series) {
+  Position& here = path_.here;
   report.order = series.order();
-  report.step = outcome.steps + 1;
+  report.step = path_.outcome.steps + 1;
   report.lambdaStart = here.state.lambda;
   report.pathLengthStart = here.pathLength;
-  report.radius = series.radius(options.delta);
-  if (!series.standsStill()) here.weight = outcome.weight = series.weight();  // a response to weigh
+  report.inertia = stability_.start().inertia;
+  report.radius = series.radius(path_.options.delta);
+  if (!series.standsStill()) here.weight = path_.outcome.weight = series.weight();  // a response to weigh
+}
 
+/// The end of the step, corrected where it has to be.
+Trial Run::endOf(Series& series, StepReport& report) {
   Trial trial;
   try {
     trial = acceptedTrial(path_, series, report, stability_.start().modes, patience_);
   } catch (...) {
-    outcome.cutBacks += report.cutBacks;
+    path_.outcome.cutBacks += report.cutBacks;
     throw;
   }
   report.residualOfSeries = trial.residual;
   // A break stays on its border, where it is told which way the path goes on.
   const bool atBreak = !trial.events.empty() && path_.isBreak(trial.events.back());
   if (!atBreak) correct(path_, series, trial, report, path_.correctAbove());
-  path_.accept(std::move(trial), std::move(report), {std::move(series), factors});
-  if (here.stop) return end(EndReason::stopReached, here.stop->text);
-  return true;
+  return trial;
 }
 
 /// The pending step is final: what lies inside it is read off its series, and the observer sees it.

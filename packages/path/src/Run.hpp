@@ -29,6 +29,9 @@ class Run {
  private:
   void followFromStart();
   bool step();
+  bool settleWith(const Series& series);
+  void begin(StepReport& report, const Series& series);
+  Trial endOf(Series& series, StepReport& report);
   bool settle(const EndTangent* end);
   void finish();
   Start next() const;

@@ -1,5 +1,6 @@
 #include "StepStart.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include <Tpetra_Vector.hpp>
@@ -68,7 +69,7 @@ Series StepStart::smoothSeries(StepReport& report) {
       if (directionAgrees(series)) return series;
     } catch (const PathError& error) {
       if (error.reason() != EndReason::singularTangent) throw;
-      singular_.stepOver(error, attempt);
+      stepOverSingularity(error, attempt);
       ++attempt;
       ++report.restarts;
       continue;
@@ -79,6 +80,33 @@ Series StepStart::smoothSeries(StepReport& report) {
                            ": the path's direction at the end of a step is not that of its series, and "
                            "shorter steps do not help"));
   }
+}
+
+/// The tangent is singular at the position: go on a little along the last series and start there.
+void StepStart::stepOverSingularity(const PathError& cause, int attempt) {
+  Position& here = path_.here;
+  const auto giveUp = [&](const std::string& why) {
+    throw PathError(cause.reason(), line("at lambda = ", here.state.lambda, ": ", cause.what(), "; ", why));
+  };
+  if (!path_.last) {
+    singularStart_.leave(cause);
+    return;
+  }
+  LastStep& last = *path_.last;
+  constexpr int maxAttempts = 3;
+  if (attempt > maxAttempts) giveUp("stepping over it along the previous series did not help");
+  // Small against the step, so that the residual, which grows like a^(K+1), hardly changes.
+  const double shift = std::min(1e-3 * std::pow(4.0, attempt - 1) * here.lastLength,
+                                0.5 * (path_.stops.pathLength - here.pathLength));
+  Trial trial;
+  trial.a = last.at + shift;
+  evaluate(path_, last.series, trial);
+  if (!(trial.residual <= path_.bound())) giveUp("the previous series does not reach past it");
+  ++path_.outcome.restarts;
+  last.at = trial.a;
+  here.moveTo(trial.state, trial.r, trial.residual);
+  here.pathLength += shift;
+  here.tangent = last.series.tangent(trial.a);
 }
 
 /// The direction at a step's end, once by the derivative of the series that led there and once by the tangent

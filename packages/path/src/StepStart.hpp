@@ -1,13 +1,13 @@
 #pragma once
 
-#include "SingularTangents.hpp"
+#include "SingularStart.hpp"
 
 namespace atrapos::path {
 
 /// How a step begins: the series at the position.
 class StepStart {
  public:
-  explicit StepStart(PathUnderWay& path) : path_(path), singular_(path) {}
+  explicit StepStart(PathUnderWay& path) : path_(path), singularStart_(path) {}
 
   /// The position where the path starts becomes one of its states. Throws PathError: notFinite,
   /// startNotInEquilibrium.
@@ -19,11 +19,12 @@ class StepStart {
 
  private:
   Series smoothSeries(StepReport& report);
+  void stepOverSingularity(const PathError& cause, int attempt);
   bool directionAgrees(const Series& series) const;
   bool retreat();
 
   PathUnderWay& path_;
-  SingularTangents singular_;
+  SingularStart singularStart_;
 };
 
 }  // namespace atrapos::path
