@@ -1,6 +1,5 @@
 #pragma once
 
-#include <functional>
 #include <vector>
 
 #include "Augmented.hpp"
@@ -41,7 +40,7 @@ struct CriticalSearch {
   std::vector<LimitPoint> limits = {};   ///< of the load, in the step: an eigenvalue vanishes there too
   int watchedModes = 0;
   std::vector<CountedPlace> counts = {};  ///< at both ends of the step; empty where inertia does not tell
-  std::function<void(int found, int wanted)> tell = {};  ///< Observer::onSearch; may be empty
+  Observer* observer = nullptr;           ///< told of the search (Observer::onSearch); may be null
 };
 
 /// Where the eigenvalues followed vanish other than at limit points of lambda.

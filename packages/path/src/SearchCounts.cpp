@@ -65,7 +65,7 @@ void Search::followCounts() {
     }
     places_.insert(places_.begin() + static_cast<long>(i) + 1, place);
     refineFrom(place, from, to);
-    if (search_.tell) search_.tell(numberFound(), search_.certain);
+    if (search_.observer) search_.observer->onSearch(numberFound(), search_.certain);
   }
 }
 

@@ -112,7 +112,7 @@ void StepStability::locateBifurcations(StepReport& report, const EndTangent& end
   search.limits = report.limitPoints;
   search.watchedModes = options.watchedModes;
   search.counts = counts;
-  search.tell = [&](int located, int wanted) { observer.onSearch(located, wanted); };
+  search.observer = &observer;
   CriticalFound found = findCriticalPoints(path_.calls, search);
   path_.outcome.criticalFactorizations += found.factorizations;
   report.unexplained = needed;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "../src/PadeFit.hpp"
+#include "../src/PadePatience.hpp"
 #include "problems/Record.hpp"
 
 using namespace atrapos::path;
@@ -165,6 +166,24 @@ TEST(Pade, PassesTheContactLawsBranchPoints) {
   Followed<Contact> on(Contact{1e6, 1e-5}, {0}, 0, options, stops);
   EXPECT_LT(1.5 * on.outcome.steps, off.outcome.steps);  // 10 and 20 here
   EXPECT_LE(on.worstInside(), 1e-6);
+}
+
+/// After failures in a row it rests for 0, 2, 6 and at most 14 steps; one success and it starts again.
+TEST(PadePatience, IsShorterTheLongerItHasNotHelped) {
+  PadePatience patience;
+  const auto rest = [&] {
+    int steps = 0;
+    while (patience.rests()) ++steps;
+    return steps;
+  };
+  EXPECT_EQ(rest(), 0);
+  for (const int expected : {0, 2, 6, 14, 14}) {
+    patience.failed();
+    EXPECT_EQ(rest(), expected);
+  }
+  patience.helped();
+  patience.failed();
+  EXPECT_EQ(rest(), 0);
 }
 
 }  // namespace
