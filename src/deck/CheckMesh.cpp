@@ -366,6 +366,10 @@ void checkAgainstMesh(const Deck& deck, const fem::Mesh& mesh) {
       check.inPlane("output/monitors/" + monitor.name, displacement->component == Component::Z);
     } else if (const auto* field = std::get_if<FieldMonitor>(&monitor.quantity)) {
       check.nodes("output/monitors/" + monitor.name + "/set", field->set);
+    } else if (const auto* center = std::get_if<ContactCenterMonitor>(&monitor.quantity)) {
+      check.inPlane("output/monitors/" + monitor.name, center->component == Component::Z);
+    } else if (const auto* spread = std::get_if<ContactSpreadMonitor>(&monitor.quantity)) {
+      check.inPlane("output/monitors/" + monitor.name, spread->component == Component::Z);
     }
   }
 }

@@ -575,6 +575,27 @@ struct ContactAreaMonitor {
   std::string contact;
 };
 
+/// Pressure of a contact: its largest, or with `near` that at the one point that is nearest to a place in the
+/// reference configuration.
+struct ContactPressureMonitor {
+  std::string contact;
+  std::optional<Vector3> near;
+};
+
+/// Where a contact's normal forces have their centre, in the deformed body.
+struct ContactCenterMonitor {
+  std::string contact;
+  Component component = Component::X;
+};
+
+/// Root-mean-square distance of a contact's normal forces from their centre in the deformed body, or that
+/// along one axis.
+struct ContactSpreadMonitor {
+  std::string contact;
+  std::optional<Component> component;
+  std::optional<Vector3> about;  ///< in place of the centre
+};
+
 /// Total force with which a support holds the body; of a scalar field what flows in there.
 struct ReactionMonitor {
   std::string support;
@@ -583,7 +604,8 @@ struct ReactionMonitor {
 
 struct Monitor {
   std::string name;
-  std::variant<DisplacementMonitor, ContactForceMonitor, ContactAreaMonitor, ReactionMonitor, FieldMonitor>
+  std::variant<DisplacementMonitor, ContactForceMonitor, ContactAreaMonitor, ContactPressureMonitor,
+               ContactCenterMonitor, ContactSpreadMonitor, ReactionMonitor, FieldMonitor>
       quantity;
 };
 

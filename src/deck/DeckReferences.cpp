@@ -333,6 +333,14 @@ void checkMonitor(const Value& v, const Monitor& monitor, const Deck& deck) {
   } else if (const auto* area = std::get_if<ContactAreaMonitor>(&monitor.quantity)) {
     if (find(v.at("contact"), area->contact, deck.contacts, "contact").points == Contact::Points::Nodes)
       v.at("contact").fail(fmt::format("contact '{}' acts at nodes, which have no area", area->contact));
+  } else if (const auto* pressure = std::get_if<ContactPressureMonitor>(&monitor.quantity)) {
+    if (find(v.at("contact"), pressure->contact, deck.contacts, "contact").points == Contact::Points::Nodes)
+      v.at("contact").fail(
+          fmt::format("contact '{}' acts at nodes, by forces and not by a pressure", pressure->contact));
+  } else if (const auto* center = std::get_if<ContactCenterMonitor>(&monitor.quantity)) {
+    find(v.at("contact"), center->contact, deck.contacts, "contact");
+  } else if (const auto* spread = std::get_if<ContactSpreadMonitor>(&monitor.quantity)) {
+    find(v.at("contact"), spread->contact, deck.contacts, "contact");
   } else if (const auto* field = std::get_if<FieldMonitor>(&monitor.quantity)) {
     requireField(v.at("field"), field->field, deck);
   } else if (const auto* reaction = std::get_if<ReactionMonitor>(&monitor.quantity)) {

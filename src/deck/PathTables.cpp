@@ -48,15 +48,31 @@ Field<ContactForceMonitor> nearestContactPoint() {
   return field;
 }
 
-Field<ReactionMonitor> reactionComponent() {
+/// One of x, y, z, or none.
+template <class M>
+Field<M> anyAxis(std::string meaning) {
   const std::string accepts = "one of " + joined(wordsOf(axes()));
   return {"component",
           false,
           accepts,
-          "which force; a support of a field has an inflow and no components",
-          [](const Value& v, ReactionMonitor& s) { s.component = choose(v, v.text(), axes()); },
-          [](const ReactionMonitor& s) {
+          std::move(meaning),
+          [](const Value& v, M& s) { s.component = choose(v, v.text(), axes()); },
+          [](const M& s) {
             return s.component ? Node{wordOf(*s.component, axes()), {}} : Node{};
+          }};
+}
+
+Field<ContactSpreadMonitor> placeToMeasureFrom() {
+  return {"about",
+          false,
+          "a list of 3 numbers",
+          "a place in space in place of the centre, as on the symmetry plane of half a body",
+          [](const Value& v, ContactSpreadMonitor& s) {
+            const auto x = v.reals(3);
+            s.about = Vector3{x[0], x[1], x[2]};
+          },
+          [](const ContactSpreadMonitor& s) {
+            return s.about ? Node{yamlList(*s.about), {}} : Node{};
           }};
 }
 
@@ -443,9 +459,27 @@ const Variants<Monitor, decltype(Monitor::quantity)>& monitorVariants() {
        alternative<V, ContactAreaMonitor>("contact_area",
                                           {name("contact", required, &ContactAreaMonitor::contact,
                                                 "the name of a contact over faces or edges", "whose area")}),
-       alternative<V, ReactionMonitor>("reaction", {name("support", required, &ReactionMonitor::support,
-                                                         "the name of a support", "whose force on the body"),
-                                                    reactionComponent()}),
+       alternative<V, ContactPressureMonitor>(
+           "contact_pressure",
+           {name("contact", required, &ContactPressureMonitor::contact,
+                 "the name of a contact over faces or edges", "whose largest pressure"),
+            nearestPoint<ContactPressureMonitor>(
+                "the pressure at the point nearest to this place of the undeformed body")}),
+       alternative<V, ContactCenterMonitor>(
+           "contact_center",
+           {name("contact", required, &ContactCenterMonitor::contact, "the name of a contact",
+                 "whose normal forces' centre"),
+            choice("component", required, &ContactCenterMonitor::component, axes(), "which coordinate")}),
+       alternative<V, ContactSpreadMonitor>(
+           "contact_spread",
+           {name("contact", required, &ContactSpreadMonitor::contact, "the name of a contact",
+                 "whose normal forces' root-mean-square distance from their centre"),
+            anyAxis<ContactSpreadMonitor>("the distance along this axis only"), placeToMeasureFrom()}),
+       alternative<V, ReactionMonitor>(
+           "reaction", {name("support", required, &ReactionMonitor::support, "the name of a support",
+                             "whose force on the body"),
+                        anyAxis<ReactionMonitor>("which force; a support of a field has an inflow and "
+                                                 "no components")}),
        alternative<V, FieldMonitor>(
            "field",
            {name("field", required, &FieldMonitor::field, "the name of a field", "which field"),

@@ -127,12 +127,17 @@ const char* drivenBy(const deck::Deck& deck) {
 /// Name -> type, of those that the deck defines.
 nlohmann::ordered_json monitorTypes(const deck::Deck& deck) {
   auto types = nlohmann::ordered_json::object();
-  for (const deck::Monitor& m : deck.output.monitors)
-    types[m.name] = std::holds_alternative<deck::DisplacementMonitor>(m.quantity)  ? "displacement"
-                    : std::holds_alternative<deck::FieldMonitor>(m.quantity)       ? "field"
-                    : std::holds_alternative<deck::ReactionMonitor>(m.quantity)    ? "reaction"
-                    : std::holds_alternative<deck::ContactAreaMonitor>(m.quantity) ? "contact_area"
-                                                                                   : "contact_force";
+  struct TypeOf {
+    const char* operator()(const deck::DisplacementMonitor&) const { return "displacement"; }
+    const char* operator()(const deck::FieldMonitor&) const { return "field"; }
+    const char* operator()(const deck::ReactionMonitor&) const { return "reaction"; }
+    const char* operator()(const deck::ContactForceMonitor&) const { return "contact_force"; }
+    const char* operator()(const deck::ContactAreaMonitor&) const { return "contact_area"; }
+    const char* operator()(const deck::ContactPressureMonitor&) const { return "contact_pressure"; }
+    const char* operator()(const deck::ContactCenterMonitor&) const { return "contact_center"; }
+    const char* operator()(const deck::ContactSpreadMonitor&) const { return "contact_spread"; }
+  };
+  for (const deck::Monitor& m : deck.output.monitors) types[m.name] = std::visit(TypeOf{}, m.quantity);
   return types;
 }
 

@@ -104,6 +104,7 @@ class Scene {
   /// What messages call an unknown of the problem.
   std::string dofName(const fem::DofMap& dofs, int dof) const;
   void addMonitors();
+  bool axisymmetric() const { return plane_ && plane_->kind == solid::PlaneSection::Kind::axisymmetric; }
   /// Of a monitor with set, reduce and near.
   template <class Monitor>
   linear::RCP<path::Vector> weightsOf(const std::string& key, const Monitor& monitor,

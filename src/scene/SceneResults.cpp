@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "atrapos/linear/Dot.hpp"
+#include "scene/ContactMoments.hpp"
 #include "scene/Scene.hpp"
 #include "scene/Sets.hpp"
 
@@ -33,18 +34,24 @@ void forEachPosition(const ContactPoints& contact, const F& f) {
       f(t, p, &contact.points[t].positions[3 * static_cast<std::size_t>(p)]);
 }
 
-/// [term][point] of a contact: the weights of the points that a monitor adds up, zero of all others.
-std::vector<std::vector<double>> weightsNear(const ContactPoints& contact,
-                                             const deck::ContactForceMonitor& monitor) {
-  const deck::Vector3& place = *monitor.near;
+/// Term and point of the contact point that is nearest to a place, the first of several.
+std::pair<std::size_t, int> nearestPoint(const ContactPoints& contact, const deck::Vector3& place) {
   double nearest = std::numeric_limits<double>::infinity();
-  deck::Vector3 origin{};
-  forEachPosition(contact, [&](std::size_t, int, const double* x) {
+  std::pair<std::size_t, int> found{0, 0};
+  forEachPosition(contact, [&](std::size_t t, int p, const double* x) {
     const double distance = std::hypot(x[0] - place[0], x[1] - place[1], x[2] - place[2]);
     if (!(distance < nearest)) return;
     nearest = distance;
-    origin = {x[0], x[1], x[2]};
+    found = {t, p};
   });
+  return found;
+}
+
+/// [term][point] of a contact: the weights of the points that a monitor adds up, zero of all others.
+std::vector<std::vector<double>> weightsNear(const ContactPoints& contact,
+                                             const deck::ContactForceMonitor& monitor) {
+  const auto [term, point] = nearestPoint(contact, *monitor.near);
+  const double* origin = &contact.points[term].positions[3 * static_cast<std::size_t>(point)];
   const deck::Vector3 a = monitor.along.value_or(deck::Vector3{});
   const double length = std::hypot(a[0], a[1], a[2]);
   std::vector<std::vector<double>> weights;
@@ -144,9 +151,8 @@ std::vector<path::Monitor> Scene::functionals() const {
 ContactState Scene::contactState(const ContactPoints& contact, const SceneState& at) const {
   ContactState state;
   forEachContactPoint(contact, at, [&](std::size_t t, int p, const double* gapAndPressure) {
-    const double gap = gapAndPressure[0], pressure = gapAndPressure[1];
-    // Around an active corner the mean gap vanishes, and the gaps of its points have both signs.
-    const bool active = contact.hardFaces ? pressure > 0 : gap <= contact.closedGaps[t][p];
+    const double pressure = gapAndPressure[1];
+    const bool active = isClosed(contact, t, p, gapAndPressure);
     state.active += active;
     // Zones say which part of a point's area is in them.
     state.area += contact.points[t].weights[p] * (contact.lines.empty() ? active : gapAndPressure[2]);
@@ -183,19 +189,33 @@ std::vector<double> Scene::monitors(const SceneState& state) const {
     const std::vector<std::vector<double>>& contactWeights;
     double operator()(const deck::DisplacementMonitor&) const { return linear::dot(*weights, state.u()); }
     double operator()(const deck::FieldMonitor&) const { return linear::dot(*weights, state.u()); }
+    const ContactPoints& contact(const std::string& name) const {
+      return *std::find_if(scene.contacts_.begin(), scene.contacts_.end(),
+                           [&](const ContactPoints& c) { return c.name == name; });
+    }
     double operator()(const deck::ContactForceMonitor& m) const {
-      for (const ContactPoints& contact : scene.contacts_)
-        if (contact.name == m.contact)
-          return m.near ? scene.contactForce(contact, contactWeights, state)
-                 : m.component == deck::Component::Normal
-                     ? scene.contactState(contact, state).normalForce
-                     : scene.contactResultant(contact, state)[componentIndex(m.component)];
-      return 0;
+      if (m.near) return scene.contactForce(contact(m.contact), contactWeights, state);
+      if (m.component == deck::Component::Normal)
+        return scene.contactState(contact(m.contact), state).normalForce;
+      return scene.contactResultant(contact(m.contact), state)[componentIndex(m.component)];
     }
     double operator()(const deck::ContactAreaMonitor& m) const {
-      const auto contact = std::find_if(scene.contacts_.begin(), scene.contacts_.end(),
-                                        [&](const ContactPoints& c) { return c.name == m.contact; });
-      return scene.contactState(*contact, state).area;
+      return scene.contactState(contact(m.contact), state).area;
+    }
+    double operator()(const deck::ContactPressureMonitor& m) const {
+      const ContactPoints& pressed = contact(m.contact);
+      if (!m.near) return largestPressure(pressed, state);
+      const auto [term, point] = nearestPoint(pressed, *m.near);
+      return pressureAt(pressed, term, point, state);
+    }
+    double operator()(const deck::ContactCenterMonitor& m) const {
+      return contactMoments(contact(m.contact), state, scene.axisymmetric())
+          .center[componentIndex(m.component)];
+    }
+    double operator()(const deck::ContactSpreadMonitor& m) const {
+      const auto squares = contactMoments(contact(m.contact), state, scene.axisymmetric(), m.about).squares;
+      return std::sqrt(m.component ? squares[componentIndex(*m.component)]
+                                   : squares[0] + squares[1] + squares[2]);
     }
     double operator()(const deck::ReactionMonitor& m) const {
       const auto& support = *std::find_if(scene.deck_.supports.begin(), scene.deck_.supports.end(),

@@ -217,6 +217,8 @@ output:
     f: {type: contact_force, contact: foot}
     fx: {type: contact_force, contact: foot, component: x}
     r: {type: reaction, support: held, component: z}
+    c: {type: contact_center, contact: foot, component: y}
+    s: {type: contact_spread, contact: foot, component: x, about: [1, 2, 3]}
 )",
                                  "all.yaml");
   EXPECT_EQ(deck.title, "all");  // the file's stem
@@ -269,7 +271,7 @@ output:
   EXPECT_EQ(deck.output.residuals, Output::Residuals::Points);
   EXPECT_EQ(deck.output.fieldsEvery, 10);
   EXPECT_EQ(deck.output.fields, (std::vector<OutputField>{OutputField::Contact, OutputField::Displacement}));
-  ASSERT_EQ(deck.output.monitors.size(), 5u);
+  ASSERT_EQ(deck.output.monitors.size(), 7u);
   EXPECT_EQ(std::get<DisplacementMonitor>(deck.output.monitors[0].quantity).reduce,
             DisplacementMonitor::Reduce::Sum);
   EXPECT_EQ(std::get<DisplacementMonitor>(deck.output.monitors[1].quantity).near, (Vector3{1, 2, 3}));
@@ -278,6 +280,12 @@ output:
   EXPECT_EQ(std::get<ContactForceMonitor>(deck.output.monitors[3].quantity).component, Component::X);
   EXPECT_EQ(std::get<ReactionMonitor>(deck.output.monitors[4].quantity).support, "held");
   EXPECT_EQ(std::get<ReactionMonitor>(deck.output.monitors[4].quantity).component, Component::Z);
+  EXPECT_EQ(std::get<ContactCenterMonitor>(deck.output.monitors[5].quantity).component, Component::Y);
+  const auto& spread = std::get<ContactSpreadMonitor>(deck.output.monitors[6].quantity);
+  EXPECT_EQ(spread.component, Component::X);
+  EXPECT_EQ(spread.about, (Vector3{1, 2, 3}));
+  const std::string once = described(deck);
+  EXPECT_EQ(described(readDeckText(once, "/data/all.yaml")), once);
 }
 
 TEST(Deck, pathKeys) {

@@ -63,12 +63,14 @@ ZoneForces::Points ZoneForces::pointsOf(const ZoneBatch& zones, double lambda) c
   if (J == 4)
     for (int q = 0; q < Q; ++q) std::fill_n(&place[(q * J + 3) * L], L, lambda);
   points.hn.resize(4 * Q * L);
+  points.positions.resize(3 * Q * L);
   points.places.resize(Q * L);
   points.weights.resize(Q * L);
   points.pressure.resize(Q * L);
   laws_.projection->value({Q, L, nullptr, scratch.data()}, place.data(), points.hn.data());
   put(1, points.hn, 0, 4, 0, 1, h);
   laws_.pressure->value({Q, L, nullptr, scratch.data()}, h.data(), points.pressure.data());
+  put(3, x, 0, 5, 0, 3, points.positions);
   put(1, x, 3, 5, 0, 1, points.places);
   put(1, x, 4, 5, 0, 1, points.weights);
   return points;
@@ -86,18 +88,27 @@ void ZoneForces::value(const ZoneBatch& zones, double lambda, double* forces) co
     }
 }
 
-void ZoneForces::shares(const ZoneBatch& zones, double lambda, const std::vector<double>& places,
-                        double* forces, double* areas) const {
+ZoneForces::Shares ZoneForces::shares(const ZoneBatch& zones, double lambda,
+                                      const std::vector<double>& places) const {
   const Points points = pointsOf(zones, lambda);
   const std::size_t count = places.size();
-  std::fill_n(forces, count * L, 0.0);
-  std::fill_n(areas, count * L, 0.0);
+  Shares shares;
+  shares.forces.resize(count * L);
+  shares.areas.resize(count * L);
+  shares.moments.resize(count * 3 * L);
+  shares.squares.resize(count * 3 * L);
   for (int q = 0; q < Q; ++q)
     for (int lane = 0; lane < L; ++lane) {
       const double xi = points.places[q * L + lane], area = points.weights[q * L + lane];
       const auto add = [&](std::size_t place, double part) {
-        forces[place * L + lane] += part * area * points.pressure[q * L + lane];
-        areas[place * L + lane] += part * area;
+        const double force = part * area * points.pressure[q * L + lane];
+        shares.forces[place * L + lane] += force;
+        shares.areas[place * L + lane] += part * area;
+        for (int i = 0; i < 3; ++i) {
+          const double way = points.positions[(3 * q + i) * L + lane] - zones.c[i * L + lane];
+          shares.moments[(3 * place + i) * L + lane] += force * way;
+          shares.squares[(3 * place + i) * L + lane] += force * way * way;
+        }
       };
       const std::size_t above = std::upper_bound(places.begin(), places.end(), xi) - places.begin();
       if (above == 0 || above == count) {
@@ -108,6 +119,13 @@ void ZoneForces::shares(const ZoneBatch& zones, double lambda, const std::vector
       add(above - 1, 1 - t);
       add(above, t);
     }
+  return shares;
+}
+
+std::vector<double> ZoneForces::pressures(const double* gaps) const {
+  std::vector<double> scratch(laws_.pressure->historyDoubles(0)), pressures(L);
+  laws_.pressure->value({1, L, nullptr, scratch.data()}, gaps, pressures.data());
+  return pressures;
 }
 
 void ZoneForces::tangent(const ZoneBatch& zones, double lambda, double* forces, double* jacobian) const {

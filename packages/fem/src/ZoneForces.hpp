@@ -12,6 +12,7 @@ struct ZoneBatch {
   std::vector<double> limits;     ///< [2][lane] xi
   std::vector<Hold> hold;         ///< [2][lane] of the limits
   std::vector<bool> grows;        ///< [lane] whether its width is what changes most where it is narrow
+  std::vector<double> deepest;    ///< [2][lane] xi of the least gap of the zone, and that gap
   std::vector<double> c;          ///< [coefficient][lane] of the places
   std::vector<double> reference;  ///< [coefficient][lane] of the undeformed lines
   std::vector<double> across;     ///< [coefficient][lane]: dA = |dX/dxi x across| dxi
@@ -32,10 +33,15 @@ class ZoneForces {
   /// And their derivatives, [coefficient][coefficient, lambda][lane]. The limits have no part in them: p
   /// vanishes at those that move.
   void tangent(const ZoneBatch& zones, double lambda, double* forces, double* jacobian) const;
-  /// forces[j][lane] = integral of p f_j dA and areas[j][lane] = integral of f_j dA, f_j the hat functions of
-  /// these places xi on the line: sums over j are the integrals of p and of 1.
-  void shares(const ZoneBatch& zones, double lambda, const std::vector<double>& places, double* forces,
-              double* areas) const;
+  /// What the hat functions f_j of places xi on the line take of a zone: integrals of p f_j dA and of f_j dA,
+  /// [place][lane], and of p f_j d_i dA and p f_j d_i^2 dA, [place][3][lane], d the way in space from the
+  /// line's middle, the coefficients of xi^0. Sums over j are the integrals without f_j.
+  struct Shares {
+    std::vector<double> forces, areas, moments, squares;
+  };
+  Shares shares(const ZoneBatch& zones, double lambda, const std::vector<double>& places) const;
+  /// [lane] the pressure at gaps, [lane].
+  std::vector<double> pressures(const double* gaps) const;
 
   void reserve(int batches, int maxOrder);
   std::size_t bytes(int batches, int maxOrder) const;
@@ -49,6 +55,7 @@ class ZoneForces {
   /// What is at the Gauss points, [point][...][lane].
   struct Points {
     std::vector<double> places, weights, hn, pressure;  ///< xi; dA; h, n; p
+    std::vector<double> positions;                      ///< x, y, z
   };
   Points pointsOf(const ZoneBatch& zones, double lambda) const;
   std::vector<double> inputs(const double* limits, const double* c) const;

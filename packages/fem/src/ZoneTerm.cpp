@@ -340,10 +340,15 @@ class ZoneTerm final : public EventTerm {
 
   PointValues observe(const ConstDofView& u, double lambda) const override {
     const std::size_t Q = lines_.shown.size(), E = numEntities();
-    // The last: which part of the point's weight is in contact.
-    constexpr int M = 3;
-    PointValues result{{"contact_gap", "contact_pressure", "contact_part"},
-                       std::vector<double>(M * E * Q, 0.0)};
+    // Gap; force over area; which part of the point's weight is in contact; the largest pressure of the zones
+    // next to it; where in space its force is, and its mean square of the distance from there. (Of shown
+    // points as such neither the largest pressure nor second moments are to be had: zones may lie between
+    // them.)
+    PointValues result{{"contact_gap", "contact_pressure", "contact_part", "contact_peak", "contact_x",
+                        "contact_y", "contact_z", "contact_xx", "contact_yy", "contact_zz"},
+                       {}};
+    const std::size_t M = result.names.size();
+    result.values.assign(M * E * Q, 0.0);
     std::vector<double> xi, c(laws_.coefficients() * L);
     for (const double place : lines_.shown) xi.insert(xi.end(), L, place);
     for (int b = 0; b < batches(); ++b) {
@@ -353,16 +358,45 @@ class ZoneTerm final : public EventTerm {
       for (std::size_t lane = 0; lane < lines.size(); ++lane)
         for (std::size_t q = 0; q < Q; ++q) result.values[M * (lines[lane] * Q + q)] = at.gap[q * L + lane];
     }
-    std::vector<double> forces(Q * L), areas(Q * L);
     forEachBatch(u, lambda, [&](const ZoneBatch& batch, const int* lines) {
-      forces_.shares(batch, lambda, lines_.shown, forces.data(), areas.data());
-      for (int lane = 0; lane < batch.lanes; ++lane)
+      const ZoneForces::Shares shares = forces_.shares(batch, lambda, lines_.shown);
+      const auto peaks = forces_.pressures(&batch.deepest[L]);
+      for (int lane = 0; lane < batch.lanes; ++lane) {
+        double* own = &result.values[M * lines[lane] * Q];
+        for (std::size_t q = 0; q < Q; ++q) {
+          own[M * q + 1] += shares.forces[q * L + lane];
+          own[M * q + 2] += shares.areas[q * L + lane];
+          for (int i = 0; i < 3; ++i) {
+            own[M * q + 4 + i] += shares.moments[(3 * q + i) * L + lane];
+            own[M * q + 7 + i] += shares.squares[(3 * q + i) * L + lane];
+          }
+        }
+        const auto distance = [&](double place) { return std::abs(place - batch.deepest[lane]); };
+        const std::size_t nearest =
+            std::min_element(lines_.shown.begin(), lines_.shown.end(),
+                             [&](double a, double b) { return distance(a) < distance(b); }) -
+            lines_.shown.begin();
+        own[M * nearest + 3] = std::max(own[M * nearest + 3], peaks[lane]);
+      }
+    });
+    // A line may have several zones: means only now.
+    for (int b = 0; b < batches(); ++b) {
+      const auto lines = linesOf(b);
+      gather(lines.data(), static_cast<int>(lines.size()), u, 1, c.data());
+      for (std::size_t lane = 0; lane < lines.size(); ++lane)
         for (std::size_t q = 0; q < Q; ++q) {
           const std::size_t point = lines[lane] * Q + q;
-          result.values[M * point + 1] += forces[q * L + lane] / lines_.weights[point];
-          result.values[M * point + 2] += areas[q * L + lane] / lines_.weights[point];
+          double* own = &result.values[M * point];
+          const double force = own[1];
+          own[1] /= lines_.weights[point];
+          own[2] /= lines_.weights[point];
+          for (int i = 0; i < 3; ++i) {
+            const double mean = force > 0 ? own[4 + i] / force : 0;
+            own[7 + i] = force > 0 ? std::max(own[7 + i] / force - mean * mean, 0.0) : 0;
+            own[4 + i] = c[i * L + lane] + mean;
+          }
         }
-    });
+    }
     return result;
   }
 
@@ -372,6 +406,7 @@ class ZoneTerm final : public EventTerm {
     double limits[2];
     Hold hold[2];
     bool grows;
+    double deepest[2];  ///< xi of the least gap, and that gap
   };
   /// sign (h - level) >= 0; sign 0: nothing to tell.
   struct EventFunction {
@@ -449,7 +484,7 @@ class ZoneTerm final : public EventTerm {
       const Stop& end = !a.end ? b : !b.end ? a : std::abs(a.gap) < std::abs(b.gap) ? a : b;
       return rootNear(laws_, c, lambda, end.xi, 0.5);
     };
-    Zone zone{e, {-1, 1}, {Hold::place, Hold::place}, false};
+    Zone zone{e, {-1, 1}, {Hold::place, Hold::place}, false, {stops[0].xi, stops[0].gap}};
     bool open = stops[0].in;
     const auto close = [&] {
       const bool from = zone.hold[0] == Hold::root, to = zone.hold[1] == Hold::root;
@@ -458,11 +493,15 @@ class ZoneTerm final : public EventTerm {
       open = false;
     };
     for (std::size_t i = 0; i + 1 < stops.size(); ++i) {
+      if (stops[i].in && stops[i + 1].in && stops[i + 1].gap < zone.deepest[1]) {
+        zone.deepest[0] = stops[i + 1].xi;
+        zone.deepest[1] = stops[i + 1].gap;
+      }
       if (stops[i].in == stops[i + 1].in) continue;
       const auto at = limit(stops[i], stops[i + 1]);
       if (stops[i + 1].in) {
         open = at.has_value();
-        if (open) zone = {e, {*at, 1}, {Hold::root, Hold::place}, false};
+        if (open) zone = {e, {*at, 1}, {Hold::root, Hold::place}, false, {stops[i + 1].xi, stops[i + 1].gap}};
       } else if (open && at) {
         zone.limits[1] = *at;
         zone.hold[1] = Hold::root;
@@ -488,6 +527,7 @@ class ZoneTerm final : public EventTerm {
       batch.limits.resize(2 * L);
       batch.hold.resize(2 * L);
       batch.grows.resize(L);
+      batch.deepest.resize(2 * L);
       batch.c.resize(C * L);
       batch.reference.resize(C * L);
       batch.across.resize(C * L);
@@ -497,6 +537,7 @@ class ZoneTerm final : public EventTerm {
         lines[lane] = zone.line;
         batch.grows[lane] = zone.grows;
         for (int r = 0; r < 2; ++r) {
+          batch.deepest[r * L + lane] = zone.deepest[r];
           batch.limits[r * L + lane] = zone.limits[r];
           batch.hold[r * L + lane] = zone.hold[r];
         }
