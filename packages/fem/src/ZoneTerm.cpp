@@ -137,7 +137,9 @@ class ZoneTerm final : public EventTerm {
       zones.push_back(batch);
       seriesLines_.emplace_back(lines, lines + batch.lanes);
       for (int lane = 0; lane < L; ++lane) {
-        seriesWidths_.push_back(batch.grows[lane] ? batch.limits[L + lane] - batch.limits[lane] : 0);
+        constexpr double line = 2;
+        const double width = batch.limits[L + lane] - batch.limits[lane];
+        seriesWidths_.push_back(batch.grows[lane] ? width : moves(batch, lane) ? line : 0);
       }
     });
     forces_.reserve(static_cast<int>(zones.size()), maxOrder);
@@ -171,7 +173,7 @@ class ZoneTerm final : public EventTerm {
   }
 
   /// Of each line the width of zones between two roots, or from a bottom to a root, in units of what it was
-  /// at the start of the series.
+  /// at the start of the series; of others with a limit that moves in units of the line.
   int internalCount() const override { return numEntities(); }
   void internalOrder(int, const ConstDofView& v, double mu, double* y) const override {
     std::fill_n(y, numEntities(), 0.0);
@@ -401,6 +403,9 @@ class ZoneTerm final : public EventTerm {
   }
 
  private:
+  static bool moves(const ZoneBatch& batch, int lane) {
+    return batch.hold[lane] == Hold::root || batch.hold[L + lane] == Hold::root;
+  }
   struct Zone {
     int line;
     double limits[2];
@@ -718,7 +723,7 @@ class ZoneTerm final : public EventTerm {
   double extent_ = 0;             ///< largest coordinate
   int maxOrder_ = 0;
   std::vector<std::vector<int>> seriesLines_;  ///< [batch of zones] their lines, of the series under way
-  std::vector<double> seriesWidths_;      ///< [batch of zones][lane] of those between two roots; 0 of others
+  std::vector<double> seriesWidths_;      ///< [batch of zones][lane] units of internal variables; 0: none
   std::vector<EventFunction> functions_;  ///< [line][end or extremum]
   std::vector<double> eventStart_, eventGap_;  ///< the same: h of order 0 and of the order swept last
 };
