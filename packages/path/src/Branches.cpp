@@ -7,6 +7,7 @@
 
 #include <Tpetra_Vector.hpp>
 
+#include "Arrival.hpp"
 #include "Augmented.hpp"
 #include "Switch.hpp"
 
@@ -50,10 +51,15 @@ class BranchFollower::Tracer final : public Observer {
   Branch& branch() { return progress.diagram.branches[progress.current]; }
 
   bool onStep(const StepReport& report, const Series& series) override {
-    progress.diagram.unexplained += report.unexplained;
-    progress.diagram.uncounted += report.uncounted;
-    stopped = !observer_.onStep(progress.current, report, series);
     branch().end = endOn(report, series);
+    if (turned_ && report.unexplained > 0) {
+      // The tangent's sign is that of either side of the point beside which the branch has turned.
+      StepReport explained = report;
+      explained.unexplained = 0;
+      tell(explained, series);
+    } else {
+      tell(report, series);
+    }
     progress.path = report.next;
     observer_.onProgress(progress);
     return !stopped && branch().end == BranchEnd::path;
@@ -74,7 +80,15 @@ class BranchFollower::Tracer final : public Observer {
   }
 
  private:
+  void tell(const StepReport& report, const Series& series) {
+    progress.diagram.unexplained += report.unexplained;
+    progress.diagram.uncounted += report.uncounted;
+    stopped = !observer_.onStep(progress.current, report, series);
+  }
+
   BranchEnd endOn(const StepReport& report, const Series& series) {
+    turned_ = report.criticalPoints.empty() && turnsBesideKnown(report, series);
+    if (turned_) return BranchEnd::joined;
     for (const auto& point : report.criticalPoints)
       if (!pass(point, report, series)) return BranchEnd::joined;
     if (!passKnown(report, series)) return BranchEnd::joined;
@@ -129,6 +143,20 @@ class BranchFollower::Tracer final : public Observer {
     return true;
   }
 
+  /// The branch came to a known pitchfork and its load turned beside it. What lies ahead would be the path
+  /// that the point is on; the other half of the branch is followed from the point.
+  bool turnsBesideKnown(const StepReport& report, const Series& series) {
+    const auto& points = progress.diagram.points;
+    for (const LimitPoint& limit : report.limitPoints)
+      for (std::size_t i = 0; i < points.size(); ++i)
+        if (const auto from =
+                turnedBeside(problem_, points[i].point, series, limit.a, report.pathLengthEnd)) {
+          take(static_cast<int>(i), *from, series.weight());
+          return true;
+        }
+    return false;
+  }
+
   /// Marks the half-branch in that direction; false where it was marked already.
   bool take(int point, const Augmented& direction, double w) {
     HalfBranch* best = nullptr;
@@ -175,6 +203,7 @@ class BranchFollower::Tracer final : public Observer {
 
   const Problem& problem_;
   BranchObserver& observer_;
+  bool turned_ = false;  ///< the last step turned beside a known pitchfork
 };
 
 BranchProgress::BranchProgress(const State& start) {

@@ -1,0 +1,37 @@
+#include "Arrival.hpp"
+
+#include <cmath>
+
+#include <Tpetra_Vector.hpp>
+
+namespace atrapos::path {
+
+std::optional<Augmented> turnedBeside(const Problem& problem, const CriticalPoint& known,
+                                      const Series& series, double a, double pathLength) {
+  if (known.kind != CriticalKind::pitchfork || known.nullity != 1) return std::nullopt;
+  const double w = series.weight();
+  const auto length = [&](const Augmented& x) { return std::sqrt(dot(problem, x, x, w)); };
+  const auto alike = [&](const Augmented& x, const Augmented& y) {
+    // On the branch's side of the point rather than on the path's. No more, as the turn has its breadth.
+    constexpr double half = 0.5;
+    return std::abs(dot(problem, x, y, w)) > half * length(x) * length(y);
+  };
+  Augmented gap{Teuchos::rcp(new Vector(known.state.u->getMap())), 0};
+  gap.lambda = series.evaluate(a, *gap.u) - known.state.lambda;
+  gap.u->update(-1, *known.state.u, 1);
+  // So near that of all its way the branch has none left: one that has just left the point has gone no
+  // further than that, and its own limit points count.
+  constexpr double near = 1e-3;
+  if (!(length(gap) < near * pathLength)) return std::nullopt;
+  const auto t = series.tangent(a);
+  for (const PathTangent& branch : known.tangents) {
+    // The load turns along the branch at its point; only such a one can turn beside it.
+    constexpr double turns = 1e-4;
+    const Augmented direction{branch.x.u, branch.lambda};
+    if (std::abs(branch.lambda) < turns && alike(gap, direction) && alike({t.x.u, t.lambda}, direction))
+      return gap;
+  }
+  return std::nullopt;
+}
+
+}  // namespace atrapos::path
