@@ -1,13 +1,26 @@
 #include "Arrival.hpp"
 
 #include <cmath>
+#include <vector>
 
 #include <Tpetra_Vector.hpp>
 
 namespace atrapos::path {
 
+namespace {
+
+/// Where the load of a step has the value it has at a point, and where it turns.
+std::vector<double> placesToLook(double load, const StepReport& report, const Series& series) {
+  const Rational lambda = series.lambdaFunction();
+  std::vector<double> places = lambda.numerator().plus(-load, lambda.denominator()).roots(report.length);
+  for (const LimitPoint& limit : report.limitPoints) places.push_back(limit.a);
+  return places;
+}
+
+}  // namespace
+
 std::optional<Augmented> turnedBeside(const Problem& problem, const CriticalPoint& known,
-                                      const Series& series, double a, double pathLength) {
+                                      const StepReport& report, const Series& series) {
   if (known.kind != CriticalKind::pitchfork || known.nullity != 1) return std::nullopt;
   const double w = series.weight();
   const auto length = [&](const Augmented& x) { return std::sqrt(dot(problem, x, x, w)); };
@@ -16,20 +29,23 @@ std::optional<Augmented> turnedBeside(const Problem& problem, const CriticalPoin
     constexpr double half = 0.5;
     return std::abs(dot(problem, x, y, w)) > half * length(x) * length(y);
   };
-  Augmented gap{Teuchos::rcp(new Vector(known.state.u->getMap())), 0};
-  gap.lambda = series.evaluate(a, *gap.u) - known.state.lambda;
-  gap.u->update(-1, *known.state.u, 1);
   // So near that of all its way the branch has none left: one that has just left the point has gone no
   // further than that, and its own limit points count.
   constexpr double near = 1e-3;
-  if (!(length(gap) < near * pathLength)) return std::nullopt;
-  const auto t = series.tangent(a);
-  for (const PathTangent& branch : known.tangents) {
-    // The load turns along the branch at its point; only such a one can turn beside it.
-    constexpr double turns = 1e-4;
-    const Augmented direction{branch.x.u, branch.lambda};
-    if (std::abs(branch.lambda) < turns && alike(gap, direction) && alike({t.x.u, t.lambda}, direction))
-      return gap;
+  const double reach = near * report.pathLengthEnd;
+  for (const double a : placesToLook(known.state.lambda, report, series)) {
+    Augmented gap{Teuchos::rcp(new Vector(known.state.u->getMap())), 0};
+    gap.lambda = series.evaluate(a, *gap.u) - known.state.lambda;
+    gap.u->update(-1, *known.state.u, 1);
+    if (!(length(gap) < reach)) continue;
+    const auto t = series.tangent(a);
+    for (const PathTangent& branch : known.tangents) {
+      // Only a branch whose load turns at the point can be turned off like that.
+      constexpr double turns = 1e-4;
+      const Augmented direction{branch.x.u, branch.lambda};
+      if (std::abs(branch.lambda) < turns && alike(gap, direction) && alike({t.x.u, t.lambda}, direction))
+        return gap;
+    }
   }
   return std::nullopt;
 }

@@ -8,18 +8,17 @@
 
 namespace atrapos::path {
 
-/// A branch that came to a pitchfork and turned back beside it.
+/// A branch that came to a pitchfork and was turned off beside it, onto the path that the point is on.
 ///
-/// Next to a simple bifurcation point there are no states but those of its two branches, so a branch whose
-/// load turns there has come to the point. What turns it off it, onto the path that the point is on, is a
-/// residual within its bound, which is an imperfection (docs/theory/path.md, "Branches").
+/// Next to a simple bifurcation point there are no states but those of its two branches. What keeps a branch
+/// that comes there off the point is a residual within its bound, which is an imperfection: the branch passes
+/// the point's load beside it, or its load turns before that (docs/theory/path.md, "Branches").
 ///
-/// @param known      a bifurcation point, unknowns and load corrected.
-/// @param a          a limit point of the load on the series.
-/// @param pathLength of the branch up to the step's end, in the path parameter.
-/// @return the direction from the point to the limit point, the side from which the branch has come; nothing
-///         where it turns somewhere else.
+/// @param known  a bifurcation point, unknowns and load corrected.
+/// @param report the branch's last step, and its series.
+/// @return the direction from the point to the branch where that happens, the side from which it has come;
+///         nothing where it does not.
 std::optional<Augmented> turnedBeside(const Problem& problem, const CriticalPoint& known,
-                                      const Series& series, double a, double pathLength);
+                                      const StepReport& report, const Series& series);
 
 }  // namespace atrapos::path

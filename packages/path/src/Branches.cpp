@@ -143,17 +143,15 @@ class BranchFollower::Tracer final : public Observer {
     return true;
   }
 
-  /// The branch came to a known pitchfork and its load turned beside it. What lies ahead would be the path
-  /// that the point is on; the other half of the branch is followed from the point.
+  /// The branch came to a known pitchfork and was turned off beside it. What lies ahead is the path that the
+  /// point is on; the other half of the branch is followed from the point.
   bool turnsBesideKnown(const StepReport& report, const Series& series) {
     const auto& points = progress.diagram.points;
-    for (const LimitPoint& limit : report.limitPoints)
-      for (std::size_t i = 0; i < points.size(); ++i)
-        if (const auto from =
-                turnedBeside(problem_, points[i].point, series, limit.a, report.pathLengthEnd)) {
-          take(static_cast<int>(i), *from, series.weight());
-          return true;
-        }
+    for (std::size_t i = 0; i < points.size(); ++i)
+      if (const auto from = turnedBeside(problem_, points[i].point, report, series)) {
+        take(static_cast<int>(i), *from, series.weight());
+        return true;
+      }
     return false;
   }
 

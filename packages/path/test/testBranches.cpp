@@ -144,6 +144,29 @@ TEST(Branches, ALoopThroughTwoPitchforksIsFollowedOnce) {
   EXPECT_GT(most, 0.5);
 }
 
+/// A side force within the residual's bound turns the swaying branch off the pitchfork that it comes to,
+/// where its load has a limit point: that is the point, and no eigenvalue is left to explain. (Otherwise it
+/// goes back along the path that the point is on, with an eigenvalue that changes sign at no point found.)
+TEST(Branches, OneThatTurnsBesideAPitchforkHasArrived) {
+  const std::pair<double, double> cases[] = {{1e-9, 0.5}, {1e-9, 0.65}, {-1e-8, 0.5}, {-1e-8, 0.6}};
+  for (const auto& [force, b] : cases) {
+    SCOPED_TRACE(testing::Message() << force << ' ' << b);
+    SwayTruss law;
+    law.imperfection = force;
+    law.b = b;
+    JetProblem<SwayTruss> space(law);
+    Stops stops;
+    stops.functionals.push_back({"x", space.vector({1, 0}), 2.2});
+    const Traced<SwayTruss> t(law, {0, 0}, 0, stops);
+    EXPECT_EQ(t.diagram.points.size(), 2u);
+    EXPECT_EQ(t.diagram.unexplained, 0);
+    ASSERT_GE(t.diagram.branches.size(), 2u);
+    EXPECT_EQ(t.diagram.branches[0].outcome.reason, EndReason::stopReached);
+    for (std::size_t i = 1; i < t.diagram.branches.size(); ++i)
+      EXPECT_EQ(t.diagram.branches[i].end, BranchEnd::joined) << i;
+  }
+}
+
 /// lambda = 1/2 + (quartic - 1/2) x^2 turns away from the null vector within 1/quartic: starts of branches a
 /// hundredth of the step away are on none of them.
 TEST(Branches, OneThatBendsAtOnceIsFound) {
