@@ -19,9 +19,21 @@ double size(const std::vector<double>& c, double length) {
   return largest;
 }
 
+/// How far a function is looked at, `length` at most: no farther than its own series converges, whose later
+/// terms are then not the largest. That of the unknowns may reach much farther, as where a body moves as a
+/// whole past a curved tool.
+double within(const std::vector<double>& c, double length) {
+  const auto half = c.begin() + static_cast<std::ptrdiff_t>((c.size() + 1) / 2);
+  const std::vector<double> first(c.begin(), half);
+  constexpr int most = 200;
+  for (int i = 0; i < most && size(c, length) > size(first, length); ++i) length *= 0.5;
+  return length;
+}
+
 /// Whether a function that is zero at a = 0, as its first derivatives are below `first`, rises in a sense
 /// (+1, -1), looked at on this length; what is below `noise` counts as zero.
 bool rises(const std::vector<double>& c, double sense, double length, double noise, std::size_t first = 1) {
+  length = within(c, length);
   const double small = std::max(noise, 1e-9 * size(c, length));
   double power = std::pow(length, first);
   for (std::size_t k = first; k < c.size(); ++k, power *= length)
@@ -48,7 +60,10 @@ std::vector<int> falling(const PathUnderWay& path, const Series& series, const s
   const int functions = series.eventCount();
   double largest = 0;
   for (const int i : candidates)
-    if (i < functions) largest = std::max(largest, size(series.eventCoefficients(i), reach));
+    if (i < functions) {
+      const auto c = series.eventCoefficients(i);
+      largest = std::max(largest, size(c, within(c, reach)));
+    }
   constexpr double rounding = 1e-12;
   // Far enough to tell the pieces apart, near enough for the sense that the path starts in.
   constexpr double ahead = 1e-3;
