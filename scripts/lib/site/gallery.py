@@ -18,6 +18,7 @@ PICTURES = {
     "examples/strip_roll/tapered.yaml": "docs/figures/strip_roll_tapered.png",
     "examples/strip_buckling/tapered.yaml": "docs/figures/strip_buckling_shape.png",
     "examples/shells/hinged_roof_12.7.yaml": "docs/figures/limit_point.png",
+    "examples/shells/wrinkling_sheet.yaml": "docs/figures/wrinkling.png",
 }
 TITLES = {"path": "Paths, folds and branches", "shells": "Shells", "strip_roll": "A strip over a roll",
           "strip_buckling": "Strips that buckle over a roll", "contact": "Contact", "rubber": "Rubber",
