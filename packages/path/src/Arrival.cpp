@@ -1,5 +1,6 @@
 #include "Arrival.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -29,10 +30,12 @@ std::optional<Augmented> turnedBeside(const Problem& problem, const CriticalPoin
     constexpr double half = 0.5;
     return std::abs(dot(problem, x, y, w)) > half * length(x) * length(y);
   };
-  // So near that of all its way the branch has none left: one that has just left the point has gone no
-  // further than that, and its own limit points count.
-  constexpr double near = 1e-3;
-  const double reach = near * report.pathLengthEnd;
+  // The residual r, of a balance, holds the branch off by a part of its way that goes as r^(1/3): 1.5e-3 of
+  // that for the wrinkles of a sheet, and 9 for a branch that ended a step on its way through the point, which
+  // the next step found.
+  constexpr double part = 0.05;
+  const double reach =
+      part * std::cbrt(std::max(report.residual, report.residualOfSeries)) * report.pathLengthEnd;
   for (const double a : placesToLook(known.state.lambda, report, series)) {
     Augmented gap{Teuchos::rcp(new Vector(known.state.u->getMap())), 0};
     gap.lambda = series.evaluate(a, *gap.u) - known.state.lambda;
