@@ -31,8 +31,8 @@ std::optional<Augmented> turnedBeside(const Problem& problem, const CriticalPoin
     return std::abs(dot(problem, x, y, w)) > half * length(x) * length(y);
   };
   // The residual r, of a balance, holds the branch off by a part of its way that goes as r^(1/3): 1.5e-3 of
-  // that for the wrinkles of a sheet, and 9 for a branch that ended a step on its way through the point, which
-  // the next step found.
+  // that for the wrinkles of a sheet, and 9 for a branch that ended a step on its way through the point,
+  // which the next step found.
   constexpr double part = 0.05;
   const double reach =
       part * std::cbrt(std::max(report.residual, report.residualOfSeries)) * report.pathLengthEnd;
