@@ -351,14 +351,16 @@ class ZoneTerm final : public EventTerm {
                        {}};
     const std::size_t M = result.names.size();
     result.values.assign(M * E * Q, 0.0);
-    std::vector<double> xi, c(laws_.coefficients() * L);
+    std::vector<double> xi, c(laws_.coefficients() * L), middles(3 * E);
     for (const double place : lines_.shown) xi.insert(xi.end(), L, place);
     for (int b = 0; b < batches(); ++b) {
       const auto lines = linesOf(b);
       gather(lines.data(), static_cast<int>(lines.size()), u, 1, c.data());
       const LineProbe at = probe(laws_, static_cast<int>(Q), xi.data(), c.data(), lambda);
-      for (std::size_t lane = 0; lane < lines.size(); ++lane)
+      for (std::size_t lane = 0; lane < lines.size(); ++lane) {
         for (std::size_t q = 0; q < Q; ++q) result.values[M * (lines[lane] * Q + q)] = at.gap[q * L + lane];
+        for (int i = 0; i < 3; ++i) middles[3 * lines[lane] + i] = c[i * L + lane];
+      }
     }
     forEachBatch(u, lambda, [&](const ZoneBatch& batch, const int* lines) {
       const ZoneForces::Shares shares = forces_.shares(batch, lambda, lines_.shown);
@@ -382,22 +384,16 @@ class ZoneTerm final : public EventTerm {
       }
     });
     // A line may have several zones: means only now.
-    for (int b = 0; b < batches(); ++b) {
-      const auto lines = linesOf(b);
-      gather(lines.data(), static_cast<int>(lines.size()), u, 1, c.data());
-      for (std::size_t lane = 0; lane < lines.size(); ++lane)
-        for (std::size_t q = 0; q < Q; ++q) {
-          const std::size_t point = lines[lane] * Q + q;
-          double* own = &result.values[M * point];
-          const double force = own[1];
-          own[1] /= lines_.weights[point];
-          own[2] /= lines_.weights[point];
-          for (int i = 0; i < 3; ++i) {
-            const double mean = force > 0 ? own[4 + i] / force : 0;
-            own[7 + i] = force > 0 ? std::max(own[7 + i] / force - mean * mean, 0.0) : 0;
-            own[4 + i] = c[i * L + lane] + mean;
-          }
-        }
+    for (std::size_t point = 0; point < E * Q; ++point) {
+      double* own = &result.values[M * point];
+      const double force = own[1];
+      own[1] /= lines_.weights[point];
+      own[2] /= lines_.weights[point];
+      for (int i = 0; i < 3; ++i) {
+        const double mean = force > 0 ? own[4 + i] / force : 0;
+        own[7 + i] = force > 0 ? std::max(own[7 + i] / force - mean * mean, 0.0) : 0;
+        own[4 + i] = middles[3 * (point / Q) + i] + mean;
+      }
     }
     return result;
   }
