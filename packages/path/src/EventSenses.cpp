@@ -11,22 +11,22 @@ namespace atrapos::path {
 
 namespace {
 
-/// max |c_k| length^k over k >= 1.
-double size(const std::vector<double>& c, double length) {
+/// max |c_k| length^k over 1 <= k < count.
+double size(const std::vector<double>& c, double length, std::size_t count) {
   double largest = 0, power = length;
-  for (std::size_t k = 1; k < c.size(); ++k, power *= length)
+  for (std::size_t k = 1; k < count; ++k, power *= length)
     largest = std::max(largest, std::abs(c[k]) * power);
   return largest;
 }
+double size(const std::vector<double>& c, double length) { return size(c, length, c.size()); }
 
 /// How far a function is looked at, `length` at most: no farther than its own series converges, whose later
 /// terms are then not the largest. That of the unknowns may reach much farther, as where a body moves as a
 /// whole past a curved tool.
 double within(const std::vector<double>& c, double length) {
-  const auto half = c.begin() + static_cast<std::ptrdiff_t>((c.size() + 1) / 2);
-  const std::vector<double> first(c.begin(), half);
+  const std::size_t half = (c.size() + 1) / 2;
   constexpr int most = 200;
-  for (int i = 0; i < most && size(c, length) > size(first, length); ++i) length *= 0.5;
+  for (int i = 0; i < most && size(c, length) > size(c, length, half); ++i) length *= 0.5;
   return length;
 }
 
