@@ -20,20 +20,26 @@ const Choices<Component>& axes() {
   return choices;
 }
 
-/// A place of which a monitor sees the nearest point only.
+/// A place, or none.
 template <class M>
-Field<M> nearestPoint(std::string meaning) {
-  return {"near",
+Field<M> anyPlace(std::string key, std::optional<Vector3> M::*member, std::string meaning) {
+  return {std::move(key),
           false,
           "a list of 3 numbers",
           std::move(meaning),
-          [](const Value& v, M& s) {
+          [member](const Value& v, M& s) {
             const auto x = v.reals(3);
-            s.near = Vector3{x[0], x[1], x[2]};
+            s.*member = Vector3{x[0], x[1], x[2]};
           },
-          [](const M& s) {
-            return s.near ? Node{yamlList(*s.near), {}} : Node{};
+          [member](const M& s) {
+            return s.*member ? Node{yamlList(*(s.*member)), {}} : Node{};
           }};
+}
+
+/// A place of which a monitor sees the nearest point only.
+template <class M>
+Field<M> nearestPoint(std::string meaning) {
+  return anyPlace("near", &M::near, std::move(meaning));
 }
 
 Field<ContactForceMonitor> nearestContactPoint() {
@@ -59,20 +65,6 @@ Field<M> anyAxis(std::string meaning) {
           [](const Value& v, M& s) { s.component = choose(v, v.text(), axes()); },
           [](const M& s) {
             return s.component ? Node{wordOf(*s.component, axes()), {}} : Node{};
-          }};
-}
-
-Field<ContactSpreadMonitor> placeToMeasureFrom() {
-  return {"about",
-          false,
-          "a list of 3 numbers",
-          "a place in space in place of the centre, as on the symmetry plane of half a body",
-          [](const Value& v, ContactSpreadMonitor& s) {
-            const auto x = v.reals(3);
-            s.about = Vector3{x[0], x[1], x[2]};
-          },
-          [](const ContactSpreadMonitor& s) {
-            return s.about ? Node{yamlList(*s.about), {}} : Node{};
           }};
 }
 
@@ -474,7 +466,9 @@ const Variants<Monitor, decltype(Monitor::quantity)>& monitorVariants() {
            "contact_spread",
            {name("contact", required, &ContactSpreadMonitor::contact, "the name of a contact",
                  "whose normal forces' root-mean-square distance from their centre"),
-            anyAxis<ContactSpreadMonitor>("the distance along this axis only"), placeToMeasureFrom()}),
+            anyAxis<ContactSpreadMonitor>("the distance along this axis only"),
+            anyPlace("about", &ContactSpreadMonitor::about,
+                     "a place in space in place of the centre, as on the symmetry plane of half a body")}),
        alternative<V, ReactionMonitor>(
            "reaction", {name("support", required, &ReactionMonitor::support, "the name of a support",
                              "whose force on the body"),
