@@ -10,9 +10,9 @@ sheet, found by *STATIC with NLGEOM, has its lowest eigenvalues computed (*FREQU
 polynomial through the eigenvalue nearest to zero vanishes.
 """
 import os
-import subprocess
 import sys
-import tempfile
+
+import ccx
 
 LENGTH, WIDTH, THICKNESS = 100.0, 50.0, 0.1
 # ccx looks for the eigenvalues nearest to 1, which with this density is next to zero.
@@ -53,17 +53,17 @@ def model(nx, ny, strains):
 
 def nearest_to_zero(nx, ny, strains):
     """The eigenvalue nearest to zero at each strain."""
-    with tempfile.TemporaryDirectory() as folder:
-        with open(os.path.join(folder, "m.inp"), "w") as f:
-            f.write("\n".join(model(nx, ny, strains)) + "\n")
-        subprocess.run(["ccx", "m"], cwd=folder, check=True, stdout=subprocess.DEVNULL)
-        with open(os.path.join(folder, "m.dat")) as f:
-            tables = f.read().split("E I G E N V A L U E   O U T P U T")[1:]
-    found = []
-    for table in tables:
-        rows = [line.split() for line in table.split("P A R T I C I P A T I O N")[0].splitlines()]
-        found.append(min((float(row[1]) for row in rows if len(row) == 5 and row[0].isdigit()), key=abs))
-    return dict(zip(strains, found))
+    found, values = [], None
+    for row in ccx.rows(model(nx, ny, strains), timeout=3600):
+        heading = "".join(row)
+        if heading == "EIGENVALUEOUTPUT":
+            values = []
+            found.append(values)
+        elif heading.startswith("PARTICIPATION"):
+            values = None
+        elif values is not None and len(row) == 5 and row[0].isdigit():
+            values.append(float(row[1]))
+    return dict(zip(strains, (min(values, key=abs) for values in found)))
 
 
 def zero(x, y):
