@@ -1,4 +1,4 @@
-"""Looks at the repository's Markdown: files that it names in code are there.
+"""Looks at the repository's Markdown: files that it names in code are there, and the site's plan has each page.
 
     check_text.py    says what is wrong, a line each, and exits with 1
 """
@@ -33,6 +33,15 @@ def problems(page, text):
                 yield f"{page}:{line}: there is no {name}"
 
 
+def unplanned():
+    """Pages of docs that the site's plan does not name; those of theory are listed by themselves."""
+    plan = (ROOT / "scripts/lib/site/mkdocs.yml").read_text()
+    for page in repository.pages():
+        if page.parts[0] == "docs" and str(page.parent) != "docs/theory" and not re.search(f": {page}$", plan, re.M):
+            yield f"{page}: scripts/lib/site/mkdocs.yml does not name it"
+
+
 found = [p for page in repository.pages() for p in problems(page, (ROOT / page).read_text())]
+found += unplanned()
 print("\n".join(found), end="\n" if found else "")
 sys.exit(1 if found else 0)
