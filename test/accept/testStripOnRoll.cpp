@@ -148,10 +148,11 @@ TEST_F(StripOnRoll, ResultFileHoldsEveryStep) {
     ASSERT_EQ(times[s], length[5 * s]);
     ASSERT_EQ(r.global(s, "load_factor"), load[5 * s]);
     ASSERT_EQ(r.global(s, "path_parameter"), times[s]);
-    highest = std::max(highest, r.global(s, "series_order"));
+    const double order = r.global(s, "series_order");
+    highest = std::max(highest, order);
+    ASSERT_GE(order, s > 0 ? 1 : 0);  // fewer than asked for where the stop or an event is near
   }
   EXPECT_EQ(highest, 20);
-  EXPECT_LT(r.global(steps(), "series_order"), 20);  // its end, the stop, is near
   EXPECT_EQ(r.global(steps(), "negative_pivots"), 0);  // the path is stable
   EXPECT_GT(r.global(steps(), "active_contacts"), 0);
 }
