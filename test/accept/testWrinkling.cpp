@@ -36,6 +36,22 @@ std::vector<double> points(const ExampleRun& run) {
   return found;
 }
 
+/// What is higher can be told from nothing, mm.
+constexpr double kSeen = 1e-3;
+
+struct Row {
+  double strain, wrinkle;
+  double height() const { return std::abs(wrinkle); }
+};
+
+/// Of the branch of wrinkles, those of one sign in the middle.
+using Half = std::vector<Row>;
+
+Half::const_iterator top(const Half& half) {
+  return std::max_element(half.begin(), half.end(),
+                          [](const Row& a, const Row& b) { return a.height() < b.height(); });
+}
+
 }  // namespace
 
 // The same cells of solids with the same points. What differs is the energy of the volume, kappa/2 (J - 1)^2
@@ -97,43 +113,52 @@ TEST(WrinklingSheet, WrinklesComeAndGo) {
 
   const auto branch = run.column("branch"), strain = run.column("load_factor"),
              wrinkle = run.column("wrinkle"), negative = run.column("negative_eigenvalues");
-  double highest[2] = {0, 0};
-  int followed = 0;
+  // A half from the first point to the last is a branch; or one branch passes the last point and goes back on
+  // the other side: that is left to rounding (docs/wrinkling.md).
+  std::vector<Half> halves;
   for (const auto& b : run.summary.at("branches")) {
     if (b.at("depth") == 0 || b.at("steps") == 0) continue;
     const int number = b.at("branch");
-    SCOPED_TRACE(number);
-    ASSERT_LT(followed, 2);  // both halves, each from one end to the other, and nothing twice
-    EXPECT_EQ(b.at("end"), "joined");
-    std::vector<double> x, height;
-    int sign = 0;
+    EXPECT_EQ(b.at("end"), "joined") << number;
+    Half half;
     for (std::size_t i = 0; i < branch.size(); ++i) {
       if (branch[i] != number) continue;
-      x.push_back(strain[i]);
-      height.push_back(std::abs(wrinkle[i]));
       // Stable wherever it can be seen.
-      if (height.back() > 1e-3) {
+      if (std::abs(wrinkle[i]) > kSeen) {
         EXPECT_EQ(negative[i], 0) << strain[i];
-        sign = wrinkle[i] > 0 ? 1 : -1;
       }
+      if (!half.empty() && (wrinkle[i] > 0) != (half.back().wrinkle > 0)) {
+        halves.push_back(half);
+        half.clear();
+      }
+      half.push_back({strain[i], wrinkle[i]});
     }
-    const auto top = std::max_element(height.begin(), height.end());
-    highest[followed++] = sign * *top;
-    // Higher than two thicknesses, about a tenth of strain.
-    EXPECT_GT(*top, 0.2);
-    EXPECT_NEAR(x[static_cast<std::size_t>(top - height.begin())], 0.1, 0.02);
-    // Up, then down, from the first point to the last and to nothing: what is left there is what a residual
-    // of 1e-9 holds up.
-    for (auto h = height.begin(); h + 1 < height.end(); ++h)
-      if (std::max(*h, h[1]) > 1e-3) {
-        EXPECT_EQ(h[1] > *h, h < top) << x[static_cast<std::size_t>(h - height.begin())];
-      }
-    EXPECT_LT(height.back(), 1e-3 * *top);
-    EXPECT_NEAR(x.front(), come, 1e-3 * come);
-    EXPECT_NEAR(x.back(), gone, 1e-5 * gone);
+    halves.push_back(half);
   }
-  EXPECT_EQ(followed, 2);
-  EXPECT_NEAR(highest[0], -highest[1], 0.01 * std::abs(highest[0]));  // the rows' spacing about the top
+  // What is left is the step with which a branch that goes round comes to where it began.
+  constexpr double small = 0.02;
+  halves.erase(std::remove_if(halves.begin(), halves.end(),
+                              [&](const Half& half) { return top(half)->height() < small; }),
+               halves.end());
+  ASSERT_EQ(halves.size(), 2u);  // nothing twice
+  for (Half& half : halves) {
+    const auto highest = top(half);
+    SCOPED_TRACE(highest->wrinkle);
+    // Higher than two thicknesses, about a tenth of strain.
+    EXPECT_GT(highest->height(), 0.2);
+    EXPECT_NEAR(highest->strain, 0.1, 0.02);
+    // Up, then down, from one point to the other and to nothing: what is left there is what a residual of
+    // 1e-9 holds up.
+    for (auto h = half.cbegin(); h + 1 < half.cend(); ++h)
+      if (std::max(h->height(), h[1].height()) > kSeen) {
+        EXPECT_EQ(h[1].height() > h->height(), h < highest) << h->strain;
+      }
+    if (half.front().strain > half.back().strain) std::reverse(half.begin(), half.end());
+    EXPECT_NEAR(half.front().strain, come, 1e-3 * come);
+    EXPECT_NEAR(half.back().strain, gone, 1e-5 * gone);
+  }
+  const double one = top(halves[0])->wrinkle, other = top(halves[1])->wrinkle;
+  EXPECT_NEAR(one, -other, 0.01 * std::abs(one));  // the rows' spacing about the top
 }
 
 }  // namespace atrapos::test

@@ -107,7 +107,7 @@ struct FeProblem::Impl {
   DofView last;                     // U of the order completed last
   double lastLambda = 0;            // and its lambda
   std::vector<char> prescribedRow;  // [own dof] whether its row is a support's or a coupling's
-  DofView prescribed;               // s of the prescribed rows, by balance
+  DofView prescribed;               // s of the prescribed rows, by field
   bool hasPrescribed = false;       // since the first tangent
   std::vector<int> parameters;      // dofs of this rank that are parameters of laws
   std::vector<int> wholeCounts;     // [term] entities on all ranks (several ranks)
@@ -521,8 +521,10 @@ struct FeProblem::Impl {
     return stiffness;
   }
 
-  /// The free dofs' largest diagonal entry in each balance, from the ranks' parts of the matrix: a support of
-  /// a temperature whose row had the size of a stiffness would have a residual of rounding beyond all heat.
+  /// The free dofs' largest diagonal entry in each field, or in its balance where the field has none, from
+  /// the ranks' parts of the matrix: a support whose row had another size (that of a stiffness for a
+  /// temperature, or of a director for a displacement, which is 1e4 times that in a thin shell) would have a
+  /// residual of rounding beyond all that acts there.
   void findDiagonal() {
     const auto values = entries;
     const auto start = rowStart;
@@ -537,16 +539,23 @@ struct FeProblem::Impl {
     ranks->collect(own);
     const auto isFixed = Kokkos::create_mirror_view_and_copy(Kokkos::HostSpace(), fixed);
     const std::vector<double> diagonal = toHost(own);
-    Sizes largest(numBalances(), 0.0);
+    const DofMap& dofs = ranks->dofs();
+    const auto fieldOf = [&](std::size_t d) { return dofs.addressOf(static_cast<int>(d)).field; };
+    Sizes inField(dofs.fields().size(), 0.0), inBalance(numBalances(), 0.0);
     for (std::size_t d = 0; d < numOwned(); ++d)
-      if (!isFixed(d)) largest[balances[d]] = std::max(largest[balances[d]], std::abs(diagonal[d]));
-    for (double& size : largest) {
-      size = ranks->max(size);
-      if (!(size > 0 && std::isfinite(size))) size = 1;
+      if (!isFixed(d)) inField[fieldOf(d)] = std::max(inField[fieldOf(d)], std::abs(diagonal[d]));
+    for (std::size_t f = 0; f < inField.size(); ++f) {
+      inField[f] = ranks->max(inField[f]);
+      double& largest = inBalance[dofs.balanceOf(static_cast<int>(f))];
+      largest = std::max(largest, inField[f]);
     }
+    const auto size = [](double x) { return x > 0 && std::isfinite(x); };
     std::vector<double> s(numLocal());
-    for (std::size_t d = 0; d < s.size(); ++d)
-      s[d] = largest[ranks->dofs().balanceOf(ranks->dofs().addressOf(static_cast<int>(d)).field)];
+    for (std::size_t d = 0; d < s.size(); ++d) {
+      const int f = fieldOf(d);
+      const double whole = inBalance[dofs.balanceOf(f)];
+      s[d] = size(inField[f]) ? inField[f] : size(whole) ? whole : 1;
+    }
     prescribed = toDevice(s);
     hasPrescribed = true;
     // Where all forces vanish at first, what remains is the rounding of those that initial values have from

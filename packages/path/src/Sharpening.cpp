@@ -26,13 +26,16 @@ std::optional<double> progressionPole(const PathUnderWay& path, const Series& se
   return geometricProgression(path.calls.problem(), series, ratioBound, perpBound);
 }
 
-/// Whether x is a good part of what is seen in the series: order N of e / (1 - a/a_c) is e / a_c^N. Else its
-/// cause is another.
-bool explains(const Problem& problem, const RCP<Vector>& x, const Series& series, double pole) {
-  constexpr double share = 0.1;
+double norm(const Problem& problem, const RCP<Vector>& x) {
   const Increment e{x, std::vector<double>(problem.internalCount(), 0.0)};
-  const double seen = series.norm(series.order()) * std::pow(std::abs(pole), series.order());
-  return std::sqrt(problem.inner(e, e)) > share * seen;
+  return std::sqrt(problem.inner(e, e));
+}
+
+/// Whether a displacement of this size is a good part of what is seen in the series: order N of e / (1 -
+/// a/a_c) is e / a_c^N. Else its cause is another.
+bool explains(double size, const Series& series, double pole) {
+  constexpr double share = 0.1;
+  return size > share * series.norm(series.order()) * std::pow(std::abs(pole), series.order());
 }
 
 /// x - c y.
@@ -56,7 +59,7 @@ bool sharpenState(PathUnderWay& path, const Series& series) {
   auto F = calls.newVector(), x1 = calls.newVector(), x2 = calls.newVector();
   State state = here.state.copy();
   auto r = copy(*here.r);
-  double residual = here.residual;
+  double residual = here.residual, first = 0, size = 0;  // of corrections
   constexpr int maxIterations = 5;
   try {
     calls.tangent(state, *F);
@@ -65,13 +68,21 @@ bool sharpenState(PathUnderWay& path, const Series& series) {
       calls.solve(*r, *x1);
       const double dLambda = border.c(x1) / (border.c(x2) + border.cLambda);
       x1->update(dLambda, *x2, -1);
-      if (i == 0 && !explains(problem, x1, series, *pole)) return false;
+      const double before = size;
+      size = norm(problem, x1);
+      // Corrections tell, and not the residual, whose norm may be the rounding of other forces than those
+      // along the null vector, which are small in a thin sheet.
+      constexpr double falls = 0.1;  // less is rounding, or the tangent's own change
+      if (i == 0 && !explains(size, series, *pole)) return false;
+      if (i == 0)
+        first = size;
+      else if (!(size < falls * before))
+        break;
       State trial = state.at(copy(*state.u), state.lambda + dLambda);
       trial.u->update(1, *x1, 1);
       auto left = calls.newVector();
       const double now = calls.residual(trial, *left).relative();
-      constexpr double falls = 0.1;  // less is rounding, or the tangent's own change
-      if (!(now < falls * residual)) break;
+      if (!(now <= path.correctAbove())) break;
       state = trial;
       r = left;
       residual = now;
@@ -79,8 +90,8 @@ bool sharpenState(PathUnderWay& path, const Series& series) {
   } catch (const PathError&) {
     return false;
   }
-  constexpr double useful = 0.1;  // the displacement falls as the residual does
-  if (!(residual < useful * here.residual)) return false;
+  constexpr double useful = 0.1;
+  if (!(size < useful * first)) return false;
   path.improveEnd(state, r, residual);
   path.countCorrections(1);
   return true;
