@@ -1,12 +1,16 @@
 #include "machine/Runtime.hpp"
 
 #include <mpi.h>
+#include <unistd.h>
 
 #include <Kokkos_Core.hpp>
 #include <Tpetra_Core.hpp>
+#include <algorithm>
 #include <cstdlib>
+#include <set>
+#include <string>
+#include <string_view>
 #include <utility>
-#include <vector>
 
 #include "atrapos/linear/BlasThreads.hpp"
 #include "machine/Ranks.hpp"
@@ -16,43 +20,49 @@ namespace atrapos {
 
 namespace {
 
-/// A process that no launcher has started needs neither networks nor a daemon, which Open MPI takes 0.3 s to
-/// find and to start: four fifths of the time of a command that reads a deck. What the user has set stays,
-/// and processes that this one starts, mpirun perhaps, inherit nothing.
-class NoNetwork {
- public:
-  NoNetwork() {
-    // Of mpirun and PMIx, of PMI, of Slurm, Flux, ALPS, PALS and jsrun.
-    for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK", "PMI_SIZE", "SLURM_PROCID",
-                             "FLUX_JOB_ID", "ALPS_APP_PE", "PALS_RANKID", "JSM_NAMESPACE_RANK"})
-      if (std::getenv(name)) return;
-    const std::pair<const char*, const char*> settings[]{
-        {"OMPI_MCA_ess_singleton_isolated", "1"}, {"OMPI_MCA_pml", "ob1"}, {"OMPI_MCA_btl", "self"}};
-    for (const auto& [name, value] : settings)
-      if (!std::getenv(name)) {
-        setenv(name, value, 1);
-        set_.push_back(name);
-      }
+/// Names of the variables that are Open MPI's.
+std::set<std::string> variablesOfMpi() {
+  std::set<std::string> names;
+  for (char** entry = environ; *entry != nullptr; ++entry) {
+    const std::string_view text = *entry;
+    if (text.substr(0, 5) == "OMPI_" || text.substr(0, 5) == "PMIX_")
+      names.emplace(text.substr(0, text.find('=')));
   }
-  ~NoNetwork() {
-    for (const char* name : set_) unsetenv(name);
-  }
-  NoNetwork(const NoNetwork&) = delete;
-  NoNetwork& operator=(const NoNetwork&) = delete;
+  return names;
+}
 
- private:
-  std::vector<const char*> set_;
-};
+/// Of mpirun and PMIx, of PMI, of Slurm, Flux, ALPS, PALS and jsrun.
+bool launched() {
+  const auto names = {"OMPI_COMM_WORLD_SIZE", "PMIX_RANK",   "PMI_RANK",    "PMI_SIZE",
+                      "SLURM_PROCID",         "FLUX_JOB_ID", "ALPS_APP_PE", "PALS_RANKID",
+                      "JSM_NAMESPACE_RANK"};
+  return std::any_of(names.begin(), names.end(),
+                     [](const char* name) { return std::getenv(name) != nullptr; });
+}
+
+/// A process that no launcher has started needs neither networks nor a daemon, which Open MPI takes 0.3 s to
+/// find and to start: three quarters of the time of a command that reads a deck. What the user has set stays,
+/// and processes that this one starts, mpirun perhaps, inherit nothing of it, nor of what MPI sets then.
+void startMpi() {
+  if (launched()) {
+    MPI_Init(nullptr, nullptr);
+    return;
+  }
+  const std::set<std::string> before = variablesOfMpi();
+  const std::pair<const char*, const char*> settings[]{
+      {"OMPI_MCA_ess_singleton_isolated", "1"}, {"OMPI_MCA_pml", "ob1"}, {"OMPI_MCA_btl", "self"}};
+  for (const auto& [name, value] : settings) setenv(name, value, 0);
+  MPI_Init(nullptr, nullptr);
+  for (const std::string& name : variablesOfMpi())
+    if (before.count(name) == 0) unsetenv(name.c_str());
+}
 
 }  // namespace
 
 Runtime::Runtime(int threads) {
   // Without it Kokkos warns at every start; binding is the user's choice.
   setenv("OMP_PROC_BIND", "false", 0);
-  {
-    const NoNetwork alone;
-    MPI_Init(nullptr, nullptr);
-  }
+  startMpi();
   Kokkos::InitArguments arguments;
   arguments.disable_warnings = true;
   const int loops = threads::ofElementLoops(threads, threads::machine(MPI_COMM_WORLD));

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <csignal>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 
 #include "atrapos/exodus/MeshFile.hpp"
@@ -183,6 +184,22 @@ TEST_F(CommandTest, ResidualsAreThoseOfStepEndsOrOfAllPoints) {
   EXPECT_NEAR(summary("all_results").at("worst_residual"), worst, 1e-3 * worst);
   EXPECT_EQ(summary("deck_results").at("worst_residual"),
             summary("deck_results").at("worst_residual_at_step_ends"));
+}
+
+// One process has MPI keep off networks (machine/Runtime.cpp); programs that it starts know nothing of that.
+TEST_F(CommandTest, WhatItStartsInheritsNothingOfMpi) {
+  const std::filesystem::path program = folder_ / "gnuplot";
+  writeFile(program, "#!/bin/sh\nenv > inherited\n");
+  std::filesystem::permissions(program, std::filesystem::perms::owner_all);
+  writeFile(folder_ / "deck.yaml", "problem: {name: bratu_1d}\npath: {stop: {steps: 2}}\n");
+  const std::string path = std::getenv("PATH");
+  setenv("PATH", (folder_.path().string() + ':' + path).c_str(), 1);
+  const CommandResult run = runDeck({}, folder_.path());
+  setenv("PATH", path.c_str(), 1);
+  ASSERT_EQ(run.exitCode, 0) << run.err;
+  const std::string environment = readFile(folder_ / "deck_results" / "inherited");
+  EXPECT_NE(environment.find("PATH="), std::string::npos);
+  EXPECT_EQ(environment.find("OMPI_MCA"), std::string::npos) << environment;
 }
 
 TEST_F(CommandTest, TitlesAndFoldersAreNeverRun) {
