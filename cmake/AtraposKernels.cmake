@@ -2,7 +2,7 @@
 # once for all but the kernels, and once for each level, for the kernels alone; the level is chosen when a program
 # starts (fem/Processor.hpp). Without levels they are compiled once, for the instruction set of everything else.
 set(levels "")
-if(NOT ATRAPOS_NATIVE AND CMAKE_BUILD_TYPE STREQUAL "Release" AND CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64)$"
+if(CMAKE_BUILD_TYPE STREQUAL "Release" AND CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64)$"
     AND CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang")
   set(levels v2 v3 v4)
 endif()
@@ -31,9 +31,6 @@ foreach(level IN LISTS ATRAPOS_KERNEL_LEVELS)
   endif()
 endforeach()
 set(ATRAPOS_KERNEL_LANES ${lanes})
-if(ATRAPOS_KERNEL_LEVELS AND ATRAPOS_NATIVE)
-  message(FATAL_ERROR "ATRAPOS_NATIVE compiles for this machine alone: set ATRAPOS_KERNEL_LEVELS to nothing")
-endif()
 
 # atrapos_kernels(<target> <sources...> [WITH_TRILINOS])
 #
