@@ -49,8 +49,11 @@ void startMpi() {
     return;
   }
   const std::set<std::string> before = variablesOfMpi();
-  const std::pair<const char*, const char*> settings[]{
-      {"OMPI_MCA_ess_singleton_isolated", "1"}, {"OMPI_MCA_pml", "ob1"}, {"OMPI_MCA_btl", "self"}};
+  // Without a daemon all such processes have one number, and would share a session folder.
+  const std::pair<const char*, const char*> settings[]{{"OMPI_MCA_ess_singleton_isolated", "1"},
+                                                       {"OMPI_MCA_orte_create_session_dirs", "0"},
+                                                       {"OMPI_MCA_pml", "ob1"},
+                                                       {"OMPI_MCA_btl", "self"}};
   for (const auto& [name, value] : settings) setenv(name, value, 0);
   MPI_Init(nullptr, nullptr);
   for (const std::string& name : variablesOfMpi())

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <csignal>
 #include <cstdlib>
+#include <memory>
 #include <nlohmann/json.hpp>
 
 #include "atrapos/exodus/MeshFile.hpp"
@@ -200,6 +201,21 @@ TEST_F(CommandTest, WhatItStartsInheritsNothingOfMpi) {
   const std::string environment = readFile(folder_ / "deck_results" / "inherited");
   EXPECT_NE(environment.find("PATH="), std::string::npos);
   EXPECT_EQ(environment.find("OMPI_MCA"), std::string::npos) << environment;
+}
+
+// Processes without a daemon of MPI must not meet in a folder of its sessions.
+TEST_F(CommandTest, ManyStartAtOnce) {
+  writeFile(folder_ / "deck.yaml", "problem: {name: bratu_1d}\npath: {stop: {steps: 2}}\n");
+  for (int round = 0; round < 5; ++round) {
+    std::vector<std::unique_ptr<Command>> all;
+    for (int i = 0; i < 8; ++i)
+      all.push_back(
+          std::make_unique<Command>(std::vector<std::string>{"check", "deck.yaml"}, folder_.path()));
+    for (const auto& command : all) {
+      const CommandResult result = command->wait();
+      EXPECT_EQ(result.exitCode, 0) << result.err;
+    }
+  }
 }
 
 TEST_F(CommandTest, TitlesAndFoldersAreNeverRun) {
