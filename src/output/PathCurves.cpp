@@ -26,7 +26,8 @@ Stability stabilityOf(double negative) {
 struct Located {
   double pathLength = 0;
   std::string kind;
-  int step = 0, nullity = 0;
+  MarkType type = MarkType::limit;
+  int step = 0;
   bool changes = true;  ///< the number of negative eigenvalues
   double loadFactor = 0;
   std::vector<double> monitors;
@@ -35,19 +36,20 @@ struct Located {
 /// [branch] Its limit points of the load factor and bifurcation points, along the path.
 std::map<int, std::vector<Located>> locatedIn(const TableFile& points) {
   std::map<int, std::vector<Located>> located;
-  auto nullity = points.integers("nullity");
-  const auto branch = points.integers("branch"), step = points.integers("step"),
-             change = points.integers("negative_change");
+  const auto branch = points.integers("branch"), nullity = points.integers("nullity"),
+             step = points.integers("step"), change = points.integers("negative_change");
   const auto length = points.numbers("path_length"), load = points.numbers("load_factor");
   const auto kind = points.texts("kind");
   const std::size_t first = points.place("uncertainty") + 1;
   for (std::size_t i = 0; i < points.numRows(); ++i) {
-    // Bifurcation points as others, for pictures.
-    if (kind[i] == hopfKind) nullity[i] = 2;
-    if (nullity[i] == 0 && kind[i] != "maximum" && kind[i] != "minimum") continue;  // of a monitor
+    const MarkType type = kind[i] == hopfKind ? MarkType::hopf
+                          : nullity[i] > 0    ? MarkType::bifurcation
+                                              : MarkType::limit;
+    if (type == MarkType::limit && kind[i] != "maximum" && kind[i] != "minimum") continue;  // of a monitor
     if (!std::isfinite(length[i]))
       throw std::invalid_argument(fmt::format("points.csv: row {} has no path length", i + 1));
-    Located p{length[i], kind[i], step[i], nullity[i], nullity[i] == 0 || change[i] != 0, load[i], {}};
+    const bool changes = type == MarkType::limit || change[i] != 0;
+    Located p{length[i], kind[i], type, step[i], changes, load[i], {}};
     for (std::size_t m = first; m < points.names().size(); ++m) p.monitors.push_back(points.number(i, m));
     located[branch[i]].push_back(std::move(p));
   }
@@ -92,7 +94,7 @@ class Merger {
       curve_.stability.back() = stretch(before_, here, passed, changes);
       for (; next_ != end; ++next_) {
         passed += next_->changes;
-        curve_.marks.push_back({curve_.numPoints(), next_->kind, next_->nullity});
+        curve_.marks.push_back({curve_.numPoints(), next_->kind, next_->type});
         append(curve_, next_->step, next_->loadFactor, next_->pathLength, next_->monitors,
                stretch(before_, here, passed, changes));
       }

@@ -13,11 +13,17 @@ enum class Stability {
   unknown    ///< not counted
 };
 
-/// A limit or bifurcation point on a curve.
+/// What is marked on a curve.
+enum class MarkType {
+  limit,        ///< a limit point of the load factor
+  bifurcation,  ///< a bifurcation point
+  hopf          ///< a Hopf point
+};
+
 struct CurveMark {
   std::size_t point = 0;  ///< of the branch, where the curve has it as a point
   std::string kind;       ///< as in points.csv
-  int nullity = 0;        ///< 0: a limit point of the load factor
+  MarkType type = MarkType::limit;
 };
 
 /// A branch as its tables have it, with the limit and bifurcation points that were located between the rows

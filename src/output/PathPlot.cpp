@@ -111,7 +111,7 @@ class Data {
 struct Legend {
   std::vector<std::pair<std::string, std::size_t>> colours;  ///< words and number
   bool stability[3] = {false, false, false};
-  bool limits = false, bifurcations = false;
+  bool marks[3] = {};  ///< [MarkType]
 };
 
 /// Where the load factors of points stand, so that none hides another one.
@@ -205,7 +205,8 @@ class Script {
       for (std::size_t y = 0; y < panel.y.size(); ++y) addCurve(p, b, y, frame, plots);
     if (plots.empty()) plots = startOnly(panel);
     Labels labels(frame);
-    for (const bool bifurcations : {true, false}) addMarks(p, bifurcations, frame, labels, plots);
+    for (const MarkType type : {MarkType::hopf, MarkType::bifurcation, MarkType::limit})
+      addMarks(p, type, frame, labels, plots);
     labels.write(p, data_, plots);
     plots_.push_back(plots);
   }
@@ -232,15 +233,15 @@ class Script {
     }
   }
 
-  /// Points of one kind, each once whatever the number of branches that pass it, with the load factor where
+  /// Points of one type, each once whatever the number of branches that pass it, with the load factor where
   /// they are few enough to be read. A branch turns where it meets another one: that is no limit point more.
-  void addMarks(std::size_t p, bool bifurcations, const Frame& frame, Labels& labels, std::string& plots) {
+  void addMarks(std::size_t p, MarkType type, const Frame& frame, Labels& labels, std::string& plots) {
     const Panel& panel = panels_[p];
     std::vector<Mark>& all = marks_[p];
     const std::size_t before = all.size();
     for (const BranchCurve& b : curves_.branches)
       for (const CurveMark& mark : b.marks) {
-        if ((mark.nullity > 0) != bifurcations) continue;
+        if (mark.type != type) continue;
         for (const std::size_t q : panel.y) {
           const double x = b.values[panel.x][mark.point], y = b.values[q][mark.point];
           constexpr double same = 1e-4;
@@ -251,8 +252,8 @@ class Script {
       }
     const std::vector<Mark> marks(all.begin() + static_cast<std::ptrdiff_t>(before), all.end());
     if (marks.empty()) return;
-    (bifurcations ? legend_.bifurcations : legend_.limits) = true;
-    const std::string name = fmt::format("$marks_{}_{}", p, bifurcations ? 1 : 0);
+    legend_.marks[static_cast<int>(type)] = true;
+    const std::string name = fmt::format("$marks_{}_{}", p, static_cast<int>(type));
     data_ += name + " << EOD\n";
     constexpr std::size_t readable = 12;
     for (const Mark& m : marks) {
@@ -260,11 +261,14 @@ class Script {
       if (marks.size() <= readable) labels.add(m.x, m.y, m.load, m.minimum);
     }
     data_ += "EOD\n";
-    plots += fmt::format(", \\\n  {} using 1:2 notitle with points {}", name, markStyle(bifurcations));
+    plots += fmt::format(", \\\n  {} using 1:2 notitle with points {}", name, markStyle(type));
   }
 
-  static const char* markStyle(bool bifurcations) {
-    return bifurcations ? "pt 5 ps 0.7 lc rgb '#111111'" : "pt 6 ps 1 lw 1.6 lc rgb '#111111'";
+  /// A circle, a square, a diamond.
+  static const char* markStyle(MarkType type) {
+    static const char* const styles[] = {"pt 6 ps 1 lw 1.6 lc rgb '#111111'", "pt 5 ps 0.7 lc rgb '#111111'",
+                                         "pt 13 ps 1.1 lc rgb '#111111'"};
+    return styles[static_cast<int>(type)];
   }
 
   /// Words and style of what stands for all that the panels have.
@@ -280,9 +284,12 @@ class Script {
       if (legend_.stability[static_cast<int>(s)])
         entries.emplace_back(words[static_cast<int>(s)],
                              fmt::format("with lines {} lc rgb '#111111'", lineOf(s)));
-    if (legend_.limits) entries.emplace_back("limit point", fmt::format("with points {}", markStyle(false)));
-    if (legend_.bifurcations)
-      entries.emplace_back("bifurcation point", fmt::format("with points {}", markStyle(true)));
+    static const std::pair<MarkType, const char*> marked[] = {{MarkType::limit, "limit point"},
+                                                              {MarkType::bifurcation, "bifurcation point"},
+                                                              {MarkType::hopf, "Hopf point"}};
+    for (const auto& [type, name] : marked)
+      if (legend_.marks[static_cast<int>(type)])
+        entries.emplace_back(name, fmt::format("with points {}", markStyle(type)));
     return entries;
   }
 

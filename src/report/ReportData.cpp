@@ -61,7 +61,8 @@ json branchOf(const BranchCurve& branch, std::size_t every) {
   for (const auto& values : branch.values) of["values"].push_back(numbers(values, kept));
   for (const CurveMark& mark : branch.marks) {
     const auto at = std::lower_bound(kept.begin(), kept.end(), mark.point) - kept.begin();
-    of["marks"].push_back({{"point", at}, {"kind", mark.kind}, {"nullity", mark.nullity}});
+    static const char* const types[] = {"limit", "bifurcation", "hopf"};
+    of["marks"].push_back({{"point", at}, {"kind", mark.kind}, {"type", types[static_cast<int>(mark.type)]}});
   }
   return of;
 }

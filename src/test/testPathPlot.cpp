@@ -70,7 +70,7 @@ BranchCurve circle(int pointsPerStep) {
     const double values[] = {0, s, std::cos(s), std::sin(s)};
     for (int q = 0; q < 4; ++q) curve.values[q].push_back(values[q]);
   }
-  curve.marks.push_back({static_cast<std::size_t>(pointsPerStep), "maximum", 0});
+  curve.marks.push_back({static_cast<std::size_t>(pointsPerStep), "maximum", MarkType::limit});
   return curve;
 }
 
@@ -140,13 +140,16 @@ TEST(PathPlot, TextsAreDrawnAsTheyAre) {
 
 TEST(PathPlot, DottedFromTheLocatedPointsOn) {
   const TemporaryFolder folder;
-  // Between rows 2 and 3 a maximum, between 4 and 5 a minimum; a bifurcation point that changes nothing; the
-  // extremum of a monitor is none of these.
+  // Between rows 2 and 3 a maximum, between 4 and 5 a minimum; a bifurcation point and a Hopf point that
+  // change nothing; the extremum of a monitor is none of these.
   PointRow up{2, 0, 1.25, 2.1, "maximum"}, down{3, 0, 3.75, 0.9, "minimum"},
-      idle{2, 0, 2.5, 1.5, "pitchfork", 0, 1}, other{2, 0, 2.6, 1.6, "maximum:x"};
+      idle{2, 0, 2.5, 1.5, "pitchfork", 0, 1}, other{2, 0, 2.6, 1.6, "maximum:x"},
+      hopf{3, 0, 3, 1.2, hopfKind};
   up.monitors = {1.25, 1.25}, down.monitors = {3.75, 3.75}, idle.monitors = other.monitors = {2.5, 2.5};
-  writeTables(folder.path(), kRows,
-              text(up) + "\n" + text(idle) + "\n" + text(other) + "\n" + text(down) + "\n");
+  hopf.monitors = {3, 3};
+  writeTables(
+      folder.path(), kRows,
+      text(up) + "\n" + text(idle) + "\n" + text(other) + "\n" + text(hopf) + "\n" + text(down) + "\n");
   ASSERT_EQ(plotPath({folder.path().string(), "", "x", {"load factor"}}), "");
   const std::string script = readFile(folder / "path.gp");
   EXPECT_EQ(ends(block(script, "$curve_0_0_0")),
@@ -154,8 +157,9 @@ TEST(PathPlot, DottedFromTheLocatedPointsOn) {
   EXPECT_EQ(ends(block(script, "$curve_0_0_1")), (std::vector<std::string>{"1.25 2.1", "3.75 0.9"}));
   EXPECT_EQ(block(script, "$marks_0_0"), "1.25 2.1\n3.75 0.9\n");
   EXPECT_EQ(block(script, "$marks_0_1"), "2.5 1.5\n");
+  EXPECT_EQ(block(script, "$marks_0_2"), "3 1.2\n");
   // Above the maximum and the bifurcation point, below the minimum.
-  EXPECT_EQ(block(script, "$labels_0_0"), "2.5 1.5 \"1.5\"\n1.25 2.1 \"2.1\"\n");
+  EXPECT_EQ(block(script, "$labels_0_0"), "3 1.2 \"1.2\"\n2.5 1.5 \"1.5\"\n1.25 2.1 \"2.1\"\n");
   EXPECT_EQ(block(script, "$labels_0_1"), "3.75 0.9 \"0.9\"\n");
   // What is drawn: as many strokes as pieces.
   const std::string svg = readFile(folder / "path.svg");

@@ -7,6 +7,7 @@ import { zoom, zoomIdentity } from "d3-zoom";
 
 const margin = { left: 72, right: 16, top: 12, bottom: 44 };
 const dashes = { stable: null, unstable: "2 4", unknown: null };
+const shapes = { limit: "M-5,0a5,5 0 1,0 10,0a5,5 0 1,0 -10,0z", bifurcation: "M-5,-5h10v10h-10z", hopf: "M0,-7L7,0L0,7L-7,0z" };
 const widths = { stable: 2.4, unstable: 1.8, unknown: 1 };
 
 function extent(values, log) {
@@ -26,7 +27,7 @@ function extent(values, log) {
 
 /**
  * curves: [{name, colour, x, y, stability: ["stable", ...] of the stretches behind the points}]
- * marks: [{x, y, text, square, curve, point}]
+ * marks: [{x, y, text, type: "limit", "bifurcation" or "hopf"}]
  * options: {xLabel, yLabel, logX, logY, height, onHover(curve, point) -> text, onClick(curve, point)}
  */
 export class Chart {
@@ -151,8 +152,8 @@ export class Chart {
     marks.attr("transform", (m) => `translate(${x(m.x)},${y(m.y)})`);
     marks
       .select("path")
-      .attr("d", (m) => (m.square ? "M-5,-5h10v10h-10z" : "M-5,0a5,5 0 1,0 10,0a5,5 0 1,0 -10,0z"))
-      .attr("fill", (m) => (m.square ? "#111" : "#fff"))
+      .attr("d", (m) => shapes[m.type])
+      .attr("fill", (m) => (m.type === "limit" ? "#fff" : "#111"))
       .attr("stroke", "#111")
       .attr("stroke-width", 1.6);
     // Above the mark, below it where the frame would cut it off.

@@ -74,7 +74,7 @@ function head() {
 
 // ---------------------------------------------------------------------------------------------- path
 
-const words = (mark) => (mark.nullity > 0 ? mark.kind : `${mark.kind} of the load`);
+const words = (mark) => ({ limit: `${mark.kind} of the load`, bifurcation: mark.kind, hopf: "Hopf point" })[mark.type];
 
 function pathSection() {
   const names = data.quantities.map((q) => q.name);
@@ -94,7 +94,7 @@ function pathSection() {
     element(
       "p",
       { class: "hint" },
-      "Thick: stable; dotted: unstable; thin: not counted. Circles: limit points, squares: bifurcation points. Wheel and drag: zoom, double click: all; click: that state.",
+      "Thick: stable; dotted: unstable; thin: not counted. Circles: limit points, squares: bifurcation points, diamonds: Hopf points. Wheel and drag: zoom, double click: all; click: that state.",
     ),
   );
   const chart = new Chart(box, {
@@ -128,7 +128,7 @@ function pathSection() {
         b.marks.map((m) => ({
           x: b.values[x][m.point],
           y: b.values[y][m.point],
-          square: m.nullity > 0,
+          type: m.type,
           text: shown(b.values[0][m.point], 4),
         })),
       )
@@ -176,7 +176,7 @@ function pointsSection() {
   const columns = ["branch", "step", "kind", ...data.quantities.map((q) => q.name)];
   const rows = marks.map(({ b, m }) => [b.name, b.steps[m.point], words(m), ...b.values.map((v) => v[m.point])]);
   section(
-    "Limit and bifurcation points",
+    "Limit, bifurcation and Hopf points",
     table(columns, rows, {
       onClick: (i) => goTo({ branch: marks[i].b.number, length: marks[i].b.values[1][marks[i].m.point], step: marks[i].b.steps[marks[i].m.point] }),
     }),
