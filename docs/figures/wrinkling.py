@@ -45,6 +45,7 @@ def states(folder, branch):
 def sheet(axis, folder, branch, strain, height):
     """The whole sheet by its symmetries, between two states of the branch, seen at a slant; deflections enlarged."""
     X, U, load, cells = states(folder, branch)
+    load = load[:int(np.argmax(load)) + 1]  # a branch may pass the last point, and come back
     i = int(np.clip(np.searchsorted(load, strain), 1, len(load) - 1))
     s = (strain - load[i - 1]) / (load[i] - load[i - 1])
     x = X + ((1 - s) * U[:, i - 1] + s * U[:, i]).T
@@ -71,11 +72,12 @@ def draw(folder):
         own = [r for r in path if int(r["branch"]) == branch]
         x, y = np.array([[float(r["load_factor"]), float(r["wrinkle"])] for r in own]).T
         for i, strain in enumerate(STRAINS if branch == branches[-1] else ()):
-            height = abs(np.interp(strain, x, y))
+            there = int(np.argmax(x)) + 1
+            height = abs(np.interp(strain, x[:there], y[:there]))
             sheet(fig.add_axes([0.0, 0.67 - 0.325 * i, 0.5, 0.28]), folder, branch, strain, height)
         stable = np.array([r["negative_eigenvalues"] == "0" for r in own])
         color = "k" if branch == 0 else f"C{branch - 1}"
-        label = "flat" if branch == 0 else f"wrinkled, half {branch}"
+        label = "flat" if branch == 0 else f"wrinkled, branch {branch}"
         axis.plot(x, np.where(stable, y, np.nan), color=color, lw=2, label=label)
         axis.plot(x, np.where(stable, np.nan, y), ":", color=color, lw=1.5)
     for code, name, mark in (("calculix", "CalculiX, C3D20R", "s"), ("splines", "thin plate, B-splines", "x")):
