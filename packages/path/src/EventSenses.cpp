@@ -48,6 +48,8 @@ double reachOf(const PathUnderWay& path, const Series& series) {
 
 }  // namespace
 
+bool converges(const std::vector<double>& coefficients, double a) { return !(within(coefficients, a) < a); }
+
 Polynomial eventPolynomial(const Series& series, int i, const std::vector<int>& zero) {
   auto c = series.eventCoefficients(i);
   if (std::find(zero.begin(), zero.end(), i) != zero.end()) c[0] = 0;

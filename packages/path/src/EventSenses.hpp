@@ -12,6 +12,9 @@ struct PathUnderWay;
 /// Event function i without its value at the start where that is a known root (one of `zero`).
 Polynomial eventPolynomial(const Series& series, int i, const std::vector<int>& zero);
 
+/// Whether the terms of a function tell what it is at a: the later ones are not the largest there.
+bool converges(const std::vector<double>& coefficients, double a);
+
 /// The candidates that fall along the series in this sense (+1, -1), ascending. A break falls where the
 /// series leaves its piece. `flat`: those whose functions begin with their second derivatives, ascending.
 std::vector<int> falling(const PathUnderWay& path, const Series& series, const std::vector<int>& candidates,

@@ -14,10 +14,13 @@ namespace atrapos::path {
 
 namespace {
 
-/// Where each event function falls through zero first on (0, end]; infinity where it does not.
-std::vector<double> falls(const Series& series, double end, const std::vector<int>& zero) {
+/// Where each event function falls through zero first on (0, end]; infinity where it does not, or is one of
+/// `untold`.
+std::vector<double> falls(const Series& series, double end, const std::vector<int>& zero,
+                          const std::vector<int>& untold) {
   std::vector<double> at(series.eventCount(), std::numeric_limits<double>::infinity());
   for (int i = 0; i < series.eventCount(); ++i) {
+    if (std::find(untold.begin(), untold.end(), i) != untold.end()) continue;
     const Polynomial p = eventPolynomial(series, i, zero);
     Rational g = series.scalar(p.coefficients());
     if (series.eventGrows(i))
@@ -46,9 +49,9 @@ double rateDefect(Calls& calls, const Series& series, const Trial& trial) {
   return defect->norm2() * std::abs(trial.a) / (series.order() + 1);
 }
 
-}  // namespace
-
-void limit(const PathUnderWay& path, const Series& series, Trial& trial, const std::vector<int>& zero) {
+/// See below; without the events of the functions `untold`.
+void limit(const PathUnderWay& path, const Series& series, Trial& trial, const std::vector<int>& zero,
+           const std::vector<int>& untold) {
   trial.events.clear();
   trial.stop = firstStop(path.stops, series, path.here.pathLength, 1.001 * trial.a, !path.here.tangent);
   if (trial.stop) trial.a = trial.stop->a;
@@ -58,7 +61,7 @@ void limit(const PathUnderWay& path, const Series& series, Trial& trial, const s
   double first = trial.a;
   std::vector<double> at;
   for (double end = 1.001 * trial.a;; end = 1.001 * first) {
-    at = falls(series, end, zero);
+    at = falls(series, end, zero, untold);
     const double next = *std::min_element(at.begin(), at.end());
     if (!(next < 0.9 * first)) {
       first = next;
@@ -80,8 +83,46 @@ void limit(const PathUnderWay& path, const Series& series, Trial& trial, const s
       trial.events.push_back(i);
 }
 
+/// Those of a trial's events at which nothing happens: a function whose terms do not converge so far (the gap
+/// at an extremum that runs away as the curvature changes sign) has roots that it has not. It is asked
+/// itself.
+std::vector<int> eventsThatAreNone(const PathUnderWay& path, const Series& series, const Trial& trial) {
+  Calls& calls = path.calls;
+  const auto& zero = path.here.applied;
+  std::vector<int> doubtful;
+  for (const int i : trial.events)
+    if (!path.isBreak(i) && !series.eventGrows(i) &&
+        !converges(series.scalar(eventPolynomial(series, i, zero).coefficients()).numerator().coefficients(),
+                   trial.a))
+      doubtful.push_back(i);
+  if (doubtful.empty() || calls.problem().remembers()) return {};
+  calls.beginSeries(series.state(trial.a), path.order);
+  const std::vector<double> g = calls.eventOrder(0);
+  calls.beginSeries(path.here.state, path.order);  // its pieces are still asked for
+  constexpr double nothing = 1e-2;                 // of what it was at the start, where it was not zero
+  doubtful.erase(
+      std::remove_if(doubtful.begin(), doubtful.end(),
+                     [&](int i) { return !(g[i] > nothing * std::abs(series.eventCoefficients(i)[0])); }),
+      doubtful.end());
+  return doubtful;
+}
+
+}  // namespace
+
+void limit(const PathUnderWay& path, const Series& series, Trial& trial, const std::vector<int>& zero) {
+  limit(path, series, trial, zero, {});
+}
+
 void limit(const PathUnderWay& path, const Series& series, Trial& trial) {
-  limit(path, series, trial, path.here.applied);
+  const double wanted = trial.a;
+  std::vector<int> untold;
+  for (;;) {
+    trial.a = wanted;
+    limit(path, series, trial, path.here.applied, untold);
+    const auto none = eventsThatAreNone(path, series, trial);
+    if (none.empty()) return;
+    untold.insert(untold.end(), none.begin(), none.end());
+  }
 }
 
 void evaluate(const PathUnderWay& path, const Series& series, Trial& trial) {

@@ -446,4 +446,41 @@ TEST(Events, AStateThatCorrectionsDoNotHelpIsNamed) {
   EXPECT_NE(outcome.text.find("ask for a larger bound"), std::string::npos) << outcome.text;
 }
 
+/// A second event function that never vanishes, 1/(1 + 25 u^2): at u = 0 its series has the radius 0.2, and
+/// what it is cut to falls through zero a little beyond, where the path's own series is good.
+struct Watched : UnilateralProblem<OneMass> {
+  using UnilateralProblem::UnilateralProblem;
+  int eventCount() const override { return 2; }
+  void eventOrder(int k, std::vector<double>& g) const override {
+    UnilateralProblem::eventOrder(k, g);
+    const auto u = seriesJets()[0];
+    g[1] = (1 / (1 + 25 * u * u))[k];
+  }
+  State afterEvent(const std::vector<int>& indices, const State& state) override {
+    falseEvents += static_cast<int>(std::count(indices.begin(), indices.end(), 1));
+    std::vector<int> own = indices;
+    own.erase(std::remove(own.begin(), own.end(), 1), own.end());
+    return UnilateralProblem::afterEvent(own, state);
+  }
+  int falseEvents = 0;
+};
+
+TEST(Events, ARootThatAFunctionHasNotIsNoEvent) {
+  for (const int order : {6, 10, 14, 18, 22}) {
+    SCOPED_TRACE(order);
+    Watched problem(WithStops<OneMass>(OneMass{}, {1}));
+    SymmetricDenseSolver solver;
+    Record record;
+    Stops stops;
+    stops.loadFactors = {3};
+    Options options;
+    options.order = order;
+    const auto outcome = PathFollower(problem, solver, options, stops).run({problem.vector({}), 0}, record);
+    EXPECT_EQ(outcome.reason, EndReason::stopReached) << outcome.text;
+    EXPECT_EQ(problem.falseEvents, 0);
+    EXPECT_EQ(outcome.events, 1);  // the mass at its stop
+    EXPECT_EQ(outcome.eventTrials, 0);
+  }
+}
+
 }  // namespace
