@@ -1,4 +1,8 @@
 // Keys of the block `mesh`.
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
 #include "deck/DeckTables.hpp"
 
 namespace atrapos::deck {
@@ -103,6 +107,65 @@ Field<S> range(std::string key, double S::*low, double S::*high, std::string mea
           }};
 }
 
+/// The ends of axes, x_min, x_max, ..., of which each axis may have one.
+template <std::size_t N>
+const Table<std::array<fem::FineEnd, N>>& fineEnds() {
+  using Ends = std::array<fem::FineEnd, N>;
+  static const Table<Ends> table = [] {
+    Table<Ends> all;
+    for (std::size_t axis = 0; axis < N; ++axis)
+      for (const bool atMax : {false, true})
+        all.push_back(
+            {std::string(1, "xyz"[axis]) + (atMax ? "_max" : "_min"), false,
+             "a list of a length and a number of elements", "equal elements from this end on",
+             [axis, atMax](const Value& v, Ends& ends) {
+               if (ends[axis].divisions > 0) v.fail("the other end of this axis is fine already");
+               const auto given = v.reals(2);
+               const double most = std::numeric_limits<int>::max();
+               if (!(given[0] > 0 && given[1] >= 1 && given[1] <= most && given[1] == std::floor(given[1])))
+                 v.fail(fmt::format("expected a length above 0 and a whole number of elements, got {}",
+                                    v.shown()));
+               ends[axis] = {static_cast<int>(given[1]), given[0], atMax};
+             },
+             [axis, atMax](const Ends& ends) {
+               const fem::FineEnd& end = ends[axis];
+               if (end.divisions == 0 || end.atMax != atMax) return Node{};
+               return Node{yamlList(std::array<double, 2>{end.length, double(end.divisions)}), {}};
+             }});
+    return all;
+  }();
+  return table;
+}
+
+template <class S>
+auto fine() {
+  constexpr std::size_t count = std::tuple_size<decltype(S::fine)>::value;
+  return block("fine", optional, &S::fine, fineEnds<count>(),
+               "ends with equal elements, from which the others grow by one factor");
+}
+
+/// Whether they fit, along edges of these lengths.
+template <std::size_t N>
+void fineFits(const Value& map, const std::array<fem::FineEnd, N>& fine, const std::array<double, N>& lengths,
+              const std::array<int, N>& divisions) {
+  for (std::size_t axis = 0; axis < N; ++axis) {
+    if (fine[axis].divisions == 0) continue;
+    const std::string key = std::string(1, "xyz"[axis]) + (fine[axis].atMax ? "_max" : "_min");
+    try {
+      fem::growth(fine[axis], lengths[axis], divisions[axis]);
+    } catch (const std::invalid_argument& error) {
+      map.at("fine").at(key).fail(error.what());
+    }
+  }
+}
+
+/// The same of plates and rectangles, which may be graded instead.
+template <class S>
+void fineFitsPlate(const Value& map, const S& s, const std::array<double, 2>& lengths) {
+  if (map.has("fine") && s.grading != 1) map.at("fine").fail("not together with grading");
+  fineFits(map, s.fine, lengths, s.divisions);
+}
+
 // The keys that every shape ends with.
 template <class S>
 Table<S> withCells(Table<S> table, const std::string& directions,
@@ -195,8 +258,11 @@ void addShells(Variants<GenerateInput, Generate>& v) {
                         vector3("origin", optional, &Plate::origin, "corner of x_min and y_min"),
                         real("grading", optional, &Plate::grading, check::count,
                              "power with which elements grow from the edges inwards"),
-                        attributeThickness<Plate>()},
-                       "length, width", shellCells())));
+                        fine<Plate>(), attributeThickness<Plate>()},
+                       "length, width", shellCells()),
+      [](const Value& map, const Plate& s) {
+        fineFitsPlate(map, s, {s.length, s.width});
+      }));
   Table<Cylinder> cylinder{
       real("radius", required, &Cylinder::radius, check::positive, "of the middle surface"),
       range("theta", &Cylinder::thetaMin, &Cylinder::thetaMax, "first and last angle, degrees from z to x"),
@@ -239,9 +305,12 @@ Alternative<Generate> box(Field<fem::BoxOptions> lengths) {
   using Box = fem::BoxOptions;
   constexpr auto cell = fem::Topology::Hex27;
   auto box = alternative<Generate, Box>(
-      "box", withCells<Box>({std::move(lengths),
-                             vector3("origin", optional, &Box::origin, "corner with the least x, y, z")},
-                            "x, y, z"));
+      "box",
+      withCells<Box>(
+          {std::move(lengths), vector3("origin", optional, &Box::origin, "corner with the least x, y, z"),
+           fine<Box>()},
+          "x, y, z"),
+      [](const Value& map, const Box& s) { fineFits(map, s.fine, s.lengths, s.divisions); });
   box.read = [inner = box.read](const Value& map, Generate& shape) {
     inner(map, shape);
     if (!map.has("cell")) std::get<Box>(shape).topology = cell;
@@ -315,8 +384,10 @@ const Variants<GenerateInput, Generate>& generateVariants() {
             {pair("lengths", required, &Rectangle::lengths, check::positive, "edges along x, y"),
              pair("origin", optional, &Rectangle::origin, check::any, "corner with the least x, y"),
              real("grading", optional, &Rectangle::grading, check::count,
-                  "power with which elements grow from the edges inwards")},
-            "x, y", planeCells())));
+                  "power with which elements grow from the edges inwards"),
+             fine<Rectangle>()},
+            "x, y", planeCells()),
+        [](const Value& map, const Rectangle& s) { fineFitsPlate(map, s, s.lengths); }));
     using Annulus = fem::AnnulusOptions;
     v.alternatives.push_back(alternative<Generate, Annulus>(
         "annulus",

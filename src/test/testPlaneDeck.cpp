@@ -70,6 +70,35 @@ TEST(PlaneDeck, goodDeckGivesItsValues) {
                    .plane->thickness);
 }
 
+TEST(PlaneDeck, fineEnds) {
+  const std::string graded = "grading: 2", fine = "fine: {x_min: [1, 2], y_max: [0.25, 1]}";
+  const Deck deck = readDeckText(changed(graded, fine), "plane.yaml");
+  const auto& options = std::get<fem::RectangleOptions>(*deck.mesh.generate);
+  EXPECT_EQ(options.fine[0].divisions, 2);
+  EXPECT_EQ(options.fine[0].length, 1);
+  EXPECT_FALSE(options.fine[0].atMax);
+  EXPECT_EQ(options.fine[1].divisions, 1);
+  EXPECT_EQ(options.fine[1].length, 0.25);
+  EXPECT_TRUE(options.fine[1].atMax);
+  std::ostringstream first, second;
+  describe(deck, first);
+  EXPECT_NE(first.str().find("x_min"), std::string::npos);
+  describe(readDeckText(first.str(), "plane.yaml"), second);
+  EXPECT_EQ(first.str(), second.str());
+  const std::string at = "plane.yaml:3:110: mesh/generate/fine/x_min: ";
+  EXPECT_EQ(errorOf(graded, "fine: {x_min: [1, 2], x_max: [1, 2]}"),
+            "plane.yaml:3:125: mesh/generate/fine/x_max: the other end of this axis is fine already");
+  EXPECT_EQ(errorOf(graded, "fine: {x_min: [1, 2.5]}"),
+            at + "expected a length above 0 and a whole number of elements, got the list [1, 2.5]");
+  EXPECT_EQ(errorOf(graded, "fine: {x_min: [4, 2]}"),
+            at + "fine elements over 4 of a length of 4: must be above 0 and below it");
+  EXPECT_EQ(errorOf(graded, "fine: {x_min: [3, 2]}"),
+            at + "3 elements beside 2 fine ones of 1.5 would be smaller than these: 1 is left for them");
+  EXPECT_NE(errorOf(graded, "fine: {z_min: [1, 2]}").find("z_min"), std::string::npos);
+  EXPECT_EQ(errorOf(graded, "grading: 2, fine: {x_min: [1, 2]}"),
+            "plane.yaml:3:108: mesh/generate/fine: not together with grading");
+}
+
 TEST(PlaneDeck, annulusGivesItsValues) {
   const std::string rectangle =
       "{shape: rectangle, lengths: [4, 2], origin: [1, 0], divisions: [5, 3], cell: TRI6, grading: 2}";

@@ -36,10 +36,10 @@ double growth(const FineEnd& fine, double length, int divisions) {
   // A mesh of equal elements is one too, but for rounding.
   constexpr double rounding = 1e-12;
   if (wanted < beside * (1 - rounding))
-    throw std::invalid_argument(std::to_string(beside) + " elements beside " +
-                                std::to_string(fine.divisions) +
-                                " fine ones would be smaller than these; expected at most " +
-                                std::to_string(static_cast<int>(wanted)) + " beside");
+    throw std::invalid_argument(
+        std::to_string(beside) + " elements beside " + std::to_string(fine.divisions) + " fine ones of " +
+        text(fine.length / fine.divisions) + " would be smaller than these: " + text(length - fine.length) +
+        " is left for them");
   double low = 1, high = std::max(1.0, wanted);  // powers(q, m) >= q
   while (true) {
     const double middle = 0.5 * (low + high);

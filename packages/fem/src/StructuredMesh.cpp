@@ -7,6 +7,9 @@
 #include <stdexcept>
 #include <tuple>
 #include <utility>
+#include <vector>
+
+#include "FineAxis.hpp"
 
 namespace atrapos::fem {
 
@@ -305,9 +308,11 @@ Mesh alignedBox(const BoxOptions& options, const std::string& kind,
   body.topology = options.topology;
   body.divisions = options.divisions;
   body.faceNames = {{{"x_min", "x_max"}, {"y_min", "y_max"}, thicknessFaces}};
+  std::vector<FineAxis> axes;
+  for (int d = 0; d < 3; ++d) axes.emplace_back(options.fine[d], options.lengths[d], options.divisions[d]);
   body.position = [&](const Point& s) {
     Point x{};
-    for (int d = 0; d < 3; ++d) x[d] = options.origin[d] + s[d] * options.lengths[d];
+    for (int d = 0; d < 3; ++d) x[d] = options.origin[d] + axes[d].at(s[d]) * options.lengths[d];
     return x;
   };
   return LatticeMesher(body).build();

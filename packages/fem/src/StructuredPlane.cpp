@@ -69,6 +69,7 @@ Mesh rectangleMesh(const RectangleOptions& o) {
   plate.width = o.lengths[1];
   plate.origin = {o.origin[0], o.origin[1], 0};
   plate.grading = o.grading;
+  plate.fine = o.fine;
   plate.divisions = o.divisions;
   plate.topology = shellOf(o.topology);
   plate.blockName = o.blockName;

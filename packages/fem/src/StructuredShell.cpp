@@ -6,6 +6,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include "FineAxis.hpp"
+
 namespace atrapos::fem {
 namespace {
 
@@ -317,10 +319,14 @@ Mesh shellPlateMesh(const ShellPlateOptions& options) {
   // A right angle gives exact coordinates.
   const double c = options.angle == 90 ? 0 : std::cos(radiansPerDegree * options.angle),
                s = options.angle == 90 ? 1 : std::sin(radiansPerDegree * options.angle);
+  require(options.grading == 1 || options.fine[0].divisions + options.fine[1].divisions == 0, kind,
+          "fine ends are not for a graded one");
+  const FineAxis alongLength(options.fine[0], options.length, options.divisions[0]),
+      alongWidth(options.fine[1], options.width, options.divisions[1]);
   surface.position = [&](double a, double b) {
     const Point& o = options.origin;
-    a = graded(a, options.divisions[0], options.grading);
-    b = graded(b, options.divisions[1], options.grading);
+    a = alongLength.at(graded(a, options.divisions[0], options.grading));
+    b = alongWidth.at(graded(b, options.divisions[1], options.grading));
     return Point{o[0] + a * options.length + b * options.width * c, o[1] + b * options.width * s, o[2]};
   };
   return SurfaceMesher(surface).build();

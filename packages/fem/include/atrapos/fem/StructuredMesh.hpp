@@ -3,6 +3,7 @@
 #include <array>
 #include <string>
 
+#include "atrapos/fem/FineEnd.hpp"
 #include "atrapos/fem/Mesh.hpp"
 
 namespace atrapos::fem {
@@ -37,6 +38,7 @@ struct BoxOptions {
   std::array<int, 3> divisions{1, 1, 1};        ///< along x, y, z
   Topology topology = Topology::Hex8;
   std::string blockName = "body";
+  std::array<FineEnd, 3> fine{};  ///< along x, y, z
 };
 Mesh boxMesh(const BoxOptions& options);
 

@@ -3,6 +3,7 @@
 #include <array>
 #include <string>
 
+#include "atrapos/fem/FineEnd.hpp"
 #include "atrapos/fem/Mesh.hpp"
 
 namespace atrapos::fem {
@@ -20,10 +21,11 @@ struct RectangleOptions {
   std::array<int, 2> divisions{1, 1};
   Topology topology = Topology::Quad8;
   std::string blockName = "body";
+  std::array<FineEnd, 2> fine{};  ///< along x, y; not with grading
 };
 
-/// Throws std::invalid_argument, one line, for divisions below 1, lengths not above 0, and cells that are no
-/// plane ones.
+/// Throws std::invalid_argument, one line, for divisions below 1, lengths not above 0, fine ends that do not
+/// fit, and cells that are no plane ones.
 Mesh rectangleMesh(const RectangleOptions& options);
 
 /// A quadrilateral with straight edges, mapped bilinearly. Sets are named as those of a rectangle: y_min is

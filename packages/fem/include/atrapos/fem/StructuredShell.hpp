@@ -3,6 +3,7 @@
 #include <array>
 #include <string>
 
+#include "atrapos/fem/FineEnd.hpp"
 #include "atrapos/fem/Mesh.hpp"
 
 namespace atrapos::fem {
@@ -43,6 +44,7 @@ struct ShellPlateOptions {
   std::array<int, 2> divisions{1, 1};  ///< along length, width
   Topology topology = Topology::Shell8;
   std::string blockName = "shell";
+  std::array<FineEnd, 2> fine{};  ///< along length, width; not with grading
 };
 Mesh shellPlateMesh(const ShellPlateOptions& options);
 
