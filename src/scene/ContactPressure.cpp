@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace atrapos {
@@ -86,7 +87,10 @@ ContactPressure contactPressure(const deck::Contact& contact, const BodySize& bo
     case Law::Linear:
     case Law::Overclosure: {
       result.text = contact.law == Law::Linear ? "linear" : "power_overclosure";
-      const double alpha = number("stiffness", contact.stiffness, alpha0);
+      // Of a thick body it is the contact that yields: its compliance is to be small against that of a cell.
+      const double ofCell = body.shortestLine > 0 ? 20 * body.youngsModulus / body.shortestLine : 0;
+      const double chosen = contact.law == Law::Linear ? std::max(alpha0, ofCell) : alpha0;
+      const double alpha = number("stiffness", contact.stiffness, chosen);
       const int m = contact.law == Law::Linear ? 1 : static_cast<int>(contact.exponent);
       if (m > 1) number("exponent", contact.exponent, m);
       result.overclosure = contact::Overclosure{alpha, m};

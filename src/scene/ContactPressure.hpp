@@ -18,6 +18,7 @@ struct BodySize {
   double thickness = 0;      ///< volume over the product of the two largest extents
   double smallestGap = 0;    ///< > 0, of the contact's points at the start
   double areaPerPoint = 1;   ///< of law points at nodes: forces instead of pressures; 1 at face points
+  double shortestLine = 0;   ///< of a contact with zones, the shortest of its lines; 0: it has none
 };
 
 /// A pressure law with all of its numbers.

@@ -189,6 +189,14 @@ void ModelMaker::choosePressure(const deck::Contact& contact, BodySize body, Con
     body.areaPerPoint /= std::accumulate(entry.points[0].weights.begin(), entry.points[0].weights.end(), 0.0);
   else
     body.areaPerPoint = 1;
+  for (const fem::LineSet& lines : entry.lines) {
+    const std::size_t each = lines.coefficients.size() / lines.numLines();
+    for (std::size_t c = 0; c < lines.coefficients.size(); c += each) {
+      const double length =
+          2 * std::hypot(lines.coefficients[c + 3], lines.coefficients[c + 4], lines.coefficients[c + 5]);
+      body.shortestLine = body.shortestLine > 0 ? std::min(body.shortestLine, length) : length;
+    }
+  }
   const std::string key = "contact/" + contact.name;
   try {
     entry.pressure = contactPressure(contact, body);
