@@ -190,7 +190,7 @@ void ModelMaker::choosePressure(const deck::Contact& contact, BodySize body, Con
   else
     body.areaPerPoint = 1;
   for (const fem::LineSet& lines : entry.lines) {
-    const std::size_t each = lines.coefficients.size() / lines.numLines();
+    const std::size_t each = 3 * (lines.degree + 1);
     for (std::size_t c = 0; c < lines.coefficients.size(); c += each) {
       const double length =
           2 * std::hypot(lines.coefficients[c + 3], lines.coefficients[c + 4], lines.coefficients[c + 5]);

@@ -50,6 +50,10 @@ double reachOf(const PathUnderWay& path, const Series& series) {
 
 bool converges(const std::vector<double>& coefficients, double a) { return !(within(coefficients, a) < a); }
 
+double sizeOfTerms(const std::vector<double>& c, double a) {
+  return std::max(std::abs(c[0]), size(c, within(c, a)));
+}
+
 Polynomial eventPolynomial(const Series& series, int i, const std::vector<int>& zero) {
   auto c = series.eventCoefficients(i);
   if (std::find(zero.begin(), zero.end(), i) != zero.end()) c[0] = 0;

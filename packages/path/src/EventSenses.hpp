@@ -14,6 +14,8 @@ Polynomial eventPolynomial(const Series& series, int i, const std::vector<int>& 
 
 /// Whether the terms of a function tell what it is at a: the later ones are not the largest there.
 bool converges(const std::vector<double>& coefficients, double a);
+/// How large its terms are up to a, as far as they converge.
+double sizeOfTerms(const std::vector<double>& coefficients, double a);
 
 /// The candidates that fall along the series in this sense (+1, -1), ascending. A break falls where the
 /// series leaves its piece. `flat`: those whose functions begin with their second derivatives, ascending.

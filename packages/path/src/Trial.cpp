@@ -96,13 +96,19 @@ std::vector<int> eventsThatAreNone(const PathUnderWay& path, const Series& serie
                    trial.a))
       doubtful.push_back(i);
   if (doubtful.empty() || calls.problem().remembers()) return {};
-  calls.beginSeries(series.state(trial.a), path.order);
-  const std::vector<double> g = calls.eventOrder(0);
+  std::vector<double> g;
+  try {
+    calls.beginSeries(series.state(trial.a), path.order);
+    g = calls.eventOrder(0);
+  } catch (const PathError&) {
+    g.assign(series.eventCount(), 0.0);  // beyond what the Problem knows: it stays an event
+  }
   calls.beginSeries(path.here.state, path.order);  // its pieces are still asked for
-  constexpr double nothing = 1e-2;                 // of what it was at the start, where it was not zero
+  constexpr double nothing = 1e-2;
   doubtful.erase(
-      std::remove_if(doubtful.begin(), doubtful.end(),
-                     [&](int i) { return !(g[i] > nothing * std::abs(series.eventCoefficients(i)[0])); }),
+      std::remove_if(
+          doubtful.begin(), doubtful.end(),
+          [&](int i) { return !(g[i] > nothing * sizeOfTerms(series.eventCoefficients(i), trial.a)); }),
       doubtful.end());
   return doubtful;
 }
