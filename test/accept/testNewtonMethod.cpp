@@ -62,6 +62,19 @@ TEST_P(NewtonMethod, StripOnRoll) {
   }
 }
 
+/// The thermistor in volts and kelvins, and in thousandths of both: as many steps, and the same path.
+TEST_P(NewtonMethod, UnitsOfFieldsDoNotMatter) {
+  const std::string name = "heat/thermistor.yaml";
+  const ExampleRun known(name, {{"path:", method() + "\n  accuracy: 1e-4"}});
+  const ExampleRun other(name, {{"path:", method() + "\n  accuracy: 1e-4"},
+                                {"sigma0: 2, B: 4000, T0: 300, k: 2, h: 5.0e5",
+                                 "sigma0: 2, B: 4.0e6, T0: 3.0e5, k: 2.0e-3, h: 500"}});
+  EXPECT_NEAR(other.column("temperature").back(), 1e3 * known.column("temperature").back(), 1);
+  const int steps = known.summary.at("steps"), others = other.summary.at("steps");
+  EXPECT_GT(steps, 10);
+  EXPECT_LE(std::abs(steps - others), 2) << others;
+}
+
 INSTANTIATE_TEST_SUITE_P(Kinds, NewtonMethod, testing::Values("newton", "modified_newton"),
                          [](const auto& info) { return std::string(info.param); });
 

@@ -24,15 +24,26 @@ void FieldSizes::moved(std::vector<double> fields, double lambda) {
     if (std::isfinite(fields[f])) sizes_[f] = std::max(sizes_[f], std::abs(fields[f]));
 }
 
+long FieldSizes::numMoved() const {
+  return sizes_.empty() ? 0 : std::count_if(sizes_.begin(), sizes_.end() - 1, [](double s) { return s > 0; });
+}
+
 std::vector<double> FieldSizes::factors(double w) const {
-  if (sizes_.empty() || !(w > 0)) return {};
+  // One that is at rest may be what a branch begins with: it keeps its numbers.
+  return numMoved() < 2 ? std::vector<double>() : factors(w, 1);
+}
+
+std::vector<double> FieldSizes::factorsOfMoved(double w) const {
+  return numMoved() < 1 ? std::vector<double>() : factors(w, 0);
+}
+
+std::vector<double> FieldSizes::factors(double w, double atRest) const {
   const auto load = sizes_.end() - 1;
-  const auto count = std::count_if(sizes_.begin(), load, [](double s) { return s > 0; });
-  if (count < 2 || !(*load > 0)) return {};
-  const double each = std::pow(coarse(*load), 2) / (w * static_cast<double>(count));
+  if (!(w > 0 && *load > 0)) return {};
+  const double each = std::pow(coarse(*load), 2) / (w * static_cast<double>(numMoved()));
   std::vector<double> factors;
   for (auto s = sizes_.begin(); s != load; ++s)
-    factors.push_back(*s > 0 ? each / std::pow(coarse(*s), 2) : 1);
+    factors.push_back(*s > 0 ? each / std::pow(coarse(*s), 2) : atRest);
   return factors;
 }
 

@@ -20,10 +20,16 @@ class FieldSizes {
   /// load factor does, w the weight of the path parameter. Empty where one field at most has moved.
   std::vector<double> factors(double w) const;
 
+  /// The same for a path without branches: fields that have not moved do not count. Empty where none has.
+  std::vector<double> factorsOfMoved(double w) const;
+
   /// Of the fields, last the load factor's; empty: nothing has moved.
   const std::vector<double>& sizes() const { return sizes_; }
 
  private:
+  std::vector<double> factors(double w, double atRest) const;
+  long numMoved() const;
+
   std::vector<double> sizes_;
 };
 

@@ -39,6 +39,7 @@ void NewtonRun::follow(const Start& start) {
   outcome_.pathLength = start.pathLength;
   length_ = start.length > 0 ? start.length : options_.firstStep;
   first_ = !start.tangent;
+  fieldSizes_ = FieldSizes(start.fieldSizes);
   try {
     outcome_.final = calls_.settled(outcome_.final);
     equilibrate();
@@ -71,8 +72,8 @@ void NewtonRun::equilibrate() {
 }
 
 void NewtonRun::startTangent(const Start& start) {
-  calls_.weighFields({});
   const auto weight = start.weight ? start.weight : options_.weight;
+  calls_.weighFields(fieldSizes_.factorsOfMoved(weight.value_or(0)));
   if (start.tangent && weight) {
     weight_ = *weight;
     tangent_ = copy(Augmented{start.tangent->x.u, start.tangent->lambda});
@@ -84,6 +85,7 @@ void NewtonRun::startTangent(const Start& start) {
     if (!(size > 0))
       throw PathError(EndReason::loadWithoutEffect, "the load parameter does not move the unknowns");
     weight_ = weight ? *weight : 1 / size;
+    if (!start.tangent) calls_.weighFields(atFirst().factorsOfMoved(weight_));
     tangent_ = copy(Augmented{corrector_.uhat(), 1});
     double sense = options_.direction;
     if (start.tangent) sense = corrector_.dot(tangent_, {start.tangent->x.u, start.tangent->lambda}, weight_);
@@ -93,6 +95,17 @@ void NewtonRun::startTangent(const Start& start) {
   const double square = corrector_.dot(tangent_, tangent_, weight_);
   constexpr double rounding = 1e-12;  // a path that goes on keeps its bits
   if (!(std::abs(square - 1) < rounding)) scale(tangent_, 1 / std::sqrt(square));
+}
+
+/// What a first step along Uhat moves.
+FieldSizes NewtonRun::atFirst() {
+  auto u = copy(*outcome_.final.u);
+  u->update(options_.firstStep, *corrector_.uhat(), 1);
+  FieldSizes sizes;
+  sizes.moved(
+      calls_.fieldChanges(outcome_.final, outcome_.final.at(u, outcome_.final.lambda + options_.firstStep)),
+      options_.firstStep);
+  return sizes;
 }
 
 /// The cubic with the points and the tangents of both ends; a is the length along the tangent at its start.
@@ -268,20 +281,34 @@ bool NewtonRun::accept(Trial& trial, Series& series, StepReport& report) {
   const PathTangent t = series.tangent(report.length);
   tangent_ = {t.x.u, t.lambda};
   scale(tangent_, 1 / std::sqrt(corrector_.dot(tangent_, tangent_, weight_)));
+  fieldSizes_.moved(calls_.fieldChanges(outcome_.final, trial.state),
+                    trial.state.lambda - outcome_.final.lambda);
   outcome_.final = trial.state;
   outcome_.corrections += report.corrections;
   outcome_.cutBacks += report.cutBacks;
   outcome_.worstResidual = std::max(outcome_.worstResidual, report.residual);
   first_ = false;
+  measureAnew();
   report.next.state = outcome_.final;
   report.next.tangent = PathTangent{{tangent_.u, t.x.internal}, tangent_.lambda};
   report.next.steps = outcome_.steps;
   report.next.pathLength = outcome_.pathLength;
   report.next.weight = weight_;
   report.next.length = length_;
+  report.next.fieldSizes = fieldSizes_.sizes();
   report.next.limitPoints = limitPoints_ += static_cast<int>(report.limitPoints.size());
   if (report.next.stop.empty()) report.next.stop = stops_.passed(limitPoints_, 0);
   return observer_.onStep(report, series);
+}
+
+/// Fields count by what they have moved by now; the next length stays the piece of the path that it was.
+void NewtonRun::measureAnew() {
+  calls_.weighFields(fieldSizes_.factorsOfMoved(weight_));
+  const double unit = std::sqrt(corrector_.dot(tangent_, tangent_, weight_));
+  constexpr double rounding = 1e-12;  // a path of one unit keeps its bits
+  if (std::abs(unit - 1) < rounding) return;
+  scale(tangent_, 1 / unit);
+  length_ *= unit;
 }
 
 }  // namespace atrapos::path

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "Corrector.hpp"
+#include "FieldSizes.hpp"
 #include "atrapos/path/Stops.hpp"
 
 namespace atrapos::path {
@@ -44,6 +45,8 @@ class NewtonRun {
   bool correctAtStop(const StopHit& stop, const Series& series, Trial& trial, int& iterations);
   double nextLength(const Trial& trial, double cosine) const;
   bool accept(Trial& trial, Series& series, StepReport& report);
+  FieldSizes atFirst();
+  void measureAnew();
   bool end(EndReason reason, std::string text);
 
   const NewtonOptions& options_;
@@ -54,8 +57,9 @@ class NewtonRun {
   Corrector corrector_;
 
   double weight_ = 0;
-  Augmented tangent_;    ///< unit, at the current state
-  double length_ = 0;    ///< to try next
+  Augmented tangent_;  ///< unit, at the current state
+  double length_ = 0;  ///< to try next
+  FieldSizes fieldSizes_;
   bool first_ = true;    ///< no step has left the start yet
   int limitPoints_ = 0;  ///< passed
   std::optional<linear::Inertia> inertia_;
