@@ -143,25 +143,6 @@ TEST(Brusselator, GoesOn) {
   expectClose(found[0].at("frequency"), 2.13951, 1e-4);
 }
 
-/// The same on several ranks.
-TEST(Brusselator, OnSeveralRanks) {
-  const ExampleRun one("reaction/brusselator.yaml");
-  const auto& known = one.summary.at("hopf_points");
-  for (const int ranks : {2, 3}) {
-    const auto result =
-        runAtraposOnRanks(ranks, {"run", "-q", "-o", "ranks", "deck.yaml"}, one.folder.path());
-    ASSERT_EQ(result.exitCode, 0) << result.err;
-    const auto found =
-        nlohmann::json::parse(readFile(one.folder.path() / "ranks/summary.json")).at("hopf_points");
-    ASSERT_EQ(found.size(), known.size()) << ranks;
-    for (std::size_t n = 0; n < found.size(); ++n) {
-      // A hundred times what eigenvalues are computed to.
-      expectClose(found[n].at("load_factor"), known[n].at("load_factor"), 1e-6);
-      EXPECT_EQ(found[n].at("negative_change"), 2);
-    }
-  }
-}
-
 /// Uniform temperature: the voltage is largest at T = B/2 (1 - sqrt(1 - 4 T0/B)), whatever the other numbers
 /// are, and the current is what the load says.
 TEST(Thermistor, LargestVoltage) {
@@ -262,41 +243,6 @@ TEST(GrowingStrip, IsAnArcWithoutStress) {
   }
   EXPECT_LT(error[1], 0.02);
   EXPECT_GT(std::log2(error[0] / error[1]), 3);
-}
-
-/// The same paths on one, two and three ranks and on two threads, to what sums in another order make: 1e-12
-/// is seen. (Not those with branches here: near a bifurcation point the radius of a series is that of its
-/// rounding, and so are the steps.)
-TEST(Physics, OnRanksAndThreads) {
-  for (const char* name : {"reaction/bratu_square.yaml", "reaction/bratu_cube.yaml", "heat/thermistor.yaml",
-                           "electric/pull_in.yaml", "electric/elastomer.yaml"}) {
-    const ExampleFolder folder(name);
-    const auto run = [&](int ranks, const std::string& threads, const std::string& results) {
-      const CommandResult r =
-          runAtraposOnRanks(ranks, {"run", "-q", "deck.yaml", "-o", results, "-t", threads}, folder.path());
-      EXPECT_EQ(r.exitCode, 0) << r.err;
-      return Table(folder.path() / results / "path.csv");
-    };
-    const Table one = run(1, "1", "one");
-    const bool threads =
-        nlohmann::json::parse(readFile(folder.path() / "one" / "summary.json")).at("execution_space") !=
-        "Serial";
-    for (int other : {2, 3, 0}) {
-      if (other == 0 && !threads) continue;
-      const Table many = run(other == 0 ? 1 : other, other == 0 ? "2" : "1", "on" + std::to_string(other));
-      ASSERT_EQ(one.numRows(), many.numRows()) << name << " on " << other;
-      for (const std::string& column : one.names()) {
-        if (column == "residual") continue;
-        const auto x = one.column(column), y = many.column(column);
-        double worst = 0, size = 0;
-        for (std::size_t i = 0; i < x.size(); ++i) {
-          worst = std::max(worst, std::abs(x[i] - y[i]));
-          size = std::max(size, std::abs(x[i]));
-        }
-        EXPECT_LE(worst, 1e-10 * size) << name << " on " << other << ": " << column;
-      }
-    }
-  }
 }
 
 /// V^2 = 8 k g^3/(27 eps A) at a third of the gap. The spring is a block of length 1000, whose strain of a
