@@ -120,14 +120,23 @@ PathError errorOf(const std::string& table, const Chart& chart, const ReferenceC
   const PathRows rows = readPath(table, chart);
   PathError error;
   bool compared = false;
-  for (std::size_t i = 0; i < rows.over.size(); ++i) {
-    const double exact = reference(rows.over[i]);
-    if (std::isnan(exact)) continue;
+  const auto compare = [&](double at, double value) {
+    const double exact = reference(at);
+    if (std::isnan(exact)) return;
     compared = true;
-    const double difference = std::abs(rows.monitor[i] - exact);
+    const double difference = std::abs(value - exact);
     if (!(difference <= error.largest)) {
       error.largest = difference;
-      error.at = rows.over[i];
+      error.at = at;
+    }
+  };
+  for (std::size_t i = 0; i < rows.over.size(); ++i) compare(rows.over[i], rows.monitor[i]);
+  if (chart.between > 0) {
+    const auto curve = ReferenceCurve::ofPoints(rows.over, rows.monitor, table);
+    const double first = rows.over.front(), range = rows.over.back() - first;
+    for (int i = 1; i < chart.between; ++i) {
+      const double at = first + range * i / chart.between;
+      compare(at, (*curve)(at));
     }
   }
   if (!compared)

@@ -35,8 +35,9 @@ struct PathRows {
 };
 PathRows readPath(const std::string& table, const Chart& chart);
 
-/// The error of the monitor over the rows of path.csv, those of the path and not of its branches. Throws
-/// std::invalid_argument, one line, where the table lacks a column, or the reference knows no row.
+/// The error of the monitor over the rows of path.csv, those of the path and not of its branches, and over
+/// the curve through them where the chart asks for that. Throws std::invalid_argument, one line, where the
+/// table lacks a column, the reference knows no row, or a curve through the rows turns back.
 PathError errorOf(const std::string& table, const Chart& chart, const ReferenceCurve& reference);
 
 }  // namespace atrapos::chart

@@ -93,11 +93,12 @@ Chart readChart(const std::string& file) {
   if (root.has("title")) chart.title = root.at("title").text();
   chart.deck = besideChart(chart, root.at("deck").text());
   const Value error = root.at("error");
-  deck::refuseUnknownKeys(error, {"monitor", "over", "reference"});
+  deck::refuseUnknownKeys(error, {"monitor", "over", "reference", "between"});
   for (const char* const key : {"monitor", "reference"})
     if (!error.has(key)) error.failMissing(key, key == std::string("monitor") ? "a name" : "a map");
   chart.monitor = error.at("monitor").text();
   if (error.has("over")) chart.over = error.at("over").text();
+  if (error.has("between")) chart.between = error.at("between").integer(deck::check::count);
   chart.reference = readReference(error.at("reference"), chart);
   chart.about = onOneLine(error.tree());
   if (!chart.reference.file.empty()) chart.about += deck::readText(chart.reference.file);

@@ -145,6 +145,21 @@ TEST_F(ChartTest, ErrorsAgainstAFormula) {
   EXPECT_NE(r.out.find("4/4 low orders 2: stop"), std::string::npos) << r.out;
 }
 
+/// Rows of one step's ends alone are exact, and the curve through them is not.
+TEST_F(ChartTest, ErrorsBetweenRows) {
+  writeFile(folder_ / "bar.yaml", "problem: {name: stvk_bar}\noutput: {points_per_step: 1}\n");
+  const auto errorOf = [&](const std::string& more) {
+    std::string text = kBar.substr(0, kBar.find("  low orders"));
+    text.replace(text.find("monitor: "), 0, more);
+    const CommandResult r = chart(text);
+    EXPECT_EQ(r.exitCode, 0) << r.err;
+    return rows().at("series1").error;
+  };
+  const double ofRows = errorOf(""), between = errorOf("between: 100, ");
+  EXPECT_GT(between, 1e3 * ofRows);
+  EXPECT_LT(between, 1);
+}
+
 TEST_F(ChartTest, KeepsWhatItKnows) {
   ASSERT_EQ(chart(kBar).exitCode, 0);
   const auto first = rows();
