@@ -82,5 +82,10 @@ TEST(Hertz, WhateverTheStiffness) {
   }
 }
 
+// At the first touch rounding is 5e-8 of the forces that there are.
+TEST(Hertz, ToATightBound) {
+  expectBall(ExampleRun("contact/hertz.yaml", {{"path:", "path:\n  residual: 1e-8"}}));
+}
+
 }  // namespace
 }  // namespace atrapos::test

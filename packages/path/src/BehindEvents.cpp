@@ -57,11 +57,15 @@ void passJump(PathUnderWay& path) {
   }
 }
 
+/// Relative residuals up to this are rounding, where there are next to no forces.
+constexpr double kRoundingOfLittle = 1e-6;
+
 /// What begins or ends at an event has a size there: the state that solves the changed Problem with the event
 /// function zero, a little further along the path. Newton iterations with that function as their border, the
 /// first two with factorizations of their own, as the first may be made before there is anything of that
-/// size. False, and nothing changed, where the event needs none of it, they do not converge or would miss a
-/// stop.
+/// size. The forces of what has just begun may be so small that rounding is more than the bound of them: the
+/// best state is taken then. False, and nothing changed, where the event needs none of it, they do not
+/// converge or would miss a stop.
 bool correctWithEvent(PathUnderWay& path, int event) {
   Calls& calls = path.calls;
   Position& here = path.here;
@@ -71,6 +75,7 @@ bool correctWithEvent(PathUnderWay& path, int event) {
   constexpr int maxIterations = 12, factored = 2;
   const double enough = 1e-3 * path.bound();
   double residual = calls.residual(state, *r).relative();
+  bool rounded = false;
   for (int i = 0; i < maxIterations && !(i >= factored && residual <= enough); ++i) {
     double value = 0, byLambda = 0;
     if (!calls.eventGradient(event, state, value, *byU, byLambda)) return false;
@@ -88,9 +93,11 @@ bool correctWithEvent(PathUnderWay& path, int event) {
     const double before = residual;
     residual = calls.residual(state, *r).relative();
     if (!std::isfinite(residual)) return false;
-    if (i >= factored && residual > 0.5 * before) break;
+    rounded = i >= factored && residual > 0.5 * before;
+    if (rounded) break;
   }
-  if (!(residual <= path.bound()) || passesStop(path.stops, here.state, state)) return false;
+  const double enoughForIt = rounded ? std::max(path.bound(), kRoundingOfLittle) : path.bound();
+  if (!(residual <= enoughForIt) || passesStop(path.stops, here.state, state)) return false;
   here.moveTo(calls.settled(state), r, residual);
   return true;
 }
@@ -147,7 +154,7 @@ void solveBehindEvents(PathUnderWay& path, const std::vector<int>& chosen) {
   if (here.residual > path.bound() && !chosen.empty() && calls.hasPieces()) passJump(path);
   if (mayCorrect)
     for (const int i : chosen)
-      if (!path.isBreak(i) && correctWithEvent(path, i)) break;
+      if (!path.isBreak(i) && correctWithEvent(path, i)) return;
   for (const int i : chosen)
     if (!(here.residual <= path.boundAtEvents()) && path.isBreak(i))
       throw PathError(EndReason::problemFailed,

@@ -27,6 +27,11 @@ double reductions(NewtonKind kind, double iterations) {
 
 }  // namespace
 
+PathError NewtonRun::withoutEffect() const {
+  return {EndReason::loadWithoutEffect,
+          line("up to lambda = ", outcome_.final.lambda, " the load parameter does not move the unknowns")};
+}
+
 bool NewtonRun::end(EndReason reason, std::string text) {
   outcome_.reason = reason;
   outcome_.text = std::move(text);
@@ -82,9 +87,8 @@ void NewtonRun::startTangent(const Start& start) {
     inertia_ = options_.kind == NewtonKind::full ? corrector_.inertia() : std::nullopt;
     const Augmented hat{corrector_.uhat(), 0};
     const double size = corrector_.dot(hat, hat, 1);
-    if (!(size > 0))
-      throw PathError(EndReason::loadWithoutEffect, "the load parameter does not move the unknowns");
-    weight_ = weight ? *weight : 1 / size;
+    // A tool may come from afar: as long as nothing moves lambda alone counts.
+    weight_ = weight ? *weight : size > 0 ? 1 / size : 0;
     if (!start.tangent) calls_.weighFields(atFirst().factorsOfMoved(weight_));
     tangent_ = copy(Augmented{corrector_.uhat(), 1});
     double sense = options_.direction;
@@ -224,6 +228,7 @@ bool NewtonRun::step() {
     return end(EndReason::stopReached, line("path length ", stops_.pathLength, " reached"));
   double s = rounded(std::min(length_, options_.maxStep));
   report.radius = s;
+  if (standsStill() && s >= rounded(options_.maxStep)) throw withoutEffect();
   for (;; ++report.cutBacks) {
     s = std::min(s, remaining);
     Trial trial = tryLength(s);
@@ -238,6 +243,7 @@ bool NewtonRun::step() {
         report.length = stop ? stop->a : s;
         if (stop) report.next.stop = stop->text;
         const bool goOn = accept(trial, series, report);
+        if (standsStill() && !report.next.stop.empty()) throw withoutEffect();
         if (!report.next.stop.empty()) return end(EndReason::stopReached, report.next.stop);
         if (!goOn) return end(EndReason::observerStopped, "ended by the observer");
         return true;
@@ -284,6 +290,7 @@ bool NewtonRun::accept(Trial& trial, Series& series, StepReport& report) {
   fieldSizes_.moved(calls_.fieldChanges(outcome_.final, trial.state),
                     trial.state.lambda - outcome_.final.lambda);
   outcome_.final = trial.state;
+  weighResponse();
   outcome_.corrections += report.corrections;
   outcome_.cutBacks += report.cutBacks;
   outcome_.worstResidual = std::max(outcome_.worstResidual, report.residual);
@@ -293,12 +300,20 @@ bool NewtonRun::accept(Trial& trial, Series& series, StepReport& report) {
   report.next.tangent = PathTangent{{tangent_.u, t.x.internal}, tangent_.lambda};
   report.next.steps = outcome_.steps;
   report.next.pathLength = outcome_.pathLength;
-  report.next.weight = weight_;
+  if (!standsStill()) report.next.weight = weight_;
   report.next.length = length_;
   report.next.fieldSizes = fieldSizes_.sizes();
   report.next.limitPoints = limitPoints_ += static_cast<int>(report.limitPoints.size());
   if (report.next.stop.empty()) report.next.stop = stops_.passed(limitPoints_, 0);
   return observer_.onStep(report, series);
+}
+
+/// At the first response both terms of the path parameter weigh the same, as at a start that has one.
+void NewtonRun::weighResponse() {
+  if (!standsStill()) return;
+  const Augmented response{tangent_.u, 0};
+  const double size = corrector_.dot(response, response, 1);
+  if (size > 0) outcome_.weight = weight_ = tangent_.lambda * tangent_.lambda / size;
 }
 
 /// Fields count by what they have moved by now; the next length stays the piece of the path that it was.

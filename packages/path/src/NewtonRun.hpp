@@ -46,7 +46,11 @@ class NewtonRun {
   double nextLength(const Trial& trial, double cosine) const;
   bool accept(Trial& trial, Series& series, StepReport& report);
   FieldSizes atFirst();
+  void weighResponse();
   void measureAnew();
+  /// Nothing has moved yet.
+  bool standsStill() const { return weight_ == 0; }
+  PathError withoutEffect() const;
   bool end(EndReason reason, std::string text);
 
   const NewtonOptions& options_;
@@ -56,7 +60,7 @@ class NewtonRun {
   Calls calls_;
   Corrector corrector_;
 
-  double weight_ = 0;
+  double weight_ = 0;  ///< 0: nothing has moved yet
   Augmented tangent_;  ///< unit, at the current state
   double length_ = 0;  ///< to try next
   FieldSizes fieldSizes_;
