@@ -74,12 +74,23 @@ TEST(Hertz, UnderACylinder) {
   EXPECT_LE(steps(halved), 1.6 * steps(run));
 }
 
-// That of the default, and 61 and 121 E*/h.
+// That of the default, and 61, 121 and 607 E*/h. (The pressure's depth, p/stiffness, falls at first where the
+// contact is stiff: a part of a cell that is pressed bends away.)
 TEST(Hertz, WhateverTheStiffness) {
-  for (const std::string stiffness : {"auto", "5.0e5", "1.0e6"}) {
+  for (const std::string stiffness : {"auto", "5.0e5", "1.0e6", "5.0e6"}) {
     SCOPED_TRACE(stiffness);
     expectBall(ExampleRun("contact/hertz.yaml", {{"stiffness: 2.0e5", "stiffness: " + stiffness}}));
   }
+}
+
+// Coordinates, and their rounding, are 3000 times a cell.
+TEST(Hertz, InALargeBlock) {
+  const ExampleRun run("contact/hertz.yaml", {{"lengths: [80, 80], divisions: [24, 18]",
+                                               "lengths: [400, 400], divisions: [30, 24]"},
+                                              {"130.1", "450.1"},
+                                              {"2.0e5", "1.0e6"}});
+  expectBall(run);
+  EXPECT_LE(steps(run), 70);  // 60
 }
 
 // At the first touch rounding is 5e-8 of the forces that there are.

@@ -58,7 +58,7 @@ void passJump(PathUnderWay& path) {
 }
 
 /// Relative residuals up to this are rounding, where there are next to no forces.
-constexpr double kRoundingOfLittle = 1e-6;
+constexpr double kRoundingOfLittle = 1e-3;
 
 /// What begins or ends at an event has a size there: the state that solves the changed Problem with the event
 /// function zero, a little further along the path. Newton iterations with that function as their border, the
