@@ -18,8 +18,48 @@ namespace {
 struct Stretch {
   std::vector<double> x, y;
 
-  /// Lagrange's polynomial through the points next to it, in Neville's form.
+  /// Cubics through the points next to it.
   double at(double place) const {
+    const std::size_t n = x.size();
+    const auto above = static_cast<std::size_t>(std::upper_bound(x.begin(), x.end(), place) - x.begin());
+    const std::size_t i = std::clamp<std::size_t>(above, 1, std::max<std::size_t>(n, 2) - 1) - 1;
+    return n > 2 && isUneven(i) ? limited(i, place) : lagrange(place);
+  }
+
+  /// Whether lengths next to those between points i and i + 1 differ much, as where a path has a corner: then
+  /// polynomials swing.
+  bool isUneven(std::size_t i) const {
+    constexpr double much = 5;
+    const std::size_t from = i > 0 ? i - 1 : i, to = std::min(i + 2, x.size() - 1);
+    double least = x[i + 1] - x[i], most = least;
+    for (std::size_t k = from; k < to; ++k) {
+      least = std::min(least, x[k + 1] - x[k]);
+      most = std::max(most, x[k + 1] - x[k]);
+    }
+    return most > much * least;
+  }
+
+  double secant(std::size_t i) const { return (y[i + 1] - y[i]) / (x[i + 1] - x[i]); }
+
+  /// Slope at a point: that of the parabola through its neighbours, limited as Fritsch and Carlson (1980) do,
+  /// so that nothing swings between points.
+  double slope(std::size_t i) const {
+    if (i == 0) return secant(0);
+    if (i + 1 == x.size()) return secant(i - 1);
+    const double before = secant(i - 1), behind = secant(i), h = x[i] - x[i - 1], k = x[i + 1] - x[i];
+    if (before * behind <= 0) return 0;
+    const double most = 3 * std::min(std::abs(before), std::abs(behind));
+    return std::clamp((k * before + h * behind) / (h + k), -most, most);
+  }
+
+  double limited(std::size_t i, double place) const {
+    const double h = x[i + 1] - x[i], t = (place - x[i]) / h, d = secant(i), from = slope(i),
+                 to = slope(i + 1);
+    return y[i] + h * t * (from + t * (3 * d - 2 * from - to + t * (from + to - 2 * d)));
+  }
+
+  /// Lagrange's polynomial, in Neville's form.
+  double lagrange(double place) const {
     const std::size_t n = x.size(), count = std::min<std::size_t>(4, n);
     const auto above = static_cast<std::size_t>(std::upper_bound(x.begin(), x.end(), place) - x.begin());
     const std::size_t first = std::min(above < 2 ? 0 : above - 2, n - count);
@@ -88,6 +128,17 @@ std::unique_ptr<ReferenceCurve> ReferenceCurve::ofPoints(std::vector<double> x, 
   return std::make_unique<OfPoints>(std::move(stretches));
 }
 
+std::unique_ptr<ReferenceCurve> ReferenceCurve::ofPath(const std::string& table, const Chart& chart) {
+  const PathRows rows = readPath(table, chart);
+  std::vector<double> over, monitor;
+  for (std::size_t i = 0; i < rows.over.size(); ++i) {
+    if (!over.empty() && rows.over[i] == over.back()) continue;
+    over.push_back(rows.over[i]);
+    monitor.push_back(rows.monitor[i]);
+  }
+  return ofPoints(std::move(over), std::move(monitor), table);
+}
+
 std::unique_ptr<ReferenceCurve> ReferenceCurve::ofFormula(const std::string& text, const std::string& over) {
   if (!formula::isName(over))
     throw std::invalid_argument(
@@ -116,8 +167,8 @@ PathRows readPath(const std::string& table, const Chart& chart) {
   return rows;
 }
 
-PathError errorOf(const std::string& table, const Chart& chart, const ReferenceCurve& reference) {
-  const PathRows rows = readPath(table, chart);
+PathError errorOf(const PathRows& rows, const std::string& what, const Chart& chart,
+                  const ReferenceCurve& reference) {
   PathError error;
   bool compared = false;
   const auto compare = [&](double at, double value) {
@@ -132,7 +183,7 @@ PathError errorOf(const std::string& table, const Chart& chart, const ReferenceC
   };
   for (std::size_t i = 0; i < rows.over.size(); ++i) compare(rows.over[i], rows.monitor[i]);
   if (chart.between > 0) {
-    const auto curve = ReferenceCurve::ofPoints(rows.over, rows.monitor, table);
+    const auto curve = ReferenceCurve::ofPoints(rows.over, rows.monitor, what);
     const double first = rows.over.front(), range = rows.over.back() - first;
     for (int i = 1; i < chart.between; ++i) {
       const double at = first + range * i / chart.between;
@@ -140,7 +191,7 @@ PathError errorOf(const std::string& table, const Chart& chart, const ReferenceC
     }
   }
   if (!compared)
-    throw std::invalid_argument(fmt::format("{}: the reference knows no {} of the path", table, chart.over));
+    throw std::invalid_argument(fmt::format("{}: the reference knows no {} of the path", what, chart.over));
   return error;
 }
 

@@ -8,6 +8,13 @@
 
 namespace atrapos::chart {
 
+/// The quantity `over` and the monitor in the rows of path.csv, those of the path and not of its branches.
+/// Throws std::invalid_argument, one line, where the table lacks a column.
+struct PathRows {
+  std::vector<double> over, monitor;
+};
+PathRows readPath(const std::string& table, const Chart& chart);
+
 /// The exact monitor as a function of the quantity `over`.
 class ReferenceCurve {
  public:
@@ -16,10 +23,13 @@ class ReferenceCurve {
   virtual double operator()(double x) const = 0;
 
   /// Of points with ascending or descending x: cubics through the four nearest, or as many as there are, of a
-  /// stretch; a point given twice is a corner, where two stretches meet. Throws std::invalid_argument, one
+  /// stretch, or where these lie unevenly, cubics with limited slopes; a point given twice is a corner, where two stretches meet. Throws std::invalid_argument, one
   /// line that begins with `what`, where x turns back.
   static std::unique_ptr<ReferenceCurve> ofPoints(std::vector<double> x, std::vector<double> y,
                                                   const std::string& what);
+  /// Of a run: a step ends where the next one begins, and that is no corner. Throws std::invalid_argument,
+  /// one line.
+  static std::unique_ptr<ReferenceCurve> ofPath(const std::string& table, const Chart& chart);
   /// Throws std::invalid_argument, one line.
   static std::unique_ptr<ReferenceCurve> ofFormula(const std::string& formula, const std::string& over);
 };
@@ -28,16 +38,10 @@ struct PathError {
   double largest = 0, at = 0;  ///< |monitor - reference| and where it is, in `over`
 };
 
-/// The quantity `over` and the monitor in the rows of path.csv, those of the path and not of its branches.
-/// Throws std::invalid_argument, one line, where the table lacks a column.
-struct PathRows {
-  std::vector<double> over, monitor;
-};
-PathRows readPath(const std::string& table, const Chart& chart);
-
-/// The error of the monitor over the rows of path.csv, those of the path and not of its branches, and over
-/// the curve through them where the chart asks for that. Throws std::invalid_argument, one line, where the
-/// table lacks a column, the reference knows no row, or a curve through the rows turns back.
-PathError errorOf(const std::string& table, const Chart& chart, const ReferenceCurve& reference);
+/// The error of the monitor over the rows of a path, and over the curve through them where the chart asks for
+/// that. Throws std::invalid_argument, one line that begins with `what`, where the reference knows no row, or
+/// a curve through the rows turns back.
+PathError errorOf(const PathRows& rows, const std::string& what, const Chart& chart,
+                  const ReferenceCurve& reference);
 
 }  // namespace atrapos::chart

@@ -155,15 +155,7 @@ std::unique_ptr<ReferenceCurve> referenceOf(const Chart& chart, const Runs& runs
   if (own.outcome != "stop")
     throw std::invalid_argument(
         fmt::format("error/reference: the run does not reach a stop: {}", own.outcome));
-  const PathRows rows = readPath(runs.path("reference"), chart);
-  // A step ends where the next one begins: that is no corner.
-  std::vector<double> over, monitor;
-  for (std::size_t i = 0; i < rows.over.size(); ++i) {
-    if (!over.empty() && rows.over[i] == over.back()) continue;
-    over.push_back(rows.over[i]);
-    monitor.push_back(rows.monitor[i]);
-  }
-  return ReferenceCurve::ofPoints(std::move(over), std::move(monitor), runs.path("reference"));
+  return ReferenceCurve::ofPath(runs.path("reference"), chart);
 }
 
 /// The curve of another program.
@@ -233,7 +225,7 @@ Measured measure(const Chart& chart, const Runs& runs, const ReferenceCurve& ref
   row.settings = settingsOf(edits);
   row.error = row.at = kUnknown;
   if (row.outcome == "stop") {
-    const PathError error = errorOf(runs.path(name), chart, reference);
+    const PathError error = errorOf(readPath(runs.path(name), chart), runs.path(name), chart, reference);
     row.error = error.largest;
     row.at = error.at;
   }

@@ -57,7 +57,8 @@ void takeAsReference(const std::string& file) {
   chart.monitor = "tip";
   readOrRefuse([&] {
     const auto rows = chart::readPath(file, chart);
-    chart::errorOf(file, chart, *chart::ReferenceCurve::ofPoints(rows.over, rows.monitor, file));
+    chart.between = 10;
+    chart::errorOf(rows, file, chart, *chart::ReferenceCurve::ofPoints(rows.over, rows.monitor, file));
   });
 }
 

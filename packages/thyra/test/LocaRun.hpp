@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "atrapos/linear/TangentSolver.hpp"
+#include "atrapos/path/Problem.hpp"
 #include "atrapos/path/State.hpp"
 
 namespace atrapos::thyra::test {
