@@ -144,18 +144,14 @@ std::string settingsOf(const Edits& edits) {
 
 std::unique_ptr<ReferenceCurve> referenceOf(const Chart& chart, const Runs& runs, std::ostream* progress) {
   const Reference& reference = chart.reference;
-  if (!reference.formula.empty()) return ReferenceCurve::ofFormula(reference.formula, chart.over);
-  if (!reference.file.empty()) {
-    const TableFile table(reference.file);
-    return ReferenceCurve::ofPoints(table.numbers(reference.x), table.numbers(reference.y), reference.file);
-  }
+  if (!reference.own) return ReferenceCurve::of(chart, {});
   if (progress)
     *progress << "the reference is a run of the deck's own: " << settingsOf(*reference.own) << std::endl;
   const Measured own = runs.make(runs.deckOf(*reference.own), "reference", 1);
   if (own.outcome != "stop")
     throw std::invalid_argument(
         fmt::format("error/reference: the run does not reach a stop: {}", own.outcome));
-  return ReferenceCurve::ofPath(runs.path("reference"), chart);
+  return ReferenceCurve::of(chart, runs.path("reference"));
 }
 
 /// The curve of another program.

@@ -20,6 +20,9 @@ void printCheck(const deck::Deck& deck, Scene& scene, std::ostream& out) {
   deck::describe(deck, out);
   fem::FeProblem& problem = scene.problem();
   out << fmt::format("\n# mesh      {}\n", describeMesh(scene.mesh()));
+  if (scene.givenRanks().empty())
+    if (const std::string other = otherThanGenerated(deck, scene.mesh()); !other.empty())
+      out << "# warning   " << other << '\n';
   out << fmt::format("# unknowns  {} ({} free), {} tangent\n", scene.numUnknowns(), problem.numFreeDofs(),
                      problem.symmetric() ? "symmetric" : "unsymmetric");
   const fem::ShellGeometry& shells = scene.shells().geometry;

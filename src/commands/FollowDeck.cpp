@@ -48,6 +48,9 @@ RunResult followDeck(const deck::Deck& deck, const RunOptions& options,
   }
   DeckMesh mesh = readDeckMesh(deck);
   tell(deck.title);  // the scene may take a while
+  if (mesh.ranks.empty())
+    if (const std::string other = otherThanGenerated(deck, mesh.mesh); !other.empty())
+      tell("warning: " + other);
   const char* const came = mesh.ranks.empty() ? "" : ", a part file for each rank";
   const deck::Deck first = firstDeck(deck, mesh);
   Scene scene(first, std::move(mesh));

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "atrapos/fem/StructuredMesh.hpp"
@@ -62,6 +64,31 @@ fem::Mesh generateMesh(const deck::Deck& deck) {
   } catch (const std::invalid_argument& e) {
     deck::failAt(deck, "mesh/generate", e.what());
   }
+}
+
+std::string otherThanGenerated(const deck::Deck& deck, const fem::Mesh& mesh) {
+  constexpr int mostNodes = 200000;  // a tenth of a second
+  if (!deck.mesh.generate || mesh.numNodes() > mostNodes) return {};
+  fem::Mesh made;
+  try {
+    made = generateMesh(deck);
+  } catch (const deck::DeckError&) {
+    return {};  // this mesh came from elsewhere
+  }
+  const auto line = [&](const std::string& what) {
+    return fmt::format("{} is not what mesh/generate makes ({}); `atrapos mesh {}` makes it anew",
+                       deck.mesh.file, what, deck.file);
+  };
+  if (made.numNodes() != mesh.numNodes() || made.numElements() != mesh.numElements())
+    return line(fmt::format("{} nodes, {} elements in place of {}, {}", mesh.numNodes(), mesh.numElements(),
+                            made.numNodes(), made.numElements()));
+  double size = 0, off = 0;
+  for (std::size_t i = 0; i < made.coordinates.size(); ++i) {
+    size = std::max(size, std::abs(made.coordinates[i]));
+    off = std::max(off, std::abs(made.coordinates[i] - mesh.coordinates[i]));
+  }
+  constexpr double rounding = 1e-9;  // of programs that wrote the same mesh otherwise
+  return off > rounding * size ? line(fmt::format("nodes lie up to {:.3g} elsewhere", off)) : "";
 }
 
 std::string describeMesh(const fem::Mesh& mesh) {

@@ -85,6 +85,24 @@ TEST_F(CommandTest, MeshWritesTheFile) {
   EXPECT_EQ(exodus::readMesh((folder_ / "other.exo").string()).coordinates, mesh.coordinates);
 }
 
+/// Whoever changes mesh/generate and does not make the mesh anew is told.
+TEST_F(CommandTest, MeshOfAnEarlierDeckIsTold) {
+  const auto told = [&](const std::string& from, const std::string& to, const std::string& what) {
+    std::string deck = kSmallDeck;
+    deck.replace(deck.find(from), from.size(), to);
+    writeFile(folder_ / "deck.yaml", deck);
+    for (const char* command : {"check", "run"}) {
+      const CommandResult r = runAtrapos({command, "deck.yaml"}, folder_.path());
+      EXPECT_EQ(r.exitCode, 0) << r.err;
+      EXPECT_EQ(r.out.find("is not what mesh/generate makes") != std::string::npos, !what.empty()) << r.out;
+      EXPECT_NE(r.out.find(what), std::string::npos) << r.out;
+    }
+  };
+  told("[4, 1, 1]", "[4, 1, 1]", "");
+  told("divisions: [4, 1, 1]", "divisions: [8, 1, 1]", "(20 nodes, 4 elements in place of 36, 8)");
+  told("lengths: [4, 1, 1]", "lengths: [5, 1, 1]", "(nodes lie up to 1 elsewhere)");
+}
+
 TEST_F(CommandTest, TitleInUtf8) {
   std::string umlauts;
   for (int i = 0; i < 60; ++i) umlauts += "\u00e4";
