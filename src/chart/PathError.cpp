@@ -29,7 +29,7 @@ struct Stretch {
   /// Whether lengths next to those between points i and i + 1 differ much, as where a path has a corner: then
   /// polynomials swing.
   bool isUneven(std::size_t i) const {
-    constexpr double much = 5;
+    constexpr double much = 30;
     const std::size_t from = i > 0 ? i - 1 : i, to = std::min(i + 2, x.size() - 1);
     double least = x[i + 1] - x[i], most = least;
     for (std::size_t k = from; k < to; ++k) {
@@ -137,6 +137,14 @@ std::unique_ptr<ReferenceCurve> ReferenceCurve::ofPath(const std::string& table,
     monitor.push_back(rows.monitor[i]);
   }
   return ofPoints(std::move(over), std::move(monitor), table);
+}
+
+std::unique_ptr<ReferenceCurve> ReferenceCurve::of(const Chart& chart, const std::string& ownPath) {
+  const Reference& reference = chart.reference;
+  if (!reference.formula.empty()) return ofFormula(reference.formula, chart.over);
+  if (reference.file.empty()) return ofPath(ownPath, chart);
+  const TableFile table(reference.file);
+  return ofPoints(table.numbers(reference.x), table.numbers(reference.y), reference.file);
 }
 
 std::unique_ptr<ReferenceCurve> ReferenceCurve::ofFormula(const std::string& text, const std::string& over) {

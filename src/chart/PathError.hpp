@@ -30,6 +30,9 @@ class ReferenceCurve {
   /// Of a run: a step ends where the next one begins, and that is no corner. Throws std::invalid_argument,
   /// one line.
   static std::unique_ptr<ReferenceCurve> ofPath(const std::string& table, const Chart& chart);
+  /// What a chart asks for; `ownPath`: path.csv of the run that it may name. Throws std::invalid_argument, one
+  /// line.
+  static std::unique_ptr<ReferenceCurve> of(const Chart& chart, const std::string& ownPath);
   /// Throws std::invalid_argument, one line.
   static std::unique_ptr<ReferenceCurve> ofFormula(const std::string& formula, const std::string& over);
 };

@@ -7,6 +7,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <iterator>
 
 #include "deck/Characters.hpp"
 
@@ -47,8 +48,8 @@ std::string gnuplotText(const std::string& text) {
 
 const char* plotColour(std::size_t i) {
   static const char* colours[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
-                                  "#e69f00", "#56b4e9", "#444444"};
-  return colours[i % 7];
+                                  "#e69f00", "#56b4e9", "#444444", "#8c510a"};
+  return colours[i % std::size(colours)];
 }
 
 std::string pictureHead(const std::string& file, const std::string& title) {
