@@ -71,14 +71,9 @@ bool isPast(const path::Stops& stops, const path::State& s) {
 void run(const Options& options) {
   const chart::Chart chart = chart::readChart(options.chart);
   const deck::Deck deck = deck::readDeck(options.deck);
-  std::unique_ptr<chart::ReferenceCurve> reference;
-  if (!chart.reference.formula.empty()) {
-    reference = chart::ReferenceCurve::ofFormula(chart.reference.formula, chart.over);
-  } else {
-    if (options.reference.empty())
-      throw std::invalid_argument("--reference: the path.csv of the chart's reference is needed");
-    reference = chart::ReferenceCurve::ofPath(options.reference, chart);
-  }
+  if (chart.reference.own && options.reference.empty())
+    throw std::invalid_argument("--reference: the path.csv of the chart's reference is needed");
+  const auto reference = chart::ReferenceCurve::of(chart, options.reference);
   Scene scene(deck, readDeckMesh(deck));
   if (scene.contactsGrow())
     throw std::invalid_argument("contacts whose points come along the path are not for LOCA: carried: all");
@@ -92,9 +87,17 @@ void run(const Options& options) {
     loca.residualBound = options.residual;
     loca.maxSteps = 20000;
     loca.stop = [&](const path::State& s) { return isPast(stops, s); };
-    const auto solver = linear::makeTangentSolver({});
-    const auto run =
-        thyra::test::followWithLoca(scene.problem(), *solver, {scene.problem().initialState(0.0), 0.0}, loca);
+    linear::TangentSolverOptions solverOptions;
+    solverOptions.symmetric = scene.problem().symmetric();
+    const auto solver = linear::makeTangentSolver(solverOptions);
+    thyra::test::LocaRun run;
+    try {
+      run = thyra::test::followWithLoca(scene.problem(), *solver, {scene.problem().initialState(0.0), 0.0},
+                                        loca);
+    } catch (const std::exception& error) {  // a step too long for the problem
+      fmt::print(stderr, "longest step {:g}: {}\n", longest, error.what());
+      continue;
+    }
     if (!run.stopped) {
       fmt::print(stderr, "longest step {:g}: no stop of the deck reached after {} steps\n", longest,
                  run.steps);
