@@ -13,6 +13,7 @@
 #include "machine/Threads.hpp"
 #include "scene/Compression.hpp"
 #include "scene/Locking.hpp"
+#include "scene/Waste.hpp"
 
 namespace atrapos {
 
@@ -45,6 +46,7 @@ void printCheck(const deck::Deck& deck, Scene& scene, std::ostream& out) {
     out << "# warning   " << line << '\n';
   for (const std::string& line : lockingCells(scene.deck(), scene.mesh()))
     out << "# warning   " << line << '\n';
+  for (const std::string& line : waste(scene.deck(), scene.mesh())) out << "# waste     " << line << '\n';
   if (ranks::count() > 1) out << fmt::format("# ranks     {}\n", threads::describe(ranks::communicator()));
   SceneCase pathCase(scene);
   const auto solver = tangentSolver(pathCase);

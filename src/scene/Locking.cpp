@@ -3,42 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
+
+#include "scene/Extents.hpp"
 
 namespace atrapos {
 namespace {
 
 constexpr double kSlender = 5;       // thicker bodies shear more than they bend
 constexpr double kTolerated = 0.05;  // of the stiffness in bending; finer meshes are the user's choice
-
-struct Extents {
-  std::array<double, 3> body{}, cell{};  ///< of the block, and the largest of its cells, along x, y, z
-};
-
-Extents extentsOf(const fem::Mesh& mesh, const fem::Block& block) {
-  constexpr double far = std::numeric_limits<double>::infinity();
-  const auto perCell = static_cast<std::size_t>(fem::nodesPerElement(block.topology));
-  Extents extents;
-  for (int axis = 0; axis < mesh.dimension; ++axis) {
-    double low = far, high = -far;
-    for (std::size_t first = 0; first < block.nodes.size(); first += perCell) {
-      double cellLow = far, cellHigh = -far;
-      for (std::size_t n = first; n < first + perCell; ++n) {
-        const double x =
-            mesh.coordinates[3 * static_cast<std::size_t>(block.nodes[n]) + static_cast<std::size_t>(axis)];
-        cellLow = std::min(cellLow, x);
-        cellHigh = std::max(cellHigh, x);
-      }
-      extents.cell[axis] = std::max(extents.cell[axis], cellHigh - cellLow);
-      low = std::min(low, cellLow);
-      high = std::max(high, cellHigh);
-    }
-    extents.body[axis] = high - low;
-  }
-  return extents;
-}
 
 /// Bent by the curvature k, cells whose edges stay straight shear by k x, x the distance from their middle:
 /// the energy G k^2 l^2/12 a volume, beside E k^2 t^2/12 of bending, however many cells there are through the

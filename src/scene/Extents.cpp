@@ -1,0 +1,31 @@
+#include "scene/Extents.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace atrapos {
+
+Extents extentsOf(const fem::Mesh& mesh, const fem::Block& block) {
+  constexpr double far = std::numeric_limits<double>::infinity();
+  const auto perCell = static_cast<std::size_t>(fem::nodesPerElement(block.topology));
+  Extents extents;
+  for (int axis = 0; axis < mesh.dimension; ++axis) {
+    double low = far, high = -far;
+    for (std::size_t first = 0; first < block.nodes.size(); first += perCell) {
+      double cellLow = far, cellHigh = -far;
+      for (std::size_t n = first; n < first + perCell; ++n) {
+        const double x =
+            mesh.coordinates[3 * static_cast<std::size_t>(block.nodes[n]) + static_cast<std::size_t>(axis)];
+        cellLow = std::min(cellLow, x);
+        cellHigh = std::max(cellHigh, x);
+      }
+      extents.cell[axis] = std::max(extents.cell[axis], cellHigh - cellLow);
+      low = std::min(low, cellLow);
+      high = std::max(high, cellHigh);
+    }
+    extents.body[axis] = high - low;
+  }
+  return extents;
+}
+
+}  // namespace atrapos
