@@ -20,8 +20,7 @@ std::string thinBody(const fem::Mesh& mesh, const fem::Block& block) {
   if (!(sides[0] > 0 && sides[1] >= thin * sides[0])) return {};
   return fmt::format(
       "block '{}': {} in a body {:.3g} thick and {:.3g} wide; shells (docs/shells.md) bend as well with "
-      "fewer "
-      "unknowns, where stresses across the thickness do not matter",
+      "fewer unknowns, where stresses across the thickness do not matter",
       block.name, fem::topologyName(block.topology), sides[0], sides[1]);
 }
 
@@ -40,25 +39,20 @@ std::set<int> heldAlong(const deck::Deck& deck, const fem::Mesh& mesh, int axis)
 
 /// One cell along the axis, and both of its faces held: what is between them moves by nothing either.
 bool standsStillAlong(const deck::Deck& deck, const fem::Mesh& mesh, int axis) {
-  constexpr double rounding = 1e-9;
-  const Extents whole = extentsOf(mesh, mesh.blocks[0]);
-  for (const fem::Block& block : mesh.blocks) {
-    if (!isSolid(block.topology)) return false;
-    const Extents own = extentsOf(mesh, block);
-    if (own.cell[axis] < (1 - rounding) * whole.body[axis]) return false;
+  const auto place = [&](int n) {
+    return mesh.coordinates[3 * static_cast<std::size_t>(n) + static_cast<std::size_t>(axis)];
+  };
+  double low = place(0), high = low;
+  for (int n = 1; n < mesh.numNodes(); ++n) {
+    low = std::min(low, place(n));
+    high = std::max(high, place(n));
   }
+  const double near = 1e-9 * (high - low);  // rounding
+  for (const fem::Block& block : mesh.blocks)
+    if (!isSolid(block.topology) || extentsOf(mesh, block).cell[axis] < high - low - near) return false;
   const auto held = heldAlong(deck, mesh, axis);
-  if (held.empty()) return false;
-  double low = mesh.coordinates[axis], high = low;
-  for (std::size_t n = axis; n < mesh.coordinates.size(); n += 3) {
-    low = std::min(low, mesh.coordinates[n]);
-    high = std::max(high, mesh.coordinates[n]);
-  }
-  const double near = rounding * (high - low);
-  for (int n = 0; n < mesh.numNodes(); ++n) {
-    const double x = mesh.coordinates[3 * static_cast<std::size_t>(n) + static_cast<std::size_t>(axis)];
-    if ((x - low <= near || high - x <= near) && held.count(n) == 0) return false;
-  }
+  for (int n = 0; n < mesh.numNodes(); ++n)
+    if ((place(n) - low <= near || high - place(n) <= near) && held.count(n) == 0) return false;
   return true;
 }
 
