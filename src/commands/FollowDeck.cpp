@@ -47,8 +47,8 @@ RunResult followDeck(const deck::Deck& deck, const RunOptions& options,
     return follow(model, model.about());
   }
   DeckMesh mesh = readDeckMesh(deck);
-  tell(deck.title);  // the scene may take a while
-  if (mesh.ranks.empty())
+  tell(deck.title);                            // the scene may take a while
+  if (mesh.ranks.empty() && ranks::isFirst())  // who tells
     if (const std::string other = otherThanGenerated(deck, mesh.mesh); !other.empty())
       tell("warning: " + other);
   const char* const came = mesh.ranks.empty() ? "" : ", a part file for each rank";
