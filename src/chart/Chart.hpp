@@ -37,8 +37,8 @@ struct Chart {
   std::string monitor;  ///< whose largest error over the path counts
   std::string over = "load_factor";
   Reference reference;
-  int between =
-      0;  ///< equal parts of the range of `over`, at whose ends the curve through the rows counts too
+  /// Equal parts of the range of `over`, at whose ends the curve through the rows counts too; 0: rows alone.
+  int between = 0;
   int repeat = 1;  ///< times that each run is made; the least time counts
   std::vector<Curve> curves;
   std::string about;  ///< what the errors depend on beside the decks of the runs

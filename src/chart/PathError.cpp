@@ -23,7 +23,7 @@ struct Stretch {
     const std::size_t n = x.size();
     const auto above = static_cast<std::size_t>(std::upper_bound(x.begin(), x.end(), place) - x.begin());
     const std::size_t i = std::clamp<std::size_t>(above, 1, std::max<std::size_t>(n, 2) - 1) - 1;
-    return n > 2 && isUneven(i) ? limited(i, place) : lagrange(place);
+    return n > 2 && isUneven(i) ? limited(i, place) : lagrange(i, place);
   }
 
   /// Whether lengths next to those between points i and i + 1 differ much, as where a path has a corner: then
@@ -58,16 +58,15 @@ struct Stretch {
     return y[i] + h * t * (from + t * (3 * d - 2 * from - to + t * (from + to - 2 * d)));
   }
 
-  /// Lagrange's polynomial, in Neville's form.
-  double lagrange(double place) const {
+  /// Lagrange's polynomial through the points around i and i + 1, in Neville's form.
+  double lagrange(std::size_t i, double place) const {
     const std::size_t n = x.size(), count = std::min<std::size_t>(4, n);
-    const auto above = static_cast<std::size_t>(std::upper_bound(x.begin(), x.end(), place) - x.begin());
-    const std::size_t first = std::min(above < 2 ? 0 : above - 2, n - count);
+    const std::size_t first = std::min(i < 1 ? 0 : i - 1, n - count);
     std::vector<double> p(y.begin() + static_cast<long>(first), y.begin() + static_cast<long>(first + count));
     for (std::size_t m = 1; m < count; ++m)
-      for (std::size_t i = 0; i + m < count; ++i) {
-        const double a = x[first + i], b = x[first + i + m];
-        p[i] = ((place - b) * p[i] + (a - place) * p[i + 1]) / (a - b);
+      for (std::size_t k = 0; k + m < count; ++k) {
+        const double a = x[first + k], b = x[first + k + m];
+        p[k] = ((place - b) * p[k] + (a - place) * p[k + 1]) / (a - b);
       }
     return p[0];
   }

@@ -23,15 +23,15 @@ class ReferenceCurve {
   virtual double operator()(double x) const = 0;
 
   /// Of points with ascending or descending x: cubics through the four nearest, or as many as there are, of a
-  /// stretch, or where these lie unevenly, cubics with limited slopes; a point given twice is a corner, where two stretches meet. Throws std::invalid_argument, one
-  /// line that begins with `what`, where x turns back.
+  /// stretch, or where these lie unevenly, cubics with limited slopes; a point given twice is a corner, where
+  /// two stretches meet. Throws std::invalid_argument, one line that begins with `what`, where x turns back.
   static std::unique_ptr<ReferenceCurve> ofPoints(std::vector<double> x, std::vector<double> y,
                                                   const std::string& what);
   /// Of a run: a step ends where the next one begins, and that is no corner. Throws std::invalid_argument,
   /// one line.
   static std::unique_ptr<ReferenceCurve> ofPath(const std::string& table, const Chart& chart);
-  /// What a chart asks for; `ownPath`: path.csv of the run that it may name. Throws std::invalid_argument, one
-  /// line.
+  /// What a chart asks for; `ownPath`: path.csv of the run that it may name. Throws std::invalid_argument,
+  /// one line.
   static std::unique_ptr<ReferenceCurve> of(const Chart& chart, const std::string& ownPath);
   /// Throws std::invalid_argument, one line.
   static std::unique_ptr<ReferenceCurve> ofFormula(const std::string& formula, const std::string& over);

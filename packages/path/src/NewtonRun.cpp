@@ -243,8 +243,10 @@ bool NewtonRun::step() {
         report.length = stop ? stop->a : s;
         if (stop) report.next.stop = stop->text;
         const bool goOn = accept(trial, series, report);
-        if (standsStill() && !report.next.stop.empty()) throw withoutEffect();
-        if (!report.next.stop.empty()) return end(EndReason::stopReached, report.next.stop);
+        if (!report.next.stop.empty()) {
+          if (standsStill()) throw withoutEffect();
+          return end(EndReason::stopReached, report.next.stop);
+        }
         if (!goOn) return end(EndReason::observerStopped, "ended by the observer");
         return true;
       }
