@@ -13,6 +13,7 @@
 #include <Tpetra_Vector.hpp>
 #include <chrono>
 #include <cmath>
+#include <stdexcept>
 
 #include "atrapos/thyra/PathModel.hpp"
 
@@ -106,6 +107,16 @@ RCP<Teuchos::ParameterList> parameters(const LocaOptions& options, double lambda
 }
 
 }  // namespace
+
+std::function<bool(const path::State&)> pastFirst(const path::Stops& stops) {
+  if (!stops.loadFactors.empty())
+    return [factor = stops.loadFactors[0]](const path::State& s) { return s.lambda > factor; };
+  if (stops.functionals.empty())
+    throw std::invalid_argument("LOCA stops at a load factor or at a functional; there is neither");
+  return [f = stops.functionals[0]](const path::State& s) {
+    return (f.value > 0 ? 1 : -1) * (f.weights->dot(*s.u) - f.value) > 0;
+  };
+}
 
 LocaRun followWithLoca(path::Problem& problem, linear::TangentSolver& solver, const path::State& start,
                        const LocaOptions& options) {

@@ -7,6 +7,7 @@
 #include "atrapos/linear/TangentSolver.hpp"
 #include "atrapos/path/Problem.hpp"
 #include "atrapos/path/State.hpp"
+#include "atrapos/path/Stops.hpp"
 
 namespace atrapos::thyra::test {
 
@@ -31,6 +32,10 @@ struct LocaRun {
   long long factorizations = 0, solves = 0, residuals = 0, tangents = 0;
   double seconds = 0;
 };
+
+/// For LocaOptions::stop: whether a state is past the first load factor of the stops, else past their first
+/// functional. Throws std::invalid_argument where they have neither.
+std::function<bool(const path::State&)> pastFirst(const path::Stops& stops);
 
 /// Follows the path of a Problem from an equilibrium with LOCA through thyra::PathModel.
 LocaRun followWithLoca(path::Problem& problem, linear::TangentSolver& solver, const path::State& start,

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <Tpetra_Vector.hpp>
 #include <cstdio>
 #include <fstream>
 #include <iostream>
@@ -59,15 +58,6 @@ class Columns {
   int over_, monitor_;
 };
 
-/// Whether a state is past the first stop of the deck.
-bool isPast(const path::Stops& stops, const path::State& s) {
-  if (!stops.loadFactors.empty()) return s.lambda > stops.loadFactors[0];
-  if (stops.functionals.empty())
-    throw std::invalid_argument("the deck stops neither at a load factor nor at a monitor");
-  const auto& f = stops.functionals[0];
-  return (f.value > 0 ? 1 : -1) * (f.weights->dot(*s.u) - f.value) > 0;
-}
-
 void run(const Options& options) {
   const chart::Chart chart = chart::readChart(options.chart);
   const deck::Deck deck = deck::readDeck(options.deck);
@@ -77,7 +67,7 @@ void run(const Options& options) {
   Scene scene(deck, readDeckMesh(deck));
   if (scene.contactsGrow())
     throw std::invalid_argument("contacts whose points come along the path are not for LOCA: carried: all");
-  const path::Stops stops = scene.stops();
+  const auto isPast = thyra::test::pastFirst(scene.stops());
   const Columns columns(scene, chart);
   std::string table = "longest,seconds,factorizations,solves,steps,failed_steps,error\n";
   for (const double longest : options.longest) {
@@ -86,7 +76,7 @@ void run(const Options& options) {
     loca.maxStep = longest;
     loca.residualBound = options.residual;
     loca.maxSteps = 20000;
-    loca.stop = [&](const path::State& s) { return isPast(stops, s); };
+    loca.stop = isPast;
     linear::TangentSolverOptions solverOptions;
     solverOptions.symmetric = scene.problem().symmetric();
     const auto solver = linear::makeTangentSolver(solverOptions);

@@ -209,12 +209,7 @@ class Bench {
       thyra::test::LocaOptions options;
       options.aggressiveness = aggressiveness;
       options.firstStep = 1e-3;  // of the load factor: the strip leaves its path with longer ones
-      const auto& stops = case_.stops;
-      options.stop = [&](const path::State& s) {
-        if (!stops.loadFactors.empty()) return s.lambda > stops.loadFactors[0];
-        const auto& f = stops.functionals.at(0);
-        return (f.value > 0 ? 1 : -1) * (f.weights->dot(*s.u) - f.value) > 0;
-      };
+      options.stop = thyra::test::pastFirst(case_.stops);
       const auto solver = linear::makeTangentSolver({});
       const auto run = thyra::test::followWithLoca(*case_.problem, *solver, start(), options);
       Row row;
