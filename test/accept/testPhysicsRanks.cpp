@@ -1,11 +1,10 @@
 // examples/reaction, heat and electric on several ranks and threads.
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
 #include <string>
 
 #include "support/ExampleRun.hpp"
+#include "support/SameTable.hpp"
 
 namespace atrapos::test {
 
@@ -49,17 +48,8 @@ TEST(Physics, OnRanksAndThreads) {
     for (int other : {2, 3, 0}) {
       if (other == 0 && !threads) continue;
       const Table many = run(other == 0 ? 1 : other, other == 0 ? "2" : "1", "on" + std::to_string(other));
-      ASSERT_EQ(one.numRows(), many.numRows()) << name << " on " << other;
-      for (const std::string& column : one.names()) {
-        if (column == "residual") continue;
-        const auto x = one.column(column), y = many.column(column);
-        double worst = 0, size = 0;
-        for (std::size_t i = 0; i < x.size(); ++i) {
-          worst = std::max(worst, std::abs(x[i] - y[i]));
-          size = std::max(size, std::abs(x[i]));
-        }
-        EXPECT_LE(worst, 1e-10 * size) << name << " on " << other << ": " << column;
-      }
+      SCOPED_TRACE(std::string(name) + " on " + std::to_string(other));
+      expectSameTable(one, many, 1e-10);
     }
   }
 }
