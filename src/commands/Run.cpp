@@ -221,7 +221,8 @@ RunResult runPath(const deck::Deck& deck, PathCase& pathCase, const RunOptions& 
   replaceFile(options.directory + "/summary.json", summary.dump(2) + "\n");
   replaceFile(options.directory + "/branches.csv", branchTable(diagram));
   const std::string plot = plotPath({options.directory});
-  const std::string unreported = report(options.directory), undrawn = drawTools(options.directory, deck);
+  // The page shows the tools.
+  const std::string undrawn = drawTools(options.directory, deck), unreported = report(options.directory);
   if (options.progress) {
     *options.progress << fmt::format(
         "{} steps, {} factorizations, {} solves, {:.2f} s; worst residual {:.2e}\n",

@@ -11,6 +11,7 @@
 #include <stdexcept>
 
 #include "output/FieldFiles.hpp"
+#include "output/Files.hpp"
 #include "output/PathCurves.hpp"
 #include "output/TableFile.hpp"
 #include "report/ReportShape.hpp"
@@ -133,7 +134,8 @@ json stepsOf(const std::string& file, std::vector<std::string>& notes) {
 std::vector<ShapeFile> shapeFilesOf(const std::string& folder, const PathCurves& curves) {
   std::vector<ShapeFile> files;
   for (const BranchCurve& b : curves.branches)
-    files.push_back({b.number, b.name, folder + "/" + fieldsName(b.number)});
+    files.push_back(
+        {b.number, b.name, folder + "/" + fieldsName(b.number), folder + "/" + toolsName(b.number)});
   return files;
 }
 

@@ -14,6 +14,7 @@
 #include "atrapos/exodus/MeshFile.hpp"
 #include "atrapos/exodus/MeshPart.hpp"
 #include "atrapos/exodus/ResultReader.hpp"
+#include "report/ReportTools.hpp"
 #include "report/Surface.hpp"
 
 namespace atrapos {
@@ -36,10 +37,6 @@ std::string base64(const void* data, std::size_t size) {
     text += left > 2 ? letters[three & 63] : '=';
   }
   return text;
-}
-
-std::string base64(const std::vector<std::uint32_t>& values) {
-  return base64(values.data(), values.size() * sizeof values[0]);
 }
 
 /// Results in one file or in parts.
@@ -146,9 +143,9 @@ class Shape {
     nlohmann::json json{{"dimension", mesh_.dimension},
                         {"moves", moves_},
                         {"positions", atrapos::base64(rest)},
-                        {"triangles", base64(surface_.triangles)},
-                        {"triangle_elements", base64(surface_.triangleElements)},
-                        {"edges", base64(surface_.edges)},
+                        {"triangles", atrapos::base64(surface_.triangles)},
+                        {"triangle_elements", atrapos::base64(surface_.triangleElements)},
+                        {"edges", atrapos::base64(surface_.edges)},
                         {"fields", nlohmann::json::array()},
                         {"branches", nlohmann::json::array()}};
     for (std::size_t f = 0; f < room_.fields; ++f)
@@ -205,9 +202,22 @@ bool isLike(const Results& a, const Results& b) {
          a.elementNames() == b.elementNames();
 }
 
+/// Bytes of the tools' surfaces.
+std::size_t bytesOf(const nlohmann::json& tools) {
+  std::size_t bytes = 0;
+  for (const auto& surface : tools.at("surfaces"))
+    bytes += surface.at("positions").get_ref<const std::string&>().size() +
+             surface.at("triangles").get_ref<const std::string&>().size();
+  return bytes;
+}
+
 }  // namespace
 
 std::string base64(const std::vector<float>& values) {
+  return base64(values.data(), values.size() * sizeof values[0]);
+}
+
+std::string base64(const std::vector<std::uint32_t>& values) {
   return base64(values.data(), values.size() * sizeof values[0]);
 }
 
@@ -252,9 +262,19 @@ nlohmann::json shapeOf(const std::vector<ShapeFile>& files, std::size_t bytes,
     nlohmann::json branch{
         {"number", file->branch}, {"name", file->name}, {"states", nlohmann::json::array()}};
     const auto times = results.times();
+    nlohmann::json tools = toolsOf(file->tools, results.numSteps());
+    if (!tools.is_null() && bytesOf(tools) > bytes / 3) {
+      if (file == all.front().first)
+        notes.push_back("tools are not shown: their surfaces are too large for a page");
+      tools = nullptr;
+    }
     const std::size_t own = std::max<std::size_t>(1, room.states * times.size() / states);
-    for (const std::size_t step : evenly(times.size(), own))
+    for (const std::size_t step : evenly(times.size(), own)) {
       branch["states"].push_back(shape.state(results, static_cast<int>(step), times[step]));
+      if (!tools.is_null()) branch["states"].back()["tools"] = tools.at("motions").at(step);
+    }
+    // The same tools on every branch: what differs is where they are.
+    if (!tools.is_null() && !json.contains("tools")) json["tools"] = tools.at("surfaces");
     json["branches"].push_back(std::move(branch));
   }
   return json;

@@ -83,6 +83,37 @@ function place(of, nodes, coordinate) {
   of.computeBoundingSphere();
 }
 
+/** The rigid tools: grey, the body is seen through them. */
+class Tools {
+  constructor(surfaces, scene) {
+    const material = new MeshLambertMaterial({ color: "#8c8274", side: DoubleSide, transparent: true, opacity: 0.4, depthWrite: false });
+    this.meshes = surfaces.map((tool) => {
+      const made = new BufferGeometry();
+      made.setAttribute("position", new BufferAttribute(floats(tool.positions), 3));
+      made.setIndex(new BufferAttribute(integers(tool.triangles), 1));
+      made.computeVertexNormals();
+      const mesh = new Mesh(made, material);
+      mesh.matrixAutoUpdate = false;
+      mesh.frustumCulled = false;
+      scene.add(mesh);
+      return mesh;
+    });
+  }
+
+  /** `motions`: of every tool a matrix, row by row, and a shift; none where the state has none. */
+  move(motions, scale, shown) {
+    this.meshes.forEach((mesh, t) => {
+      mesh.visible = shown && motions !== null;
+      if (!motions) return;
+      const m = motions.subarray(12 * t, 12 * t + 12);
+      const r = (i, j) => (i === j ? 1 : 0) + scale * (m[3 * i + j] - (i === j ? 1 : 0)); // displacements times the scale
+      const c = (i) => scale * m[9 + i];
+      mesh.matrix.set(r(0, 0), r(0, 1), r(0, 2), c(0), r(1, 0), r(1, 1), r(1, 2), c(1), r(2, 0), r(2, 1), r(2, 2), c(2), 0, 0, 0, 1);
+      mesh.matrixWorldNeedsUpdate = true;
+    });
+  }
+}
+
 export function showShape(parent) {
   const shape = data.shape;
   const canvas = element("canvas", { id: "shape" });
@@ -108,6 +139,7 @@ export function showShape(parent) {
   const rest = new LineSegments(body.restLines, new LineBasicMaterial({ color: "#b8c2cc" }));
   for (const object of [surface, lines, rest]) object.frustumCulled = false;
   scene.add(surface, lines, rest);
+  const tools = new Tools(shape.tools ?? [], scene);
   const controls = new OrbitControls(camera, canvas);
   controls.addEventListener("change", render);
 
@@ -121,6 +153,7 @@ export function showShape(parent) {
   const scale = element("input", { id: "shape-scale", type: "number", value: 1, step: "any", min: 0 });
   const edges = element("input", { type: "checkbox", checked: "" });
   const undeformed = element("input", { type: "checkbox" });
+  const withTools = element("input", { id: "shape-tools", type: "checkbox", checked: "" });
   const says = element("output", { id: "shape-says" });
   const legend = element("div", { class: "ramp" });
   parent.append(
@@ -133,6 +166,7 @@ export function showShape(parent) {
       ...(shape.moves ? [element("label", {}, "displacements times ", scale)] : []),
       element("label", {}, edges, " edges"),
       ...(shape.moves ? [element("label", {}, undeformed, " undeformed")] : []),
+      ...(shape.tools ? [element("label", {}, withTools, " tools")] : []),
     ),
     says,
     canvas,
@@ -145,7 +179,7 @@ export function showShape(parent) {
     if (!decoded.has(key)) {
       if (decoded.size > 40) decoded.clear();
       const state = branches[b].states[s];
-      decoded.set(key, { u: floats(state.displacement), fields: state.fields.map(floats) });
+      decoded.set(key, { u: floats(state.displacement), fields: state.fields.map(floats), motions: state.tools ? floats(state.tools) : null });
     }
     return decoded.get(key);
   };
@@ -169,6 +203,7 @@ export function showShape(parent) {
     const state = read(b, s),
       values = valuesOf(state);
     body.deform(state.u, Number(scale.value) || 0);
+    tools.move(state.motions, Number(scale.value) || 0, withTools.checked);
     let low = Infinity,
       high = -Infinity;
     if (values)
@@ -234,7 +269,7 @@ export function showShape(parent) {
   };
   slider.addEventListener("input", tell);
   scale.addEventListener("input", update);
-  for (const choice of [field, edges, undeformed]) choice.addEventListener("change", update);
+  for (const choice of [field, edges, undeformed, withTools]) choice.addEventListener("change", update);
   watchPlace((to) => {
     const b = branches.findIndex((branch) => branch.number === to.branch);
     if (b < 0) return;

@@ -12,6 +12,7 @@
 #include "atrapos/fem/StructuredPlane.hpp"
 #include "atrapos/fem/StructuredShell.hpp"
 #include "output/PathTable.hpp"
+#include "output/ToolShapes.hpp"
 #include "report/Bundle.hpp"
 #include "report/ReportData.hpp"
 #include "report/ReportPage.hpp"
@@ -169,6 +170,23 @@ void writeResults(const std::filesystem::path& folder, int states, const fem::Me
   }
 }
 
+std::vector<float> floatsOf(const nlohmann::json& base64) {
+  static const std::string letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string bytes;
+  unsigned bits = 0;
+  int count = 0;
+  for (const char c : base64.get<std::string>()) {
+    if (c == '=') break;
+    bits = bits << 6 | static_cast<unsigned>(letters.find(c));
+    if ((count += 6) < 8) continue;
+    count -= 8;
+    bytes += static_cast<char>(bits >> count & 255);
+  }
+  std::vector<float> values(bytes.size() / sizeof(float));
+  std::memcpy(values.data(), bytes.data(), values.size() * sizeof(float));
+  return values;
+}
+
 TEST(ReportData, StatesOfTheBody) {
   const TemporaryFolder folder;
   fem::BoxOptions options;
@@ -209,13 +227,54 @@ TEST(ReportData, BodiesWithoutDisplacements) {
   EXPECT_EQ(state.at("fields")[0], base64(std::vector<float>(26, 2)));
 }
 
+/// A ball at rest and a roll that is shifted and turned: of each state where they are.
+TEST(ReportData, ToolsWhereTheyAre) {
+  const TemporaryFolder folder;
+  fem::BoxOptions options;
+  options.divisions = {2, 2, 2};
+  writeResults(folder.path(), 3, fem::boxMesh(options));
+  deck::Deck deck;
+  deck::Tool ball, roll;
+  ball.name = "ball";
+  ball.surface = deck::SphereTool{{0, 0, 3}, 1.5};
+  roll.name = "roll";
+  roll.surface = deck::CylinderTool{{0, 0, -2}, {0, 1, 0}, 1};
+  roll.motion.shift = {{1, 0, 2}};
+  roll.motion.angle = {300};  // degrees per load factor, about the axis that follows
+  roll.motion.axis = {1, 2, 2};
+  roll.motion.pivot = {0, 1, -2};
+  deck.tools = {ball, roll};
+  writeToolShapes(folder.path().string(), deck);
+  const nlohmann::json data = reportData(folder.path().string());
+  EXPECT_TRUE(data.at("notes").empty());
+  const auto& shape = data.at("shape");
+  ASSERT_EQ(shape.at("tools").size(), 2u);
+  EXPECT_EQ(shape.at("tools")[1].at("name"), "roll");
+  const auto states = shape.at("branches").at(0).at("states");
+  for (int s = 0; s < 3; ++s) {
+    const auto motions = floatsOf(states[s].at("tools"));
+    ASSERT_EQ(motions.size(), 24u);
+    for (int i = 0; i < 9; ++i) EXPECT_NEAR(motions[i], i % 4 == 0 ? 1 : 0, 1e-7) << "the ball is at rest";
+    const auto positions = floatsOf(shape.at("tools")[1].at("positions"));
+    for (std::size_t n = 0; n < positions.size(); n += 3) {
+      const float* const x = &positions[n];
+      const deck::Vector3 there = moved(roll.motion, 0.1 * s, {x[0], x[1], x[2]});
+      for (int i = 0; i < 3; ++i) {
+        const float* const row = &motions[12 + 3 * i];
+        // Single precision of lengths of 3.
+        EXPECT_NEAR(row[0] * x[0] + row[1] * x[1] + row[2] * x[2] + motions[21 + i], there[i], 2e-6);
+      }
+    }
+  }
+}
+
 TEST(ReportData, WhatIsThinnedIsSaid) {
   const TemporaryFolder folder;
   fem::BoxOptions options;
   options.divisions = {2, 2, 2};
   writeResults(folder.path(), 400, fem::boxMesh(options));
   std::vector<std::string> notes;
-  const std::vector<ShapeFile> files{{0, "path", (folder / "results.exo").string()}};
+  const std::vector<ShapeFile> files{{0, "path", (folder / "results.exo").string(), ""}};
   const nlohmann::json all = shapeOf(files, 100'000'000, notes);
   EXPECT_EQ(all.at("branches")[0].at("states").size(), 150u);
   EXPECT_EQ(notes, (std::vector<std::string>{"the deformed shape shows 150 of 400 states"}));

@@ -23,7 +23,7 @@ supports:
 loads:
   tip: {type: surface, set: x_max, total: [0, 0, -10]}
 tools:
-  roll: {type: cylinder, center: [4, 0, -1.25], axis: [0, 1, 0], radius: 1}
+  roll: {type: cylinder, center: [4, 0, -1.25], axis: [0, 1, 0], radius: 1, motion: {shift: [0, 0, 0.1]}}
 contact:
   lower: {tool: roll, set: z_min, stiffness: 1000, regularisation: 1.0e-3}
 path: {order: 15, residual: 1.0e-8, stop: {load_factor: 0.5}}
@@ -140,6 +140,10 @@ def check_contact(page):
     page.at("#shape", 0.5, 0.5).click_and_hold().move_by_offset(120, 40).release().perform()
     check("it turns under the mouse", picture() != early)
     turned = picture()
+    page.js("document.getElementById('shape-tools').click()")
+    check("tools can be hidden", picture() != turned)
+    page.js("document.getElementById('shape-tools').click()")
+    check("and shown", picture() == turned)
     field = Select(page.one("#shape-field"))
     check("fields", len(field.options) > 6, [o.text for o in field.options])
     field.select_by_visible_text("stress_xx")
