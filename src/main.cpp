@@ -174,29 +174,10 @@ int run(const RunWords& words) {
 }
 
 int map(const atrapos::MapWords& words) {
-  atrapos::MapOptions options = atrapos::mapOptions(words);
-  options.progress = words.quiet ? nullptr : &std::cout;
-  std::vector<atrapos::deck::Deck> decks;
-  for (const std::string& deck : words.decks) {
-    decks.push_back(atrapos::deck::readDeck(deck));
-    atrapos::plugins::require(decks.back());
-  }
   // Many short runs, one after another: one rank makes them.
   return atrapos::ranks::onFirst([&] {
     return reported("atrapos: ", [&] {
-      std::vector<std::unique_ptr<atrapos::Scene>> scenes;
-      std::vector<std::unique_ptr<atrapos::PathCase>> cases;
-      for (const auto& deck : decks) {
-        if (deck.problem) {
-          cases.push_back(std::make_unique<atrapos::ModelCase>(deck));
-          continue;
-        }
-        if (!deck.path.stages.empty())
-          atrapos::deck::failAt(deck, "path/stages", "a map is of paths without stages");
-        scenes.push_back(std::make_unique<atrapos::Scene>(deck, atrapos::readDeckMesh(deck)));
-        cases.push_back(std::make_unique<atrapos::SceneCase>(*scenes.back()));
-      }
-      atrapos::writeMap(cases, options);
+      atrapos::makeMap(words);
       return 0;
     });
   });
@@ -364,6 +345,11 @@ int main(int argc, char** argv) {
       ->take_all();
   mapCommand->add_option("--pade", mapWords.pades, "off, automatic, on (default: off,automatic)")
       ->delimiter(',')
+      ->expected(1)
+      ->take_all();
+  mapCommand
+      ->add_option("--vary", mapWords.vary,
+                   "KEY=LIST: values of a key of the decks, as path/direction=[1, -1]; may be repeated")
       ->expected(1)
       ->take_all();
   mapCommand->add_option("-o,--output", mapWords.output, "table (default: map.csv)");

@@ -4,13 +4,17 @@
 
 #include <Tpetra_Vector.hpp>
 #include <algorithm>
+#include <deque>
 #include <map>
 #include <ostream>
 #include <stdexcept>
 
 #include "atrapos/path/PathFollower.hpp"
+#include "commands/GrowingPath.hpp"
 #include "commands/RunSettings.hpp"
+#include "commands/Stages.hpp"
 #include "deck/DeckTables.hpp"
+#include "deck/Stages.hpp"
 #include "output/Files.hpp"
 #include "output/PathTable.hpp"
 #include "output/ReferencePath.hpp"
@@ -24,6 +28,7 @@ constexpr int kReferenceSamples = 20, kRunSamples = 8;  // of each step
 /// the loosest bound and of the chain's chords, far below the distance of branches where they end.
 constexpr double kOnPath = 0.03;
 
+/// Of a path or a stage of it.
 struct Reference {
   ReferencePath path{kReferenceSamples};
   double extent = 0;
@@ -82,24 +87,64 @@ class Judge final : public path::Observer {
   path::RCP<path::Vector> r_;
 };
 
-Reference referenceOf(PathCase& pathCase) {
-  path::Options options = pathOptions(pathCase);
-  options.order = 10;
-  options.autoOrder = false;
-  options.delta = options.residualBound = 1e-10;
-  options.pade = path::PadeUse::off;
-  options.searchEveryStep = options.criticalPoints;
-  options.maxSteps = 100000;
-  Reference reference;
-  ReferenceObserver observer(reference);
-  const auto solver = tangentSolver(pathCase);
-  path::PathFollower follower(pathCase.problem(), *solver, options, pathCase.stops());
-  const path::Outcome outcome = follower.run(pathCase.start(), observer);
-  if (outcome.reason != path::EndReason::stopReached)
-    throw std::runtime_error(
-        fmt::format("{}: the reference path does not reach a stop: {}", pathCase.deck().file, outcome.text));
-  reference.extent = reference.path.extent();
-  return reference;
+/// Follows the path, or its stages up to the one that comes to no stop. `change`: what is other than in the
+/// deck; `observerOf`: who watches a stage.
+path::Outcome follow(const MapProblem& of, const std::function<void(path::Options&)>& change,
+                     const std::function<path::Observer&(std::size_t stage, path::Problem&)>& observerOf) {
+  std::vector<double> ends;
+  std::unique_ptr<StageCase> own;
+  path::Start from;
+  from.state = of.first->start();
+  path::Outcome total;
+  for (std::size_t stage = 0;; ++stage) {
+    PathCase& pathCase = own ? own->pathCase() : *of.first;
+    path::Problem& problem = own ? own->problem() : of.first->problem();
+    path::Options options = pathOptions(pathCase);
+    change(options);
+    const auto solver = tangentSolver(pathCase);
+    path::PathFollower follower(problem, *solver, options, pathCase.stops());
+    const path::Outcome part = GrowingPath(pathCase, observerOf(stage, problem)).follow(follower, from);
+    const int steps = total.steps + part.steps;
+    total = stage == 0 ? part : sumOf(total, part);
+    total.steps = steps;
+    if (part.reason != path::EndReason::stopReached || stage + 1 >= of.deck.path.stages.size()) return total;
+    ends.push_back(part.final.lambda);
+    const int next = static_cast<int>(stage) + 1;
+    from = {};
+    from.state = startOfNext(part.final, pathCase.problem(), deck::beginOf(of.deck, next, ends));
+    own = std::make_unique<StageCase>(of.deck, next, ends, pathCase, from.state);
+  }
+}
+
+/// The reference path of every stage; throws std::runtime_error, one line.
+std::vector<Reference> referencesOf(const MapProblem& of) {
+  std::string why;
+  for (double delta = 1e-10; delta < 2e-6; delta *= 10) {
+    std::vector<Reference> references;
+    std::unique_ptr<ReferenceObserver> observer;
+    const path::Outcome outcome = follow(
+        of,
+        [&](path::Options& options) {
+          options.order = 10;
+          options.autoOrder = false;
+          options.delta = options.residualBound = delta;
+          options.pade = path::PadeUse::off;
+          options.searchEveryStep = options.criticalPoints;
+          options.maxSteps = 100000;
+        },
+        [&](std::size_t, path::Problem&) -> path::Observer& {
+          references.emplace_back();
+          observer = std::make_unique<ReferenceObserver>(references.back());
+          return *observer;
+        });
+    if (outcome.reason == path::EndReason::stopReached) {
+      for (Reference& reference : references) reference.extent = reference.path.extent();
+      return references;
+    }
+    why = outcome.text;
+  }
+  throw std::runtime_error(
+      fmt::format("{}: the reference path does not reach a stop: {}", of.deck.file, why));
 }
 
 /// Text as one field of a table.
@@ -109,66 +154,86 @@ std::string field(std::string text) {
   return text;
 }
 
-std::string row(PathCase& pathCase, const Reference& reference, int order, double delta, path::PadeUse pade,
+/// What one run is made with.
+struct Setting {
+  int order;  ///< 0: automatic
+  double delta;
+  path::PadeUse pade;
+};
+
+std::string row(const MapProblem& of, const std::vector<Reference>& references, const Setting& setting,
                 std::string& outcome) {
-  path::Options options = pathOptions(pathCase);
-  options.autoOrder = order == 0;
-  if (order > 0) options.order = order;
-  options.delta = options.residualBound = delta;
-  options.pade = pade;
-  Judge judge(reference, pathCase.problem());
-  const auto solver = tangentSolver(pathCase);
-  path::PathFollower follower(pathCase.problem(), *solver, options, pathCase.stops());
-  const path::Outcome end = follower.run(pathCase.start(), judge);
+  std::deque<Judge> judges;  // of the stages
+  const path::Outcome end = follow(
+      of,
+      [&](path::Options& options) {
+        options.autoOrder = setting.order == 0;
+        if (setting.order > 0) options.order = setting.order;
+        options.delta = options.residualBound = setting.delta;
+        options.pade = setting.pade;
+      },
+      [&](std::size_t stage, path::Problem& problem) -> path::Observer& {
+        return judges.emplace_back(references[stage], problem);
+      });
   std::string reason = end.text;
+  double worstResidual = 0;
+  int points = 0, expected = 0;
+  const Judge* left = nullptr;  // the first stage that left its path
+  for (const Judge& judge : judges) {
+    if (!judge.outcome.empty() && left == nullptr) left = &judge;
+    worstResidual = std::max(worstResidual, judge.worstResidual);
+    points += judge.points;
+  }
+  for (const Reference& reference : references) expected += reference.points;
   // Inside a step the bound is not asked for, only expected: the factor leaves room for that.
   constexpr double honest = 2;
-  if (!judge.outcome.empty()) {
-    outcome = judge.outcome;
-    reason = judge.where;
-  } else if (end.reason == path::EndReason::stopReached && !judge.atEnd()) {
+  if (left != nullptr) {
+    outcome = left->outcome;
+    reason = left->where;
+  } else if (end.reason == path::EndReason::stopReached && !judges.back().atEnd()) {
     outcome = "jumped";
     reason = "reached the stop on another branch";
-  } else if (judge.worstResidual > honest * delta) {
+  } else if (worstResidual > honest * setting.delta) {
     outcome = "residual";
   } else if (end.reason == path::EndReason::stopReached) {
     outcome = "end";
   } else {
     outcome = end.reason == path::EndReason::stepLimit ? "limit" : "ended";
   }
-  return fmt::format("{},{},{:g},{},{},{},{},{},{},{},{},{:.2e},{:.4f},{}", field(pathCase.deck().title),
-                     order > 0 ? std::to_string(order) : "auto", delta, deck::wordOf(pade, deck::padeUses()),
-                     outcome, end.steps, end.factorizations, end.orders, end.corrections, judge.points,
-                     reference.points, judge.worstResidual, end.seconds.total, field(reason));
+  return fmt::format("{},{},{:g},{},{},{},{},{},{},{},{},{:.2e},{:.4f},{},{}", field(of.deck.title),
+                     setting.order > 0 ? std::to_string(setting.order) : "auto", setting.delta,
+                     deck::wordOf(setting.pade, deck::padeUses()), outcome, end.steps, end.factorizations,
+                     end.orders, end.corrections, points, expected, worstResidual, end.seconds.total,
+                     field(of.values), field(reason));
+}
+
+void tell(std::ostream& out, const MapProblem& of, const std::map<std::string, int>& counts) {
+  out << of.deck.title << (of.values.empty() ? "" : " " + of.values) << ':';
+  for (const auto& [outcome, count] : counts) out << fmt::format(" {} {}", count, outcome);
+  out << std::endl;
 }
 
 }  // namespace
 
-void writeMap(const std::vector<std::unique_ptr<PathCase>>& cases, const MapOptions& options) {
-  for (const auto& pathCase : cases)
-    if (!pathCase->deck().path.series())
-      deck::failAt(pathCase->deck(), "path/method", "the map varies the settings of series; expected series");
-  std::vector<std::string> decks;
-  for (const auto& pathCase : cases) decks.push_back(pathCase->deck().file);
+void writeMap(const std::vector<MakeProblem>& problems, const std::vector<std::string>& decks,
+              const MapOptions& options) {
   requireOwn(options.file, Made::map, decks);
   Table table(
       options.file,
       "problem,order,delta,pade,outcome,steps,factorizations,orders,corrections,points,points_expected,"
-      "worst_residual,seconds,reason");
-  for (const auto& pathCase : cases) {
-    const Reference reference = referenceOf(*pathCase);
+      "worst_residual,seconds,values,reason");
+  for (const MakeProblem& make : problems) {
+    const MapProblem problem = make();
+    const std::vector<Reference> references = referencesOf(problem);
     std::map<std::string, int> counts;
     for (const int order : options.orders)
       for (const double delta : options.deltas)
         for (const path::PadeUse pade : options.pades) {
           std::string outcome;
-          table.append(row(*pathCase, reference, order, delta, pade, outcome));
+          table.append(row(problem, references, {order, delta, pade}, outcome));
           ++counts[outcome];
         }
-    if (!options.progress) continue;
-    *options.progress << pathCase->deck().title << ':';
-    for (const auto& [outcome, count] : counts) *options.progress << fmt::format(" {} {}", count, outcome);
-    *options.progress << std::endl;
+    if (options.progress) tell(*options.progress, problem, counts);
   }
 }
 

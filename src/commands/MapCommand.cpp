@@ -3,9 +3,18 @@
 #include <fmt/format.h>
 
 #include <cstdlib>
+#include <iostream>
 #include <stdexcept>
 
+#include "chart/Chart.hpp"
+#include "chart/DeckEdits.hpp"
+#include "commands/FailureMap.hpp"
+#include "commands/MeshCommand.hpp"
+#include "commands/ModelCase.hpp"
+#include "commands/SceneCase.hpp"
+#include "commands/Stages.hpp"
 #include "deck/DeckTables.hpp"
+#include "plugin/Plugins.hpp"
 
 namespace atrapos {
 namespace {
@@ -22,13 +31,90 @@ int order(const std::string& word) {
   return static_cast<int>(order);
 }
 
+/// A key of a deck and values for it.
+struct Varied {
+  std::string key;
+  std::vector<deck::YamlTree> values;
+};
+
+Varied varied(const std::string& word) {
+  constexpr const char* const expected = "KEY=LIST, as path/direction=[1, -1]";
+  const std::size_t equals = word.find('=');
+  if (equals == std::string::npos || equals == 0) refuse("--vary", word, expected);
+  const std::string key = word.substr(0, equals);
+  deck::YamlTree list;
+  try {
+    list = chart::valueAt(deck::readYaml("list: " + word.substr(equals + 1), "--vary").root, "list");
+  } catch (const deck::DeckError&) {
+    refuse("--vary", word, expected);
+  }
+  if (!list || list->kind != deck::YamlNode::Kind::List || list->items.empty())
+    refuse("--vary", word, expected);
+  return {key, list->items};
+}
+
+/// A deck with values of its own.
+struct Variant {
+  deck::Deck deck;
+  std::string values;      ///< "key=value ..."
+  bool makesMesh = false;  ///< of mesh/generate, which may be another one than that of the file
+};
+
+Variant variantOf(const deck::Deck& deck, const chart::Edits& edits) {
+  if (edits.empty()) return {deck, "", false};
+  Variant variant;
+  deck::YamlTree root = deck::readYaml(deck.text, deck.file).root;
+  for (const auto& [key, value] : edits) {
+    variant.values += (variant.values.empty() ? "" : " ") + key + "=" + chart::onOneLine(value);
+    variant.makesMesh = variant.makesMesh || key.rfind("mesh/generate", 0) == 0;
+    try {
+      root = chart::replaced(root, key, value);
+    } catch (const std::invalid_argument& error) {
+      throw std::invalid_argument(fmt::format("--vary {}: {}: {}", variant.values, deck.file, error.what()));
+    }
+  }
+  try {
+    variant.deck = deck::readDeckText(chart::yamlText(root), deck.file);
+  } catch (const deck::DeckError& error) {
+    throw std::invalid_argument(fmt::format("--vary {}: {}", variant.values, error.what()));
+  }
+  return variant;
+}
+
+std::vector<Variant> variantsOf(const deck::Deck& deck, const std::vector<Varied>& vary) {
+  std::vector<chart::Edits> all(1);
+  for (const Varied& varied : vary) {
+    std::vector<chart::Edits> more;
+    for (const chart::Edits& edits : all)
+      for (const deck::YamlTree& value : varied.values) {
+        more.push_back(edits);
+        more.back().emplace_back(varied.key, value);
+      }
+    all = std::move(more);
+  }
+  std::vector<Variant> variants;
+  for (const chart::Edits& edits : all) variants.push_back(variantOf(deck, edits));
+  return variants;
+}
+
+MapProblem problemOf(const Variant& variant) {
+  const deck::Deck& deck = variant.deck;
+  MapProblem problem{deck, variant.values, nullptr};
+  if (deck.problem) {
+    problem.first = std::make_unique<ModelCase>(deck);
+    return problem;
+  }
+  DeckMesh mesh = variant.makesMesh ? DeckMesh(generateMesh(deck)) : readDeckMesh(deck);
+  const deck::Deck first = firstDeck(deck, mesh);
+  problem.first = std::make_unique<SceneCase>(std::make_unique<Scene>(first, std::move(mesh)));
+  return problem;
+}
+
 path::PadeUse pade(const std::string& word) {
   for (const auto& [name, use] : deck::padeUses())
     if (word == name) return use;
   refuse("--pade", word, "off, automatic or on");
 }
-
-}  // namespace
 
 MapOptions mapOptions(const MapWords& words) {
   MapOptions options;
@@ -42,6 +128,25 @@ MapOptions mapOptions(const MapWords& words) {
   for (const std::string& word : words.pades) options.pades.push_back(pade(word));
   if (!words.output.empty()) options.file = words.output;
   return options;
+}
+
+}  // namespace
+
+void makeMap(const MapWords& words) {
+  MapOptions options = mapOptions(words);
+  options.progress = words.quiet ? nullptr : &std::cout;
+  std::vector<Varied> vary;
+  for (const std::string& word : words.vary) vary.push_back(varied(word));
+  std::vector<MakeProblem> problems;
+  for (const std::string& file : words.decks) {
+    const deck::Deck deck = deck::readDeck(file);
+    plugins::require(deck);
+    if (!deck.path.series())
+      deck::failAt(deck, "path/method", "the map varies the settings of series; expected series");
+    for (Variant& variant : variantsOf(deck, vary))
+      problems.push_back([variant = std::move(variant)] { return problemOf(variant); });
+  }
+  writeMap(problems, words.decks, options);
 }
 
 }  // namespace atrapos

@@ -3,19 +3,20 @@
 #include <string>
 #include <vector>
 
-#include "commands/FailureMap.hpp"
-
 namespace atrapos {
 
 /// The words of `atrapos map`, empty where they are not given.
 struct MapWords {
   std::vector<std::string> decks, orders, pades;
+  std::vector<std::string> vary;  ///< KEY=LIST
   std::vector<double> deltas;
   std::string output;
   bool quiet = false;
 };
 
-/// What they ask for. Throws std::invalid_argument, one line, on a word that makes no sense.
-MapOptions mapOptions(const MapWords& words);
+/// Makes the map that the words ask for: every deck with every combination of the values that `vary` gives
+/// its keys, under every setting. Throws std::invalid_argument or deck::DeckError, one line, on words and
+/// decks that make no sense, before the first run; otherwise as writeMap.
+void makeMap(const MapWords& words);
 
 }  // namespace atrapos

@@ -26,9 +26,9 @@ std::vector<double> endsOf(const path::BranchDiagram& diagram, std::size_t count
   return ends;
 }
 
-/// The state that a stage has ended at, where the next one begins: with conditions that are said, since those
-/// with which that one's problem would start may be other ones.
-path::State startOf(const path::State& end, path::Problem& problem, double loadFactor) {
+}  // namespace
+
+path::State startOfNext(const path::State& end, path::Problem& problem, double loadFactor) {
   path::State start = problem.afterEvent({}, problem.settled(end)).copy();
   start.lambda = loadFactor;
   if (start.memory && !start.memory->u.is_null()) {
@@ -38,8 +38,6 @@ path::State startOf(const path::State& end, path::Problem& problem, double loadF
   }
   return start;
 }
-
-}  // namespace
 
 deck::Deck firstDeck(const deck::Deck& whole, const DeckMesh& mesh) {
   const auto& stages = whole.path.stages;
@@ -107,7 +105,7 @@ void followStages(const deck::Deck& whole, PathCase& first, std::unique_ptr<Stag
     PathCase& caseBefore = underWay ? underWay->pathCase() : first;
     path::Branch branch;
     branch.stage = stages[number].name;
-    branch.start = startOf(before.final, caseBefore.problem(), deck::beginOf(whole, number, ends));
+    branch.start = startOfNext(before.final, caseBefore.problem(), deck::beginOf(whole, number, ends));
     auto next = std::make_unique<StageCase>(whole, number, ends, caseBefore, branch.start);
     progress.current = number;
     progress.path.emplace();

@@ -26,6 +26,10 @@ class StageCase {
   std::unique_ptr<path::Problem> released_;  ///< null where the stage releases nothing
 };
 
+/// The state that a stage has ended at, where the next one begins at this load factor: with conditions that
+/// are said, since those with which that one's problem would start may be other ones.
+path::State startOfNext(const path::State& end, path::Problem& problem, double loadFactor);
+
 /// The deck that a scene is made of: that of the first stage, or the deck itself where it has none. Throws
 /// DeckError where a stage releases what holds a body. `mesh` is the deck's.
 deck::Deck firstDeck(const deck::Deck& whole, const DeckMesh& mesh);

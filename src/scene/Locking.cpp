@@ -17,6 +17,17 @@ constexpr double kTolerated = 0.05;  // of the stiffness in bending; finer meshe
 /// thickness t. G/E is a half without Poisson's ratio, which the line need not know better.
 double tooStiff(double length, double thickness) { return 0.5 * length * length / (thickness * thickness); }
 
+/// Whether cells stand in rows of their own, one cell wide and thick: no corner belongs to more than two.
+bool standsInRows(const fem::Mesh& mesh, const fem::Block& block) {
+  constexpr int corners = 8;
+  const std::size_t nodes = fem::nodesPerElement(block.topology);
+  std::vector<unsigned char> cells(mesh.numNodes(), 0);
+  for (std::size_t first = 0; first < block.nodes.size(); first += nodes)
+    for (int corner = 0; corner < corners; ++corner)
+      if (++cells[block.nodes[first + corner]] > 2) return false;
+  return true;
+}
+
 }  // namespace
 
 std::vector<std::string> lockingCells(const deck::Deck& deck, const fem::Mesh& mesh) {
@@ -24,6 +35,12 @@ std::vector<std::string> lockingCells(const deck::Deck& deck, const fem::Mesh& m
   for (const deck::Material& material : deck.materials)
     for (const std::string& name : material.blocks) {
       const fem::Block& block = mesh.blocks[fem::findBlock(mesh, name)];
+      const bool reduced = material.formulation != deck::Material::Formulation::Mixed;
+      if (block.topology == fem::Topology::Hex20 && reduced && standsInRows(mesh, block))
+        lines.push_back(fmt::format(
+            "block '{}': a row of HEX20, one cell wide and thick, twists its section without energy "
+            "and its tangent is singular; two cells across do not, nor does HEX27",
+            block.name));
       const bool solid = block.topology == fem::Topology::Hex8;
       if (!solid && block.topology != fem::Topology::Quad4) continue;
       const Extents extents = extentsOf(mesh, block);

@@ -69,8 +69,24 @@ TEST_F(Locking, NotOfFineMeshesAndNotOfTheDefault) {
 
 // What is as long as it is thick shears more than it bends.
 TEST_F(Locking, NotOfThickBodies) {
-  EXPECT_EQ(of("shape: box, lengths: [4, 1, 1], divisions: [1, 1, 1], cell: HEX8").first.find("locks in bending"),
-            std::string::npos);
+  EXPECT_EQ(
+      of("shape: box, lengths: [4, 1, 1], divisions: [1, 1, 1], cell: HEX8").first.find("locks in bending"),
+      std::string::npos);
+}
+
+/// A row of HEX20 is singular, two rows are not.
+TEST_F(Locking, RowsOfReducedCellsHaveNoStiffnessInTwist) {
+  writeFile(folder_ / "m.yaml",
+            cantilever("shape: box, lengths: [10, 1, 1], divisions: [5, 1, 1], cell: HEX20"));
+  ASSERT_EQ(runAtrapos({"mesh", "-q", "m.yaml"}, folder_.path()).exitCode, 0);
+  const std::string line = "block 'body': a row of HEX20, one cell wide and thick";
+  EXPECT_NE(runAtrapos({"check", "m.yaml"}, folder_.path()).out.find(line), std::string::npos);
+  const CommandResult run = runAtrapos({"run", "m.yaml"}, folder_.path());
+  EXPECT_NE(run.out.find(line), std::string::npos) << run.out;
+  EXPECT_NE(run.err.find("numerically singular"), std::string::npos) << run.err;
+  const auto [two, tip] = of("shape: box, lengths: [10, 1, 1], divisions: [5, 2, 1], cell: HEX20");
+  EXPECT_EQ(two.find("a row of HEX20"), std::string::npos) << two;
+  EXPECT_NEAR(kBeam / tip, 1, 0.01);
 }
 
 }  // namespace

@@ -102,6 +102,56 @@ TEST_F(MapTest, WorstCasesReachTheirEnd) {
   }
 }
 
+/// Every combination of the values, each with the mesh that it generates.
+TEST_F(MapTest, VariesKeysOfTheDeck) {
+  writeFile(folder_ / "bar.yaml",
+            "mesh: {file: bar.exo, generate: {shape: box, lengths: [4, 1, 1], divisions: [2, 1, 1]}}\n"
+            "materials: {m: {law: saint_venant_kirchhoff, youngs_modulus: 100, poissons_ratio: 0.3,\n"
+            "  blocks: [body]}}\n"
+            "supports: {left: {set: x_min, x: 0, y: 0, z: 0}}\n"
+            "loads: {pull: {type: surface, set: x_max, total: [10, 0, 0]}}\n"
+            "path: {stop: {load_factor: 1}}\n");
+  const auto table = map({"bar.yaml", "--orders", "10", "--deltas", "1e-6", "--pade", "off", "--vary",
+                          "mesh/generate/divisions=[[2, 1, 1], [4, 2, 2]]", "--vary",
+                          "materials/m/poissons_ratio=[0, 0.3]"});
+  ASSERT_EQ(table.size(), 4u);
+  std::set<std::string> values;
+  for (const auto& row : table) {
+    EXPECT_EQ(row.at("outcome"), "end") << row.at("reason");
+    values.insert(row.at("values"));
+  }
+  EXPECT_EQ(values.size(), 4u);
+  EXPECT_EQ(values.count("mesh/generate/divisions=[4; 2; 2] materials/m/poissons_ratio=0.3"), 1u);
+  EXPECT_NE(out_.find("bar mesh/generate/divisions=[2, 1, 1] materials/m/poissons_ratio=0: 1 end"),
+            std::string::npos)
+      << out_;
+}
+
+/// Stages one after another, and contact of points that get their law when they come near.
+TEST_F(MapTest, StagesAndContact) {
+  writeFile(folder_ / "press.yaml",
+            "mesh: {file: bar.exo, generate: {shape: box, lengths: [8, 1, 1], divisions: [8, 2, 1],\n"
+            "  cell: HEX20}}\n"
+            "materials: {m: {law: saint_venant_kirchhoff, youngs_modulus: 1000, poissons_ratio: 0.3,\n"
+            "  blocks: [body]}}\n"
+            "supports: {left: {set: x_min, x: 0, y: 0, z: 0}}\n"
+            "loads:\n"
+            "  pull: {type: surface, set: x_max, total: [10, 0, 0]}\n"
+            "tools: {ball: {type: sphere, center: [7, 0.5, 4], radius: 2.5, motion: {shift: [0, 0, -1]}}}\n"
+            "contact: {top: {tool: ball, set: z_max, law: hard}}\n"
+            "path:\n"
+            "  stages:\n"
+            "    stretch: {stop: {load_factor: 1}, drives: [pull]}\n"
+            "    press: {stop: {load_factor: 2}, drives: [ball]}\n");
+  ASSERT_EQ(runAtrapos({"mesh", "-q", "press.yaml"}, folder_.path()).exitCode, 0);
+  const auto table = map({"press.yaml", "--orders", "10,20", "--deltas", "1e-5,1e-7", "--pade", "automatic"});
+  ASSERT_EQ(table.size(), 4u);
+  for (const auto& row : table) {
+    EXPECT_EQ(row.at("outcome"), "end") << row.at("reason");
+    EXPECT_GT(std::stoi(row.at("steps")), 3) << "of both stages";
+  }
+}
+
 TEST_F(MapTest, BadWords) {
   writeFile(folder_ / "truss.yaml", "problem: {name: von_mises_truss}\n");
   const std::vector<std::pair<std::vector<std::string>, std::string>> cases{
@@ -110,7 +160,11 @@ TEST_F(MapTest, BadWords) {
       {{"map", "truss.yaml", "--orders", "10,many"}, "--orders 'many'"},
       {{"map", "truss.yaml", "--orders", "70"}, "--orders '70'"},
       {{"map", "truss.yaml", "--deltas", "2"}, "--deltas '2'"},
-      {{"map", "truss.yaml", "--pade", "maybe"}, "--pade 'maybe'"}};
+      {{"map", "truss.yaml", "--pade", "maybe"}, "--pade 'maybe'"},
+      {{"map", "truss.yaml", "--vary", "path/order"}, "--vary 'path/order': expected KEY=LIST"},
+      {{"map", "truss.yaml", "--vary", "path/order=3"}, "--vary 'path/order=3'"},
+      {{"map", "truss.yaml", "--vary", "path/none=[1]"}, "--vary path/none=1: "},
+      {{"map", "truss.yaml", "--vary", "problem/name/a=[1]"}, "below what is no map"}};
   for (const auto& [words, problem] : cases) {
     const CommandResult r = runAtrapos(words, folder_.path());
     EXPECT_EQ(r.exitCode, 2);
