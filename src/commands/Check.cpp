@@ -46,7 +46,7 @@ void printCheck(const deck::Deck& deck, Scene& scene, std::ostream& out) {
     out << "# warning   " << line << '\n';
   for (const std::string& line : lockingCells(scene.deck(), scene.mesh()))
     out << "# warning   " << line << '\n';
-  for (const std::string& line : waste(scene.deck(), scene.mesh())) out << "# waste     " << line << '\n';
+  for (const std::string& line : waste(scene)) out << "# waste     " << line << '\n';
   if (ranks::count() > 1) out << fmt::format("# ranks     {}\n", threads::describe(ranks::communicator()));
   SceneCase pathCase(scene);
   const auto solver = tangentSolver(pathCase);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
@@ -16,6 +17,10 @@
 
 namespace atrapos {
 
+/// Entries of the deck that cost work even where the path makes no use of them, and a line on each for the
+/// user in that case: "contact/lower" -> "none of its points has closed".
+using Costs = std::map<std::string, std::string>;
+
 /// A state of a case, to which it refers. What it shows is evaluated when it is first asked for, and once;
 /// the case's problem must stay as it is meanwhile. Collective.
 class CaseState {
@@ -25,6 +30,9 @@ class CaseState {
   virtual std::vector<double> monitors() const = 0;
   /// Closed contact points.
   virtual int activeContacts() const { return 0; }
+  /// Takes away what the state makes use of from the entries of the deck that cost without being used
+  /// (PathCase::costs).
+  virtual void strikeUsed(Costs& /*costs*/) const {}
 };
 
 /// Numbers of a state that go into the result file beside the fields.
@@ -109,6 +117,7 @@ class PathCase {
   virtual std::unique_ptr<PathCase> under(const deck::Deck& /*deck*/, const path::State& /*start*/) const {
     return nullptr;
   }
+  virtual Costs costs() const { return {}; }
   /// Lines for the user before the first step: what was chosen for him.
   virtual std::vector<std::string> remarks() const { return {}; }
   /// Whether the step leads where the problem has to be another one, as it is from now on: the step has to be

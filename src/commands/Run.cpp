@@ -214,6 +214,9 @@ RunResult runPath(const deck::Deck& deck, PathCase& pathCase, const RunOptions& 
     summary["restarted_behind_step"] =
         behind ? behind->steps : continued->progress.diagram.branches[branch].outcome.steps;
   }
+  RunResult result = resultOf(deck, diagram);
+  const Costs unused = result.reachedStop ? recorder.unused() : Costs();
+  for (const auto& [entry, line] : unused) summary["unused"].push_back(entry);
   std::string finished;
   const path::Outcome& first = diagram.branches[0].outcome;
   if (first.reason == path::EndReason::stopReached && !Interrupt::came())
@@ -229,11 +232,11 @@ RunResult runPath(const deck::Deck& deck, PathCase& pathCase, const RunOptions& 
         summary["steps"].get<int>(), summary["factorizations"].get<int>(), summary["solves"].get<int>(),
         recorder.seconds(), recorder.worstResidual());
     if (!finished.empty()) *options.progress << finished << '\n';
+    for (const auto& [entry, line] : unused) *options.progress << fmt::format("waste: {}: {}\n", entry, line);
     if (!plot.empty()) *options.progress << plot << '\n';
     for (const std::string& line : {unreported, undrawn})
       if (!line.empty()) *options.progress << line << '\n';
   }
-  RunResult result = resultOf(deck, diagram);
   if (result.reachedStop && !trouble.empty()) result = {false, trouble};
   return result;
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <Tpetra_Vector.hpp>
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -16,11 +17,51 @@
 
 namespace atrapos {
 
+namespace {
+
+/// Whether there is plastic strain in one of the material's blocks.
+bool hasYielded(const Scene& scene, const deck::Material& material, const SceneState& state) {
+  for (const std::string& name : material.blocks) {
+    const fem::PointValues& values = state.observed(scene.bodies()[fem::findBlock(scene.mesh(), name)].term);
+    const auto at = std::find(values.names.begin(), values.names.end(), "equivalent_plastic_strain");
+    if (at == values.names.end()) continue;
+    const std::size_t width = values.names.size();
+    for (std::size_t i = at - values.names.begin(); i < values.values.size(); i += width)
+      if (values.values[i] > 0) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
 int SceneCaseState::activeContacts() const {
   int active = 0;
   for (const ContactPoints& contact : scene_.contacts())
     active += scene_.contactState(contact, state_).active;
   return active;
+}
+
+void SceneCaseState::strikeUsed(Costs& costs) const {
+  if (costs.empty()) return;
+  for (const ContactPoints& contact : scene_.contacts())
+    if (const auto at = costs.find("contact/" + contact.name);
+        at != costs.end() && scene_.contactState(contact, state_).active > 0)
+      costs.erase(at);
+  for (const deck::Material& material : scene_.deck().materials)
+    if (const auto at = costs.find("materials/" + material.name);
+        at != costs.end() && hasYielded(scene_, material, state_))
+      costs.erase(at);
+}
+
+Costs SceneCase::costs() const {
+  Costs costs;
+  for (const ContactPoints& contact : scene_.contacts())
+    costs["contact/" + contact.name] = "none of its points has closed";
+  for (const deck::Material& material : scene_.deck().materials)
+    if (std::holds_alternative<deck::VonMises>(material.law))
+      costs["materials/" + material.name] =
+          "has not yielded; without yielding the same path takes less time and memory";
+  return costs;
 }
 
 path::State SceneCase::start() const { return {scene_.problem().initialState(0.0), 0.0}; }

@@ -13,6 +13,7 @@ class SceneCaseState final : public CaseState {
   const SceneState& state() const { return state_; }
   std::vector<double> monitors() const override { return scene_.monitors(state_); }
   int activeContacts() const override;
+  void strikeUsed(Costs& costs) const override;
 
  private:
   const Scene& scene_;
@@ -40,6 +41,7 @@ class SceneCase final : public PathCase {
   std::unique_ptr<StepWatch> makeWatch(const std::string& file, bool append) const override;
   std::unique_ptr<PathCase> moved(const path::Vector& shape, double size) const override;
   std::unique_ptr<PathCase> under(const deck::Deck& deck, const path::State& start) const override;
+  Costs costs() const override;  ///< contacts, and materials that yield
   std::vector<std::string> remarks() const override;
   /// Points without a contact law that come near their tool on the step get it.
   bool changedOn(double length, const path::Series& series) override;

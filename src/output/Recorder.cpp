@@ -46,7 +46,10 @@ Recorder::Recorder(PathCase& pathCase, path::Problem& problem, const RunProblem&
     fields_ = case_->makeFieldFile(beside_.name(fieldsName(branch_)));
   // Between the ends of Newton steps nothing is known for sure.
   if (settings.series()) watch_ = case_->makeWatch(beside_.name("events.csv"), false);
-  if (continued) goOn(*continued);
+  if (continued)
+    goOn(*continued);
+  else
+    unused_ = case_->costs();
   if (log_.tells())
     for (const std::string& line : case_->remarks()) log_.line(line);
   log_.head();
@@ -214,6 +217,7 @@ bool Recorder::onStep(int branch, const path::StepReport& report, const path::Se
                           report.order, negative, branch_});
   RunLog::Step step{end->activeContacts(), (watch_ ? watch_->count() : 0) - changesBefore, seconds(),
                     end->monitors()};
+  end->strikeUsed(unused_);
   writeStep(report, series, step, negative);
   log_.step(report, step, found);
   outputSeconds_ += seconds() - before;

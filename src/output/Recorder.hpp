@@ -60,6 +60,9 @@ class Recorder final : public path::BranchObserver {
   const std::vector<PointRow>& limitPoints() const { return limitPoints_; }
   const std::vector<PointRow>& hopfPoints() const { return hopfPoints_; }
   int contactEvents() const { return watched_ + (watch_ ? watch_->count() : 0); }
+  /// What the states at the ends of steps have made no use of so far; of a run that goes on with another one
+  /// nothing, as that one's steps are not known.
+  const Costs& unused() const { return unused_; }
   double worstResidual() const { return worstResidual_; }  ///< over all output points
   double outputSeconds() const { return outputSeconds_; }
   double seconds() const;
@@ -121,6 +124,7 @@ class Recorder final : public path::BranchObserver {
   bool settled_ = false;
   std::vector<PointRow> limitPoints_, hopfPoints_;
   int watched_ = 0;  ///< by watches of other cases
+  Costs unused_;
   double worstResidual_ = 0, outputSeconds_ = 0;
   double synced_ = 0;  ///< seconds() where files were made to last
 };

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <set>
 
+#include "scene/ContactWaste.hpp"
 #include "scene/Extents.hpp"
 #include "scene/Sets.hpp"
 
@@ -77,7 +78,9 @@ std::string wastefulOrder(const deck::Deck& deck) {
 
 }  // namespace
 
-std::vector<std::string> waste(const deck::Deck& deck, const fem::Mesh& mesh) {
+std::vector<std::string> waste(const Scene& scene) {
+  const deck::Deck& deck = scene.deck();
+  const fem::Mesh& mesh = scene.mesh();
   std::vector<std::string> lines;
   for (int axis = 0; mesh.dimension == 3 && axis < 3; ++axis)
     if (standsStillAlong(deck, mesh, axis))
@@ -89,6 +92,8 @@ std::vector<std::string> waste(const deck::Deck& deck, const fem::Mesh& mesh) {
     for (const fem::Block& block : mesh.blocks)
       if (isSolid(block.topology))
         if (std::string line = thinBody(mesh, block); !line.empty()) lines.push_back(std::move(line));
+  for (const ContactPoints& contact : scene.contacts())
+    if (std::string line = sidesAway(contact, deck, mesh); !line.empty()) lines.push_back(std::move(line));
   if (std::string line = wastefulOrder(deck); !line.empty()) lines.push_back(std::move(line));
   return lines;
 }

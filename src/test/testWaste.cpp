@@ -1,4 +1,5 @@
 // What check says of scenes that model more than they need.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <string>
@@ -75,6 +76,71 @@ TEST_F(Waste, OrdersThatCostMoreThanTheyBring) {
   EXPECT_NE(of(box(mesh, kFree, "  order: 50\n")).find("path/order: 50 costs more than 30"),
             std::string::npos);
   EXPECT_EQ(of(box(mesh, kFree, "  order: 10\n")), "");
+}
+
+/// A block between two planes, with contact of all its sides, those above, and those that face the tool.
+TEST_F(Waste, SidesThatLookAwayFromTheTool) {
+  const std::string generate =
+      "shape: box, lengths: [4, 4, 2], divisions: [4, 4, 2], cell: HEX20, block: body";
+  const auto pressed = [&](const std::string& set) {
+    return box(generate, "  below: {set: y_min, y: 0}\n  left_too: {set: x_min, z: 0}\n") +
+           "tools:\n  floor: {type: plane, point: [0, 0, -0.1], normal: [0, 0, 1]}\n"
+           "contact:\n  lower: {tool: floor, set: " +
+           set + ", law: hard}\n";
+  };
+  EXPECT_EQ(of(pressed("z_min")), "");
+  EXPECT_EQ(of(pressed("x_max")), "") << "across";
+  EXPECT_EQ(of(pressed("z_max")),
+            "# waste     contact/lower: 16 of the 16 sides in 'z_max' look away from 'floor', with the body "
+            "between; a set without them has fewer points\n");
+}
+
+TEST_F(Waste, EdgesThatLookAwayFromTheTool) {
+  const auto strip = [&](const std::string& set) {
+    return box("shape: rectangle, lengths: [4, 1], divisions: [4, 1], block: body",
+               "  left_too: {set: x_min, y: 0}\n") +
+           "plane: {kind: strain}\n"
+           "tools:\n  roll: {type: cylinder, center: [2, -3, 0], axis: [0, 0, 1], radius: 2}\n"
+           "contact:\n  lower: {tool: roll, set: " +
+           set + ", law: hard}\n";
+  };
+  EXPECT_EQ(of(strip("y_min")), "");
+  EXPECT_NE(of(strip("y_max")).find("contact/lower: 4 of the 4 sides in 'y_max'"), std::string::npos);
+}
+
+/// What a run says in the end of a contact and of a metal that its path has made no use of.
+TEST_F(Waste, WhatThePathHasMadeNoUseOf) {
+  const auto run = [&](double yieldStress, double height) {
+    writeFile(
+        folder_ / "m.yaml",
+        fmt::format("mesh: {{file: m.exo, generate: {{shape: rectangle, lengths: [4, 1], divisions: [4, 1], "
+                    "block: body}}}}\n"
+                    "plane: {{kind: strain}}\n"
+                    "materials: {{metal: {{law: von_mises, youngs_modulus: 1000, poissons_ratio: 0.3, "
+                    "yield_stress: {}, hardening_modulus: 100, blocks: [body]}}}}\n"
+                    "supports: {{left: {{set: x_min, x: 0}}, below: {{set: y_min, y: 0}}}}\n"
+                    "loads: {{up: {{type: surface, set: y_max, total: [0, 8, 0]}}}}\n"
+                    "tools: {{lid: {{type: plane, point: [0, {}, 0], normal: [0, -1, 0]}}}}\n"
+                    "contact: {{upper: {{tool: lid, set: y_max, law: hard}}}}\n"
+                    "path: {{stop: {{load_factor: 1}}}}\n",
+                    yieldStress, height));
+    EXPECT_EQ(runAtrapos({"mesh", "-q", "m.yaml"}, folder_.path()).exitCode, 0);
+    const CommandResult result = runAtrapos({"run", "m.yaml"}, folder_.path());
+    EXPECT_EQ(result.exitCode, 0) << result.err;
+    return result.out;
+  };
+  const std::string yield = "waste: materials/metal: has not yielded",
+                    close = "waste: contact/upper: none of its";
+  const std::string idle = run(100, 1.1);  // 2 of stress, 0.2 % of strain
+  EXPECT_NE(idle.find(yield), std::string::npos) << idle;
+  EXPECT_NE(idle.find(close), std::string::npos) << idle;
+  EXPECT_NE(readFile(folder_ / "m_results/summary.json").find("\"unused\": ["), std::string::npos);
+  const std::string yields = run(1, 1.1);
+  EXPECT_EQ(yields.find(yield), std::string::npos) << yields;
+  EXPECT_NE(yields.find(close), std::string::npos) << yields;
+  const std::string closes = run(100, 1.001);
+  EXPECT_NE(closes.find(yield), std::string::npos) << closes;
+  EXPECT_EQ(closes.find(close), std::string::npos) << closes;
 }
 
 }  // namespace
