@@ -25,16 +25,18 @@ struct Curve {
 
 /// What the paths are held against.
 struct Reference {
-  std::string file, x, y;    ///< a table and two of its columns
-  std::string formula;       ///< of the quantity `over`
-  std::optional<Edits> own;  ///< a run of the deck
+  std::string file, x;         ///< a table and its column of the quantity `over`
+  std::vector<std::string> y;  ///< and those of the monitors
+  std::string formula;         ///< of the quantity `over`; of one monitor
+  std::optional<Edits> own;    ///< a run of the deck
 };
 
 struct Chart {
   std::string file;  ///< of the chart
   std::string title;
-  std::string deck;     ///< file
-  std::string monitor;  ///< whose largest error over the path counts
+  std::string deck;  ///< file
+  /// Whose largest error over the path counts; of several each over the range of its values on the path.
+  std::vector<std::string> monitors;
   std::string over = "load_factor";
   Reference reference;
   /// Equal parts of the range of `over`, at whose ends the curve through the rows counts too; 0: rows alone.

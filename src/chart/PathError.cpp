@@ -127,8 +127,9 @@ std::unique_ptr<ReferenceCurve> ReferenceCurve::ofPoints(std::vector<double> x, 
   return std::make_unique<OfPoints>(std::move(stretches));
 }
 
-std::unique_ptr<ReferenceCurve> ReferenceCurve::ofPath(const std::string& table, const Chart& chart) {
-  const PathRows rows = readPath(table, chart);
+std::unique_ptr<ReferenceCurve> ReferenceCurve::ofPath(const std::string& table, const Chart& chart,
+                                                       std::size_t m) {
+  const PathRows rows = readPath(table, chart, m);
   std::vector<double> over, monitor;
   for (std::size_t i = 0; i < rows.over.size(); ++i) {
     if (!over.empty() && rows.over[i] == over.back()) continue;
@@ -138,12 +139,13 @@ std::unique_ptr<ReferenceCurve> ReferenceCurve::ofPath(const std::string& table,
   return ofPoints(std::move(over), std::move(monitor), table);
 }
 
-std::unique_ptr<ReferenceCurve> ReferenceCurve::of(const Chart& chart, const std::string& ownPath) {
+std::unique_ptr<ReferenceCurve> ReferenceCurve::of(const Chart& chart, const std::string& ownPath,
+                                                   std::size_t m) {
   const Reference& reference = chart.reference;
   if (!reference.formula.empty()) return ofFormula(reference.formula, chart.over);
-  if (reference.file.empty()) return ofPath(ownPath, chart);
+  if (reference.file.empty()) return ofPath(ownPath, chart, m);
   const TableFile table(reference.file);
-  return ofPoints(table.numbers(reference.x), table.numbers(reference.y), reference.file);
+  return ofPoints(table.numbers(reference.x), table.numbers(reference.y.at(m)), reference.file);
 }
 
 std::unique_ptr<ReferenceCurve> ReferenceCurve::ofFormula(const std::string& text, const std::string& over) {
@@ -161,9 +163,9 @@ std::unique_ptr<ReferenceCurve> ReferenceCurve::ofFormula(const std::string& tex
   }
 }
 
-PathRows readPath(const std::string& table, const Chart& chart) {
+PathRows readPath(const std::string& table, const Chart& chart, std::size_t m) {
   const TableFile path(table);
-  const auto over = path.numbers(chart.over), monitor = path.numbers(chart.monitor),
+  const auto over = path.numbers(chart.over), monitor = path.numbers(chart.monitors.at(m)),
              branch = path.numbers("branch");
   PathRows rows;
   for (std::size_t i = 0; i < over.size(); ++i) {
@@ -200,6 +202,24 @@ PathError errorOf(const PathRows& rows, const std::string& what, const Chart& ch
   if (!compared)
     throw std::invalid_argument(fmt::format("{}: the reference knows no {} of the path", what, chart.over));
   return error;
+}
+
+PathError errorOf(const std::string& table, const Chart& chart,
+                  const std::vector<std::unique_ptr<ReferenceCurve>>& references) {
+  PathError largest;
+  for (std::size_t m = 0; m < chart.monitors.size(); ++m) {
+    const PathRows rows = readPath(table, chart, m);
+    PathError error = errorOf(rows, table, chart, *references.at(m));
+    if (chart.monitors.size() > 1) {
+      const auto [low, high] = std::minmax_element(rows.monitor.begin(), rows.monitor.end());
+      if (!(*high > *low))
+        throw std::invalid_argument(fmt::format(
+            "{}: {} does not change, and has no range to take its error over", table, chart.monitors[m]));
+      error.largest /= *high - *low;
+    }
+    if (m == 0 || !(error.largest <= largest.largest)) largest = error;
+  }
+  return largest;
 }
 
 }  // namespace atrapos::chart

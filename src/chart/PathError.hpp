@@ -8,12 +8,12 @@
 
 namespace atrapos::chart {
 
-/// The quantity `over` and the monitor in the rows of path.csv, those of the path and not of its branches.
-/// Throws std::invalid_argument, one line, where the table lacks a column.
+/// The quantity `over` and a monitor, by its place in the chart's, in the rows of path.csv, those of the path
+/// and not of its branches. Throws std::invalid_argument, one line, where the table lacks a column.
 struct PathRows {
   std::vector<double> over, monitor;
 };
-PathRows readPath(const std::string& table, const Chart& chart);
+PathRows readPath(const std::string& table, const Chart& chart, std::size_t monitor);
 
 /// The exact monitor as a function of the quantity `over`.
 class ReferenceCurve {
@@ -29,10 +29,12 @@ class ReferenceCurve {
                                                   const std::string& what);
   /// Of a run: a step ends where the next one begins, and that is no corner. Throws std::invalid_argument,
   /// one line.
-  static std::unique_ptr<ReferenceCurve> ofPath(const std::string& table, const Chart& chart);
-  /// What a chart asks for; `ownPath`: path.csv of the run that it may name. Throws std::invalid_argument,
-  /// one line.
-  static std::unique_ptr<ReferenceCurve> of(const Chart& chart, const std::string& ownPath);
+  static std::unique_ptr<ReferenceCurve> ofPath(const std::string& table, const Chart& chart,
+                                                std::size_t monitor);
+  /// What a chart asks for of a monitor, by its place in the chart's; `ownPath`: path.csv of the run that it
+  /// may name. Throws std::invalid_argument, one line.
+  static std::unique_ptr<ReferenceCurve> of(const Chart& chart, const std::string& ownPath,
+                                            std::size_t monitor);
   /// Throws std::invalid_argument, one line.
   static std::unique_ptr<ReferenceCurve> ofFormula(const std::string& formula, const std::string& over);
 };
@@ -46,5 +48,10 @@ struct PathError {
 /// a curve through the rows turns back.
 PathError errorOf(const PathRows& rows, const std::string& what, const Chart& chart,
                   const ReferenceCurve& reference);
+
+/// The error of a path by its path.csv, against the references of all monitors: of several the largest of
+/// |monitor - reference| over the range of the monitor's values. Throws std::invalid_argument, one line.
+PathError errorOf(const std::string& table, const Chart& chart,
+                  const std::vector<std::unique_ptr<ReferenceCurve>>& references);
 
 }  // namespace atrapos::chart

@@ -57,23 +57,37 @@ Curve readCurve(const Value& map, const Chart& chart) {
   return curve;
 }
 
+/// One name or a list of them, each once.
+std::vector<std::string> namesOf(const Value& value) {
+  if (value.tree()->kind != deck::YamlNode::Kind::List) return {value.text()};
+  const auto names = value.texts();
+  if (names.empty() || std::set<std::string>(names.begin(), names.end()).size() < names.size())
+    value.fail("expected a name, or a list of names without one given twice");
+  return names;
+}
+
 Reference readReference(const Value& map, const Chart& chart) {
+  const std::size_t count = chart.monitors.size();
   deck::refuseUnknownKeys(map, {"file", "columns", "formula", "set"});
   Reference reference;
   if (map.has("file") + map.has("formula") + map.has("set") != 1)
     map.fail("expected one of file (with columns), formula and set");
   if (map.has("file")) {
     reference.file = besideChart(chart, map.at("file").text());
-    if (!map.has("columns")) map.failMissing("columns", "a list of two names");
+    if (!map.has("columns")) map.failMissing("columns", fmt::format("a list of {} names", 1 + count));
     const auto columns = map.at("columns").texts();
-    if (columns.size() != 2)
-      map.at("columns").fail("expected two names: of the quantity `over`, of the monitor");
+    if (columns.size() != 1 + count)
+      map.at("columns").fail(fmt::format("expected {} names: of the quantity `over`, of {}", 1 + count,
+                                         count == 1 ? "the monitor" : "each monitor"));
     reference.x = columns[0];
-    reference.y = columns[1];
+    reference.y.assign(columns.begin() + 1, columns.end());
   } else if (map.has("columns")) {
     map.at("columns").failKey("has no meaning without a file");
   }
-  if (map.has("formula")) reference.formula = map.at("formula").text();
+  if (map.has("formula")) {
+    if (count != 1) map.at("formula").failKey("is the curve of one monitor; expected file or set of several");
+    reference.formula = map.at("formula").text();
+  }
   if (map.has("set")) reference.own = readEdits(map.at("set"));
   return reference;
 }
@@ -95,8 +109,9 @@ Chart readChart(const std::string& file) {
   const Value error = root.at("error");
   deck::refuseUnknownKeys(error, {"monitor", "over", "reference", "between"});
   for (const char* const key : {"monitor", "reference"})
-    if (!error.has(key)) error.failMissing(key, key == std::string("monitor") ? "a name" : "a map");
-  chart.monitor = error.at("monitor").text();
+    if (!error.has(key))
+      error.failMissing(key, key == std::string("monitor") ? "a name or a list of names" : "a map");
+  chart.monitors = namesOf(error.at("monitor"));
   if (error.has("over")) chart.over = error.at("over").text();
   if (error.has("between")) chart.between = error.at("between").integer(deck::check::count);
   chart.reference = readReference(error.at("reference"), chart);

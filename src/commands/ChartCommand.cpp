@@ -142,16 +142,23 @@ std::string settingsOf(const Edits& edits) {
   return text;
 }
 
-std::unique_ptr<ReferenceCurve> referenceOf(const Chart& chart, const Runs& runs, std::ostream* progress) {
-  const Reference& reference = chart.reference;
-  if (!reference.own) return ReferenceCurve::of(chart, {});
-  if (progress)
-    *progress << "the reference is a run of the deck's own: " << settingsOf(*reference.own) << std::endl;
-  const Measured own = runs.make(runs.deckOf(*reference.own), "reference", 1);
-  if (own.outcome != "stop")
-    throw std::invalid_argument(
-        fmt::format("error/reference: the run does not reach a stop: {}", own.outcome));
-  return ReferenceCurve::of(chart, runs.path("reference"));
+using References = std::vector<std::unique_ptr<ReferenceCurve>>;
+
+/// Of every monitor.
+References referencesOf(const Chart& chart, const Runs& runs, std::ostream* progress) {
+  std::string path;
+  if (const auto& set = chart.reference.own) {
+    if (progress) *progress << "the reference is a run of the deck's own: " << settingsOf(*set) << std::endl;
+    const Measured own = runs.make(runs.deckOf(*set), "reference", 1);
+    if (own.outcome != "stop")
+      throw std::invalid_argument(
+          fmt::format("error/reference: the run does not reach a stop: {}", own.outcome));
+    path = runs.path("reference");
+  }
+  References references;
+  for (std::size_t m = 0; m < chart.monitors.size(); ++m)
+    references.push_back(ReferenceCurve::of(chart, path, m));
+  return references;
 }
 
 /// The curve of another program.
@@ -160,6 +167,16 @@ PlottedCurve readTable(const Curve& curve) {
   PlottedCurve plotted{curve.name, table.numbers("seconds"), {}, table.numbers("error")};
   if (table.has("factorizations")) plotted.factorizations = table.numbers("factorizations");
   return plotted;
+}
+
+std::string joined(const std::vector<std::string>& names) {
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+/// Of the picture's axis.
+std::string whatErrors(const Chart& chart) {
+  return "largest error of " + joined(chart.monitors) +
+         (chart.monitors.size() > 1 ? " over the path, each over its range" : " over the path");
 }
 
 /// Which build of the program this is.
@@ -183,8 +200,8 @@ class Rows {
   }
   std::string digestOf(const std::string& deckText) const {
     Digest digest;
-    for (const std::string& part :
-         {program(), deckText, chart_.monitor, chart_.over, chart_.about, std::to_string(chart_.repeat)})
+    for (const std::string& part : {program(), deckText, joined(chart_.monitors), chart_.over, chart_.about,
+                                    std::to_string(chart_.repeat)})
       digest.add(part + '\0');
     return fmt::format("{:016x}", digest.value());
   }
@@ -215,13 +232,13 @@ class Rows {
 };
 
 /// Makes a run and measures its error.
-Measured measure(const Chart& chart, const Runs& runs, const ReferenceCurve& reference, const Edits& edits,
+Measured measure(const Chart& chart, const Runs& runs, const References& references, const Edits& edits,
                  const RunDeck& deck, const std::string& name) {
   Measured row = runs.make(deck, name, chart.repeat);
   row.settings = settingsOf(edits);
   row.error = row.at = kUnknown;
   if (row.outcome == "stop") {
-    const PathError error = errorOf(readPath(runs.path(name), chart), runs.path(name), chart, reference);
+    const PathError error = errorOf(runs.path(name), chart, references);
     row.error = error.largest;
     row.at = error.at;
   }
@@ -266,7 +283,7 @@ void writeChart(const std::string& file, const std::string& folder, std::ostream
     most = std::max(most, curve.runs.size());
   }
   Rows rows(chart, runs);
-  const auto reference = referenceOf(chart, runs, progress);
+  const References references = referencesOf(chart, runs, progress);
   Progress lineByLine(chart, progress);
   for (std::size_t i = 0; i < most; ++i)
     for (std::size_t c = 0; c < chart.curves.size(); ++c) {
@@ -276,7 +293,7 @@ void writeChart(const std::string& file, const std::string& folder, std::ostream
       const std::string digest = rows.digestOf(deck.text);
       const Measured* const known = rows.known(digest);
       Measured row = known != nullptr ? *known
-                                      : measure(chart, runs, *reference, curve.runs[i], deck,
+                                      : measure(chart, runs, references, curve.runs[i], deck,
                                                 fmt::format("{}-{}", c + 1, i + 1));
       row.digest = digest;
       row.curve = curve.name;
@@ -288,8 +305,7 @@ void writeChart(const std::string& file, const std::string& folder, std::ostream
       lines[c].factorizations.push_back(row.factorizations);
       lines[c].errors.push_back(row.error);
     }
-  const std::string why =
-      plotChart(chart.title, "largest error of " + chart.monitor + " over the path", lines, folder, "chart");
+  const std::string why = plotChart(chart.title, whatErrors(chart), lines, folder, "chart");
   if (progress == nullptr) return;
   *progress << fmt::format(
       "{}{}\n", runs.table(),

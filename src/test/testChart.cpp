@@ -159,6 +159,32 @@ TEST_F(ChartTest, ErrorsAgainstAFormula) {
   EXPECT_NE(r.out.find("4/4 low orders 2: stop"), std::string::npos) << r.out;
 }
 
+/// Of several monitors each counts over its range: a quantity over itself has no error.
+TEST_F(ChartTest, ErrorsOfSeveralMonitors) {
+  const auto errorOf = [&](const std::string& monitor, const std::string& curve) {
+    const CommandResult r = chart("deck: bar.yaml\nerror: {monitor: " + monitor +
+                                  ", over: shortening, reference: {set: {path/accuracy: 1e-9, path/residual: "
+                                  "1e-9, output/points_per_step: 40}}}\n"
+                                  "curves: {" +
+                                  curve + ": {set: {path/accuracy: 1e-2, path/residual: 1e-2}}}\n");
+    EXPECT_EQ(r.exitCode, 0) << r.err;
+    return rows().at(curve + "1").error;
+  };
+  const double one = errorOf("load_factor", "one"), both = errorOf("[shortening, load_factor]", "both");
+  std::istringstream path(readFile(folder_ / "c_chart/runs/1-1/results/path.csv"));
+  std::string line;
+  double low = 1e9, high = -1e9;
+  std::getline(path, line);
+  while (std::getline(path, line)) {
+    std::istringstream cells(line);
+    for (int c = 0; c < 3; ++c) std::getline(cells, line, ',');
+    low = std::min(low, std::stod(line));
+    high = std::max(high, std::stod(line));
+  }
+  EXPECT_GT(one, 0);
+  EXPECT_NEAR(both * (high - low), one, 1e-5 * one);  // six digits in the table
+}
+
 /// Rows of one step's ends alone are exact, and the curve through them is not.
 TEST_F(ChartTest, ErrorsBetweenRows) {
   writeFile(folder_ / "bar.yaml", "problem: {name: stvk_bar}\noutput: {points_per_step: 1}\n");
@@ -243,6 +269,14 @@ TEST_F(ChartTest, WhatMakesNoChart) {
              "error/reference/formula: ");
   expectLine("deck: bar.yaml\nerror: {monitor: width, reference: {formula: load_factor}}\ncurves: {a: {}}\n",
              "has no column width");
+  expectLine("deck: bar.yaml\nerror: {monitor: [a, b], reference: {formula: sin(x)}}\ncurves: {a: {}}\n",
+             "formula: is the curve of one monitor; expected file or set of several");
+  expectLine("deck: bar.yaml\nerror: {monitor: [a, a], reference: {formula: sin(x)}}\ncurves: {a: {}}\n",
+             "expected a name, or a list of names without one given twice");
+  expectLine(
+      "deck: bar.yaml\nerror: {monitor: [a, b], reference: {file: t.csv, columns: [x, a]}}\ncurves: {a: "
+      "{}}\n",
+      "expected 3 names: of the quantity `over`, of each monitor");
   expectLine("deck: none.yaml\nerror: {monitor: a, reference: {formula: load_factor}}\ncurves: {a: {}}\n",
              "none.yaml: cannot be read");
 }

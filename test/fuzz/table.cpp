@@ -54,9 +54,9 @@ void goOn(const std::string& file, const std::string& header) {
 void takeAsReference(const std::string& file) {
   chart::Chart chart;
   chart.over = "load_factor";
-  chart.monitor = "tip";
+  chart.monitors = {"tip"};
   readOrRefuse([&] {
-    const auto rows = chart::readPath(file, chart);
+    const auto rows = chart::readPath(file, chart, 0);
     chart.between = 10;
     chart::errorOf(rows, file, chart, *chart::ReferenceCurve::ofPoints(rows.over, rows.monitor, file));
   });

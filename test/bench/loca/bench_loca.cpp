@@ -32,7 +32,7 @@ struct Options {
 class Columns {
  public:
   Columns(const Scene& scene, const chart::Chart& chart)
-      : scene_(scene), over_(find(chart.over)), monitor_(find(chart.monitor)) {}
+      : scene_(scene), over_(find(chart.over)), monitor_(find(chart.monitors.front())) {}
 
   chart::PathRows of(const std::vector<path::State>& points) const {
     chart::PathRows rows;
@@ -61,9 +61,11 @@ class Columns {
 void run(const Options& options) {
   const chart::Chart chart = chart::readChart(options.chart);
   const deck::Deck deck = deck::readDeck(options.deck);
+  if (chart.monitors.size() > 1)
+    throw std::invalid_argument("error/monitor: LOCA's errors are those of one; expected a chart of one");
   if (chart.reference.own && options.reference.empty())
     throw std::invalid_argument("--reference: the path.csv of the chart's reference is needed");
-  const auto reference = chart::ReferenceCurve::of(chart, options.reference);
+  const auto reference = chart::ReferenceCurve::of(chart, options.reference, 0);
   Scene scene(deck, readDeckMesh(deck));
   if (scene.contactsGrow())
     throw std::invalid_argument("contacts whose points come along the path are not for LOCA: carried: all");
