@@ -36,14 +36,14 @@ function(atrapos_package name)
   set_property(GLOBAL APPEND PROPERTY ATRAPOS_INSTALLED_HEADERS ${CMAKE_CURRENT_SOURCE_DIR}/include/)
 endfunction()
 
-# atrapos_test(<name> SOURCES ... DEPENDS ... [LABELS unit] [RANKS n...] [ENVIRONMENT ...])
+# atrapos_test(<name> [QUICK] SOURCES ... DEPENDS ... [LABELS unit] [RANKS n...] [ENVIRONMENT ...])
 # One GoogleTest executable and one ctest entry, with several numbers of ranks one each: <name>_np<n>. Its main
-# starts MPI and Kokkos, once.
+# starts MPI and Kokkos, once. QUICK: compiled without optimisation, as it computes next to nothing itself.
 function(atrapos_test name)
   if(NOT BUILD_TESTING)
     return()
   endif()
-  cmake_parse_arguments(arg "" "TIMEOUT" "SOURCES;DEPENDS;LABELS;RANKS;ENVIRONMENT" ${ARGN})
+  cmake_parse_arguments(arg "QUICK" "TIMEOUT" "SOURCES;DEPENDS;LABELS;RANKS;ENVIRONMENT" ${ARGN})
   atrapos_find_gtest()
   if(NOT TARGET atrapos_test_main)
     add_library(atrapos_test_main OBJECT ${PROJECT_SOURCE_DIR}/test/support/main.cpp)
@@ -53,7 +53,9 @@ function(atrapos_test name)
   add_executable(${name} ${arg_SOURCES} $<TARGET_OBJECTS:atrapos_test_main>)
   target_link_libraries(${name} PRIVATE atrapos_gtest ${arg_DEPENDS} Trilinos::Kokkos MPI::MPI_CXX
     atrapos_compile_options)
-  if(NOT arg_DEPENDS STREQUAL "Atrapos::taylor")
+  if(arg_QUICK)
+    atrapos_precompiled(${name} quick)
+  elseif(NOT arg_DEPENDS STREQUAL "Atrapos::taylor")
     atrapos_precompiled(${name} test)
   endif()
   if(NOT arg_LABELS)

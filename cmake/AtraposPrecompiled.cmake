@@ -1,14 +1,18 @@
 # Headers that most sources include, read once: they are 3 of the 7 seconds of a source of `path`. One set for
-# libraries (position-independent code), one for tests.
+# libraries (position-independent code), one for tests, and one without Trilinos for tests that compute nothing
+# themselves.
 option(ATRAPOS_PRECOMPILE "Precompile the headers of Trilinos and of the standard library" ON)
 
-set(atrapos_precompiled_headers <Tpetra_CrsMatrix.hpp> <Tpetra_MultiVector.hpp> <Tpetra_Vector.hpp>
-  <Kokkos_Core.hpp> <algorithm> <array> <cmath> <functional> <limits> <map> <memory> <stdexcept> <string> <utility>
-  <vector>)
+set(atrapos_trilinos_headers <Tpetra_CrsMatrix.hpp> <Tpetra_MultiVector.hpp> <Tpetra_Vector.hpp> <Kokkos_Core.hpp>)
+set(atrapos_standard_headers <algorithm> <array> <cmath> <functional> <limits> <map> <memory> <stdexcept> <string>
+  <utility> <vector>)
 
-# atrapos_precompiled(<target> <library|test>)
+# Tests that run commands and look at files compute next to nothing: optimising them takes as long as compiling them.
+set(atrapos_quick $<$<AND:$<CONFIG:Release>,$<CXX_COMPILER_ID:GNU,Clang>>:-O0>)
+
+# atrapos_precompiled(<target> <library|test|quick>)
 function(atrapos_precompiled target kind)
-  if(NOT ATRAPOS_PRECOMPILE OR NOT TARGET Trilinos::Tpetra)
+  if(NOT ATRAPOS_PRECOMPILE OR (NOT kind STREQUAL "quick" AND NOT TARGET Trilinos::Tpetra))
     return()
   endif()
   set(headers atrapos_precompiled_${kind})
@@ -16,19 +20,28 @@ function(atrapos_precompiled target kind)
     set(source ${PROJECT_BINARY_DIR}/precompiled_${kind}.cpp)
     file(CONFIGURE OUTPUT ${source} CONTENT "// Precompiled headers belong to a target, which has a source.\n")
     add_library(${headers} OBJECT ${source})
-    if(kind STREQUAL "test")  # before Trilinos, which may have headers of a GoogleTest of its own
+    if(NOT kind STREQUAL "library")  # before Trilinos, which may have headers of a GoogleTest of its own
       atrapos_find_gtest()
       target_link_libraries(${headers} PRIVATE atrapos_gtest)
     endif()
-    target_link_libraries(${headers} PRIVATE atrapos_compile_options Trilinos::Tpetra Trilinos::Kokkos)
-    target_precompile_headers(${headers} PRIVATE ${atrapos_precompiled_headers})
+    target_link_libraries(${headers} PRIVATE atrapos_compile_options)
+    if(kind STREQUAL "quick")
+      target_compile_options(${headers} PRIVATE ${atrapos_quick})
+      target_precompile_headers(${headers} PRIVATE ${atrapos_standard_headers})
+    else()
+      target_link_libraries(${headers} PRIVATE Trilinos::Tpetra Trilinos::Kokkos)
+      target_precompile_headers(${headers} PRIVATE ${atrapos_trilinos_headers} ${atrapos_standard_headers})
+    endif()
     if(kind STREQUAL "library")
       set_target_properties(${headers} PROPERTIES POSITION_INDEPENDENT_CODE ON)
-    elseif(kind STREQUAL "test")
+    else()
       target_precompile_headers(${headers} PRIVATE <gtest/gtest.h>)
     endif()
   endif()
   target_precompile_headers(${target} REUSE_FROM ${headers})
+  if(kind STREQUAL "quick")
+    target_compile_options(${target} PRIVATE ${atrapos_quick})
+  endif()
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")  # ccache preprocesses first, and needs to see where they were used
     target_compile_options(${target} PRIVATE $<$<COMPILE_LANGUAGE:CXX>:-fpch-preprocess>)
   endif()
