@@ -12,6 +12,7 @@ namespace atrapos::path {
 struct LastStep {
   Series series;
   std::vector<double> factors;  ///< of the fields: it is measured by what was known at its start
+  bool behindEvents = false;    ///< it began where events had just been applied
   double at = 0;                ///< where the path is on it: the step's length, more behind a singularity
 };
 

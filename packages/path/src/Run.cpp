@@ -67,7 +67,8 @@ bool Run::step() {
   clean(path_, series);
   begin(report, series);
   Trial trial = endOf(series, report);
-  path_.accept(std::move(trial), std::move(report), {std::move(series), factors});
+  path_.accept(std::move(trial), std::move(report),
+               {std::move(series), factors, !path_.here.applied.empty()});
   if (path_.here.stop) return end(EndReason::stopReached, path_.here.stop->text);
   return true;
 }

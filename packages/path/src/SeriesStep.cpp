@@ -68,7 +68,8 @@ Series buildSeries(Calls& calls, const State& start, const SeriesRequest& reques
   if (std::abs(lambda1) < nearlySingular) {
     std::ostringstream text;
     text << "the tangent is singular to working accuracy at lambda = " << start.lambda
-         << " (lambda_1 = " << lambda1 << ')';
+         << " (lambda_1 = " << lambda1 << ": the response to the load is " << 1 / std::abs(lambda1)
+         << " times what path/weight makes one, the first step's where none is given)";
     throw PathError(EndReason::singularTangent, text.str());
   }
   if (const auto* previous = request.previous) {

@@ -74,7 +74,7 @@ Series StepStart::smoothSeries(StepReport& report) {
       ++report.restarts;
       continue;
     }
-    if (!retreat())
+    if (!retreat() && !beginAgain())
       throw PathError(EndReason::directionLost,
                       line("at lambda = ", here.state.lambda,
                            ": the path's direction at the end of a step is not that of its series, and "
@@ -143,6 +143,41 @@ bool StepStart::retreat() {
   constexpr double sharper = 1e-4;
   correct(path_, path_.last->series, trial, report, sharper * path_.correctAbove());
   path_.accept(std::move(trial), std::move(report), std::move(*path_.last));
+  return true;
+}
+
+/// Where shorter steps do not help it is the state they begin at that is off: beside steep laws even a
+/// residual within the bound turns a series away. The pending step goes, and the path is again at its start,
+/// which is solved as far as it goes. False where that has been tried at this step, or changes next to
+/// nothing.
+bool StepStart::beginAgain() {
+  Calls& calls = path_.calls;
+  const Problem& problem = calls.problem();
+  // Behind events their functions are zero, which only the step that begins there knows.
+  if (!path_.pending || path_.pending->step == begunAgain_ || path_.last->behindEvents) return false;
+  const StepReport report = *path_.pending;
+  const Series& series = path_.last->series;
+  const PathTangent tangent = series.tangent(0);
+  State start = series.state(0).copy();
+  auto r = calls.newVector();
+  const double before = calls.residual(start, *r).relative();
+  constexpr double sharper = 1e-4, useful = 0.1;
+  constexpr int maxIterations = 5, maxHalvings = 4;
+  const NewtonResult result = newton(calls, start, *r, holdPathParameter(problem, series.weight(), tangent),
+                                     sharper * path_.correctAbove(), maxIterations, maxHalvings);
+  if (!(result.residual < useful * before)) return false;
+  begunAgain_ = report.step;
+  Outcome& outcome = path_.outcome;
+  --outcome.steps;
+  outcome.corrections += result.iterations - report.corrections;
+  outcome.cutBacks -= report.cutBacks;
+  Position& here = path_.here;
+  here.moveTo(calls.settled(start), r, result.residual);
+  here.pathLength = report.pathLengthStart;
+  here.tangent = tangent;
+  here.stop.reset();
+  path_.pending.reset();
+  path_.last.reset();
   return true;
 }
 

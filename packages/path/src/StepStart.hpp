@@ -22,9 +22,11 @@ class StepStart {
   void stepOverSingularity(const PathError& cause, int attempt);
   bool directionAgrees(const Series& series) const;
   bool retreat();
+  bool beginAgain();
 
   PathUnderWay& path_;
   SingularStart singularStart_;
+  int begunAgain_ = -1;  ///< the last step whose start was solved anew
 };
 
 }  // namespace atrapos::path
