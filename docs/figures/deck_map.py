@@ -46,7 +46,7 @@ DECKS = {
     "reaction/brusselator": [],
     "flow/cavity": ["mesh/generate/divisions=[[6, 6]]"],
     "flow/convection": ["mesh/generate/divisions=[[6, 6]]"],
-    "contact/hertz_cylinder": ["contact/top/stiffness=[1.0e3, 1.0e5]"],
+    "contact/hertz_cylinder": ["contact/cylinder/stiffness=[1.0e3, 1.0e5]"],
     "strip_roll/hard": [],
     "strip_roll/zones_shell": [],
 }
