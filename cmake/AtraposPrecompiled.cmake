@@ -42,7 +42,20 @@ function(atrapos_precompiled target kind)
   if(kind STREQUAL "quick")
     target_compile_options(${target} PRIVATE ${atrapos_quick})
   endif()
-  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")  # ccache preprocesses first, and needs to see where they were used
+  atrapos_precompiled_for_ccache(${target})
+endfunction()
+
+# ccache preprocesses first, and needs to see where they were used.
+function(atrapos_precompiled_for_ccache target)
+  if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     target_compile_options(${target} PRIVATE $<$<COMPILE_LANGUAGE:CXX>:-fpch-preprocess>)
+  endif()
+endfunction()
+
+# atrapos_precompiled_own(<target> <header>...): headers that most of this target's sources include.
+function(atrapos_precompiled_own target)
+  if(ATRAPOS_PRECOMPILE)
+    target_precompile_headers(${target} PRIVATE ${ARGN})
+    atrapos_precompiled_for_ccache(${target})
   endif()
 endfunction()
