@@ -78,9 +78,11 @@ void limit(const PathUnderWay& path, const Series& series, Trial& trial, const s
   for (int i = 0; i < series.eventCount(); ++i)
     if (at[i] <= (1 + together) * first) trial.events.push_back(i);
   std::sort(trial.events.begin(), trial.events.end(), [&](int i, int j) { return at[i] < at[j]; });
+  const auto isIn = [](const std::vector<int>& events, int i) {
+    return std::find(events.begin(), events.end(), i) != events.end();
+  };
   for (const int i : path.calls.eventsBeside(trial.events, series.state(first)))
-    if (std::find(trial.events.begin(), trial.events.end(), i) == trial.events.end())
-      trial.events.push_back(i);
+    if (!isIn(trial.events, i) && !isIn(untold, i)) trial.events.push_back(i);
 }
 
 /// Those of a trial's events at which nothing happens: a function whose terms do not converge so far (the gap
