@@ -22,10 +22,28 @@
 #include "scene/Sets.hpp"
 
 namespace atrapos {
+namespace {
+
+/// The longest side of a box around the mesh.
+double sizeOf(const fem::Mesh& mesh) {
+  double size = 0;
+  for (std::size_t axis = 0; axis < 3 && axis < mesh.coordinates.size(); ++axis) {
+    double low = mesh.coordinates[axis], high = low;
+    for (std::size_t i = axis; i < mesh.coordinates.size(); i += 3) {
+      low = std::min(low, mesh.coordinates[i]);
+      high = std::max(high, mesh.coordinates[i]);
+    }
+    size = std::max(size, high - low);
+  }
+  return size;
+}
+
+}  // namespace
 
 SceneModel ModelMaker::make() {
   made_.model.comm = Teuchos::rcp(new Teuchos::MpiComm<int>(ranks::communicator()));
   made_.model.dofs = fem::DofMap(mesh_.numNodes(), fields());
+  if (!deck_.materials.empty()) made_.model.size = sizeOf(mesh_);
   made_.model.dofs.addNodes(shells_.geometry.numDirectors(), fem::directorField());
   addMaterials();
   addFlows();

@@ -48,6 +48,30 @@ output:
     EXPECT_EQ(r.exitCode, 0) << r.err;
     return lastTip();
   }
+  /// The same strip under a ball that comes down on it.
+  double tipUnderBall(const std::string& options, int order) {
+    writeFile(folder_ / "ball.yaml", fmt::format(R"(mesh:
+  file: strip.exo
+  generate: {{shape: strip, length: 100, width: 10, thickness: 1, origin: [0, -5, -0.5], divisions: [10, 2, 1], cell: HEX20, block: strip}}
+materials:
+  steel: {{law: saint_venant_kirchhoff, youngs_modulus: 210000, poissons_ratio: 0.3, blocks: [strip]}}
+supports:
+  clamp: {{set: x_min, x: 0, y: 0, z: 0}}
+tools:
+  ball: {{type: sphere, center: [80, 0, 20.5], radius: 20, motion: {{shift: [0, 0, -10]}}}}
+contact:
+  face: {{tool: ball, set: top{}}}
+path: {{order: {}, stop: {{load_factor: 1, steps: 3000}}}}
+output:
+  monitors:
+    tip: {{type: displacement, set: x_max, component: z}}
+)",
+                                                 options, order));
+    EXPECT_EQ(runAtrapos({"mesh", "-q", "ball.yaml"}, folder_.path()).exitCode, 0);
+    const CommandResult r = runAtrapos({"run", "-q", "ball.yaml", "-o", "out"}, folder_.path());
+    EXPECT_EQ(r.exitCode, 0) << r.err;
+    return lastTip();
+  }
   double lastTip() const {
     std::istringstream rows(readFile(folder_ / "out" / "path.csv"));
     std::string row, cell;
@@ -116,35 +140,19 @@ TEST_F(ContactCases, ZonesOnARingBeginTogether) {
   EXPECT_NEAR(square, linear, 1e-3);  // what either law gives way by
 }
 
-/// A ball that touches a node comes down by 10 mm: with few orders residuals within the bound turn series
-/// beside the steep law.
+/// A ball that touches a node comes down by 10 mm at 80 of 100 mm: with few orders residuals within the bound
+/// turn series beside the steep law.
 TEST_F(ContactCases, FewOrdersBesideASteepLaw) {
-  const auto tipUnderBall = [&](int order) {
-    writeFile(folder_ / "ball.yaml", fmt::format(R"(mesh:
-  file: strip.exo
-  generate: {{shape: strip, length: 100, width: 10, thickness: 1, origin: [0, -5, -0.5], divisions: [10, 2, 1], cell: HEX20, block: strip}}
-materials:
-  steel: {{law: saint_venant_kirchhoff, youngs_modulus: 210000, poissons_ratio: 0.3, blocks: [strip]}}
-supports:
-  clamp: {{set: x_min, x: 0, y: 0, z: 0}}
-tools:
-  ball: {{type: sphere, center: [80, 0, 20.5], radius: 20, motion: {{shift: [0, 0, -10]}}}}
-contact:
-  face: {{tool: ball, set: top, points: nodes}}
-path: {{order: {}, stop: {{load_factor: 1, steps: 3000}}}}
-output:
-  monitors:
-    tip: {{type: displacement, set: x_max, component: z}}
-)",
-                                                 order));
-    EXPECT_EQ(runAtrapos({"mesh", "-q", "ball.yaml"}, folder_.path()).exitCode, 0);
-    const CommandResult r = runAtrapos({"run", "-q", "ball.yaml", "-o", "out"}, folder_.path());
-    EXPECT_EQ(r.exitCode, 0) << r.err;
-    return lastTip();
-  };
-  const double many = tipUnderBall(20);
-  EXPECT_LT(many, -13);                      // 10 mm at 80 of 100 mm
-  EXPECT_NEAR(tipUnderBall(5), many, 1e-4);  // both within 1e-6 of the forces
+  const double many = tipUnderBall(", points: nodes", 20);
+  EXPECT_LT(many, -13);
+  EXPECT_NEAR(tipUnderBall(", points: nodes", 5), many, 1e-4);  // both within 1e-6 of the forces
+}
+
+/// Its force grows from 1e-38 N: what next to nothing moves by does not choose the weight of the path
+/// parameter.
+TEST_F(ContactCases, ForcesThatGrowFromNothing) {
+  const double hyperbola = tipUnderBall("", 20);
+  EXPECT_NEAR(tipUnderBall(", law: exponential", 20), hyperbola, 1e-3 * std::abs(hyperbola));
 }
 
 }  // namespace

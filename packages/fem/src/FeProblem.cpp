@@ -890,6 +890,12 @@ double FeProblem::weight(const path::Increment& Xhat, std::optional<double> give
   return w;
 }
 
+bool FeProblem::isNegligible(const Vector& change) const {
+  constexpr double negligible = 1e-6;
+  return impl_->model.size > 0 && impl_->numBalances() < 2 &&
+         change.normInf() <= negligible * impl_->model.size;
+}
+
 int FeProblem::firstEvent(int term) const { return impl_->events->first(term); }
 
 int FeProblem::eventCount() const { return impl_->events->count(); }

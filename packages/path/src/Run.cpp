@@ -1,6 +1,8 @@
 #include "Run.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include <Tpetra_Vector.hpp>
 
@@ -99,7 +101,23 @@ void Run::begin(StepReport& report, const Series& series) {
   report.pathLengthStart = here.pathLength;
   report.inertia = stability_.start().inertia;
   report.radius = series.radius(path_.options.delta);
-  if (!series.standsStill()) here.weight = path_.outcome.weight = series.weight();  // a response to weigh
+  if (series.standsStill()) return;  // no response to weigh
+  path_.outcome.weight = series.weight();
+  if (here.weight || !isNegligible(series)) here.weight = series.weight();
+}
+
+/// Whether the response, as it is here, would move next to nothing up to the next load factor at which the
+/// path stops: laws whose forces fall off (a tool that is far away) grow by any power of ten until it does.
+bool Run::isNegligible(const Series& series) const {
+  const double rate = series.lambdaCoefficient(1);
+  double ahead = std::numeric_limits<double>::infinity();
+  for (const double stop : path_.stops.loadFactors)
+    if ((stop - path_.here.state.lambda) * rate > 0)
+      ahead = std::min(ahead, std::abs(stop - path_.here.state.lambda));
+  if (!std::isfinite(ahead)) return false;
+  Vector change(*series.coefficient(1).u, Teuchos::Copy);
+  change.scale(ahead / rate);
+  return calls_.problem().isNegligible(change);
 }
 
 /// The end of the step, corrected where it has to be.

@@ -31,6 +31,7 @@ class Run {
   bool step();
   bool settleWith(const Series& series);
   void begin(StepReport& report, const Series& series);
+  bool isNegligible(const Series& series) const;
   Trial endOf(Series& series, StepReport& report);
   bool settle(const EndTangent* end);
   void finish();

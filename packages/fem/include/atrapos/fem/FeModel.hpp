@@ -35,6 +35,8 @@ struct FeModel {
   double parameterWeight = 1;
   /// The same for internal variables of terms, the relative widths of contact zones.
   double internalWeight = 1e-2;
+  /// Of the body, against which displacements are large or small; 0: not known.
+  double size = 0;
   /// Where the mesh came in parts, [term][entity] the rank that works on an element; terms at the end and
   /// terms of others than elements may have empty lists. Empty: METIS decides.
   std::vector<std::vector<int>> ranks;

@@ -71,6 +71,9 @@ class FeProblem final : public path::Problem {
   /// Chosen from the unknowns without the parameters.
   double weight(const path::Increment& Xhat, std::optional<double> given) override;
 
+  /// Displacements below 1e-6 of the body's size, where that is known and all other fields are at rest.
+  bool isNegligible(const path::Vector& change) const override;
+
   /// Event functions: those of the terms that change at events, one a contact point.
   int eventCount() const override;
   /// Number of the first one of this term.

@@ -69,6 +69,7 @@ class ForcedProblem : public Problem {
   double weight(const Increment& Xhat, std::optional<double> given) override {
     return unforced_.weight(Xhat, given);
   }
+  bool isNegligible(const Vector& change) const override { return unforced_.isNegligible(change); }
 
  private:
   Problem& unforced_;

@@ -152,6 +152,10 @@ class Problem {
   /// is; what inner() takes from it must depend on the result alone. Default: 1 / <Xhat, Xhat>.
   virtual double weight(const Increment& Xhat, std::optional<double> given);
 
+  /// Whether a change of the unknowns is so small that nobody would see it: the response to a load that has
+  /// next to no effect yet, by which no weight is chosen.
+  virtual bool isNegligible(const Vector& /*change*/) const { return false; }
+
   /// What messages call an unknown (its global index in map()): a node and a component where the Problem
   /// knows them. Default: "unknown 17".
   virtual std::string name(long long unknown) const;
