@@ -19,26 +19,18 @@
 #include "output/FieldFiles.hpp"
 #include "output/Files.hpp"
 #include "scene/DeckTool.hpp"
+#include "scene/Vectors.hpp"
 
 namespace atrapos {
 namespace {
 
-using deck::Vector3;
+using namespace vectors;
 using PointOf = std::function<Vector3(double, double)>;  ///< of two parameters in [0, 1]
 
 const double kPi = std::acos(-1.0);
 constexpr int kRound = 64;   // quadrilaterals around a circle
 constexpr int kAlong = 24;   // along an axis, a tube, from pole to pole
 constexpr int kOfPatch = 8;  // along each direction of a patch
-
-Vector3 sum(const Vector3& a, double t, const Vector3& b) {
-  return {a[0] + t * b[0], a[1] + t * b[1], a[2] + t * b[2]};
-}
-double dot(const Vector3& a, const Vector3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Vector3 cross(const Vector3& a, const Vector3& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-Vector3 unit(const Vector3& v) { return sum({}, 1 / std::sqrt(dot(v, v)), v); }
 
 /// A right-handed frame whose third direction is that of an axis.
 struct Frame {
@@ -57,10 +49,7 @@ struct Frame {
   }
 };
 
-double diagonal(const Box& box) {
-  const Vector3 d = sum(box.high, -1, box.low);
-  return std::sqrt(dot(d, d));
-}
+double diagonal(const Box& box) { return length(sum(box.high, -1, box.low)); }
 
 /// Places along an axis through a point that the box reaches, and a little beyond.
 std::pair<double, double> drawnAlong(const Vector3& axis, const Vector3& point, const Box& box) {

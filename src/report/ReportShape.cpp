@@ -203,9 +203,9 @@ bool isLike(const Results& a, const Results& b) {
 }
 
 /// Bytes of the tools' surfaces.
-std::size_t bytesOf(const nlohmann::json& tools) {
+std::size_t bytesOf(const nlohmann::json& surfaces) {
   std::size_t bytes = 0;
-  for (const auto& surface : tools.at("surfaces"))
+  for (const auto& surface : surfaces)
     bytes += surface.at("positions").get_ref<const std::string&>().size() +
              surface.at("triangles").get_ref<const std::string&>().size();
   return bytes;
@@ -262,19 +262,22 @@ nlohmann::json shapeOf(const std::vector<ShapeFile>& files, std::size_t bytes,
     nlohmann::json branch{
         {"number", file->branch}, {"name", file->name}, {"states", nlohmann::json::array()}};
     const auto times = results.times();
-    nlohmann::json tools = toolsOf(file->tools, results.numSteps());
-    if (!tools.is_null() && bytesOf(tools) > bytes / 3) {
-      if (file == all.front().first)
+    auto tools = ReportTools::of(file->tools, results.numSteps());
+    // The same tools on every branch: what differs is where they are.
+    if (tools && !json.contains("tools")) {
+      auto surfaces = tools->surfaces();
+      if (bytesOf(surfaces) > bytes / 3) {
+        surfaces = nullptr;
         notes.push_back("tools are not shown: their surfaces are too large for a page");
-      tools = nullptr;
+      }
+      json["tools"] = std::move(surfaces);
     }
+    if (tools && json.at("tools").is_null()) tools = nullptr;
     const std::size_t own = std::max<std::size_t>(1, room.states * times.size() / states);
     for (const std::size_t step : evenly(times.size(), own)) {
       branch["states"].push_back(shape.state(results, static_cast<int>(step), times[step]));
-      if (!tools.is_null()) branch["states"].back()["tools"] = tools.at("motions").at(step);
+      if (tools) branch["states"].back()["tools"] = tools->motions(static_cast<int>(step));
     }
-    // The same tools on every branch: what differs is where they are.
-    if (!tools.is_null() && !json.contains("tools")) json["tools"] = tools.at("surfaces");
     json["branches"].push_back(std::move(branch));
   }
   return json;

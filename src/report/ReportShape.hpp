@@ -17,9 +17,9 @@ struct ShapeFile {
 
 /// The surface of the body and its states: positions at rest, triangles, edges, displacements and fields of
 /// every state, as base64 of little-endian floats and numbers of 4 bytes; beside it the rigid tools
-/// (toolsOf), where they are there. States, then fields, are left out until `bytes` suffice, and tools that
-/// alone take a third of them; `notes` says so. Null where no file has a displacement. Throws exodus::Error
-/// on files that are damaged.
+/// (ReportTools), where they are there. States, then fields, are left out until `bytes` suffice, and tools
+/// that alone take a third of them; `notes` says so. Null where no file has a displacement. Throws
+/// exodus::Error on files that are damaged.
 nlohmann::json shapeOf(const std::vector<ShapeFile>& files, std::size_t bytes,
                        std::vector<std::string>& notes);
 

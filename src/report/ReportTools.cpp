@@ -1,135 +1,103 @@
 #include "report/ReportTools.hpp"
 
-#include <array>
-#include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
-#include <vector>
 
 #include "atrapos/exodus/MeshFile.hpp"
-#include "atrapos/exodus/ResultReader.hpp"
 #include "report/ReportShape.hpp"
-#include "report/Surface.hpp"
+#include "scene/Vectors.hpp"
 
 namespace atrapos {
 namespace {
 
-using Vector3 = std::array<double, 3>;
-using Places = std::vector<Vector3>;
-
-Vector3 minus(const Vector3& a, const Vector3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-double dot(const Vector3& a, const Vector3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-Vector3 cross(const Vector3& a, const Vector3& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-Vector3 unit(const Vector3& v) {
-  const double size = std::sqrt(dot(v, v));
-  return {v[0] / size, v[1] / size, v[2] / size};
-}
+using namespace vectors;
 
 /// The place that is farthest by this measure.
 template <class Measure>
-std::size_t farthest(const Places& places, const Measure& measure) {
+std::size_t farthest(const std::vector<Vector3>& places, const Measure& measure) {
   std::size_t best = 0;
   for (std::size_t i = 1; i < places.size(); ++i)
     if (measure(places[i]) > measure(places[best])) best = i;
   return best;
 }
 
-/// Three places far from one line, by which a rigid motion is known.
-struct Three {
-  std::size_t a = 0, b = 0, c = 0;
+std::array<std::size_t, 3> farFromOneLine(const std::vector<Vector3>& x) {
+  const std::size_t b = farthest(x, [&](const Vector3& p) { return length(sum(p, -1, x[0])); });
+  const Vector3 line = sum(x[b], -1, x[0]);
+  return {0, b, farthest(x, [&](const Vector3& p) { return length(cross(line, sum(p, -1, x[0]))); })};
+}
 
-  explicit Three(const Places& x) {
-    b = farthest(x, [&](const Vector3& p) { return dot(minus(p, x[a]), minus(p, x[a])); });
-    c = farthest(x, [&](const Vector3& p) {
-      const Vector3 area = cross(minus(x[b], x[a]), minus(p, x[a]));
-      return dot(area, area);
-    });
-  }
-  std::array<Vector3, 3> frame(const Places& x) const {
-    const Vector3 e1 = unit(minus(x[b], x[a])), e3 = unit(cross(e1, minus(x[c], x[a])));
-    return {e1, cross(e3, e1), e3};
-  }
-};
+/// Orthonormal, and moves with three places.
+std::array<Vector3, 3> frameOf(const std::array<Vector3, 3>& x) {
+  const Vector3 e1 = unit(sum(x[1], -1, x[0])), e3 = unit(cross(e1, sum(x[2], -1, x[0])));
+  return {e1, cross(e3, e1), e3};
+}
 
-/// [R00, R01, R02, R10, ..., R22, shift]: takes places at rest to others.
-std::vector<float> motionOf(const Places& rest, const Places& moved) {
-  const Three three(rest);
-  const auto from = three.frame(rest), to = three.frame(moved);
-  double turn[3][3];
+/// Appends [R00, R01, R02, R10, ..., R22, shift] of the motion that takes three places to others.
+void appendMotion(const std::array<Vector3, 3>& rest, const std::array<Vector3, 3>& moved,
+                  std::vector<float>& motions) {
+  const auto from = frameOf(rest), to = frameOf(moved);
+  Vector3 shift = moved[0];
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) {
-      turn[i][j] = 0;
-      for (int k = 0; k < 3; ++k) turn[i][j] += to[k][i] * from[k][j];
+      double turn = 0;
+      for (int k = 0; k < 3; ++k) turn += to[k][i] * from[k][j];
+      motions.push_back(static_cast<float>(turn));
+      shift[i] -= turn * rest[0][j];
     }
-  std::vector<float> motion;
-  for (const auto& row : turn)
-    for (const double entry : row) motion.push_back(static_cast<float>(entry));
-  for (int i = 0; i < 3; ++i)
-    motion.push_back(static_cast<float>(moved[three.a][i] - turn[i][0] * rest[three.a][0] -
-                                        turn[i][1] * rest[three.a][1] - turn[i][2] * rest[three.a][2]));
-  return motion;
-}
-
-/// One tool's surface: that of a block.
-struct Part {
-  std::string name;
-  Surface surface;
-  Places rest;
-};
-
-std::vector<Part> partsOf(const fem::Mesh& mesh) {
-  std::vector<Part> parts;
-  for (const fem::Block& block : mesh.blocks) {
-    fem::Mesh own;
-    own.dimension = mesh.dimension;
-    own.coordinates = mesh.coordinates;
-    own.blocks = {block};
-    Part part{block.name, surfaceOf(own), {}};
-    for (const int node : part.surface.nodes) {
-      const double* const x = &mesh.coordinates[3 * static_cast<std::size_t>(node)];
-      part.rest.push_back({x[0], x[1], x[2]});
-    }
-    parts.push_back(std::move(part));
-  }
-  return parts;
-}
-
-Places movedOf(const Part& part, const std::array<std::vector<double>, 3>& u) {
-  Places moved = part.rest;
-  for (std::size_t i = 0; i < moved.size(); ++i)
-    for (int c = 0; c < 3; ++c) moved[i][c] += u[c][part.surface.nodes[i]];
-  return moved;
+  for (const double c : shift) motions.push_back(static_cast<float>(c));
 }
 
 }  // namespace
 
-nlohmann::json toolsOf(const std::string& file, int states) {
+std::unique_ptr<ReportTools> ReportTools::of(const std::string& file, int states) {
   if (!std::filesystem::exists(file)) return nullptr;
-  const exodus::ResultReader results(file);
-  if (results.numSteps() != states) return nullptr;  // of an earlier part of the run
-  const std::vector<Part> parts = partsOf(exodus::readMesh(file));
-  nlohmann::json tools{{"surfaces", nlohmann::json::array()}, {"motions", nlohmann::json::array()}};
-  for (const Part& part : parts) {
-    std::vector<float> positions;
-    for (const Vector3& x : part.rest)
-      for (const double c : x) positions.push_back(static_cast<float>(c));
-    tools["surfaces"].push_back({{"name", part.name},
-                                 {"positions", base64(positions)},
-                                 {"triangles", base64(part.surface.triangles)}});
-  }
-  for (int step = 0; step < states; ++step) {
-    const std::array<std::vector<double>, 3> u{results.nodal(step, "displ_x"), results.nodal(step, "displ_y"),
-                                               results.nodal(step, "displ_z")};
-    std::vector<float> motions;
-    for (const Part& part : parts) {
-      const auto motion = motionOf(part.rest, movedOf(part, u));
-      motions.insert(motions.end(), motion.begin(), motion.end());
+  std::unique_ptr<ReportTools> tools(new ReportTools(file));
+  return tools->results_.numSteps() == states ? std::move(tools) : nullptr;
+}
+
+ReportTools::ReportTools(const std::string& file) : results_(file) {
+  fem::Mesh mesh = exodus::readMesh(file);
+  const std::vector<fem::Block> blocks = std::move(mesh.blocks);
+  for (const fem::Block& block : blocks) {
+    mesh.blocks = {block};
+    Tool tool{block.name, surfaceOf(mesh), {}, {}};
+    for (const int node : tool.surface.nodes) {
+      const double* const x = &mesh.coordinates[3 * static_cast<std::size_t>(node)];
+      tool.rest.push_back({x[0], x[1], x[2]});
     }
-    tools["motions"].push_back(base64(motions));
+    tool.three = farFromOneLine(tool.rest);
+    tools_.push_back(std::move(tool));
   }
-  return tools;
+}
+
+nlohmann::json ReportTools::surfaces() const {
+  auto surfaces = nlohmann::json::array();
+  for (const Tool& tool : tools_) {
+    std::vector<float> positions;
+    for (const Vector3& x : tool.rest)
+      for (const double c : x) positions.push_back(static_cast<float>(c));
+    surfaces.push_back({{"name", tool.name},
+                        {"positions", base64(positions)},
+                        {"triangles", base64(tool.surface.triangles)}});
+  }
+  return surfaces;
+}
+
+std::string ReportTools::motions(int step) const {
+  const std::array<std::vector<double>, 3> u{results_.nodal(step, "displ_x"), results_.nodal(step, "displ_y"),
+                                             results_.nodal(step, "displ_z")};
+  std::vector<float> motions;
+  for (const Tool& tool : tools_) {
+    std::array<Vector3, 3> rest, moved;
+    for (int i = 0; i < 3; ++i) {
+      const auto node = static_cast<std::size_t>(tool.surface.nodes[tool.three[i]]);
+      rest[i] = tool.rest[tool.three[i]];
+      moved[i] = sum(rest[i], 1, {u[0][node], u[1][node], u[2][node]});
+    }
+    appendMotion(rest, moved, motions);
+  }
+  return base64(motions);
 }
 
 }  // namespace atrapos
