@@ -28,4 +28,14 @@ Extents extentsOf(const fem::Mesh& mesh, const fem::Block& block) {
   return extents;
 }
 
+std::pair<double, double> rangeAlong(const fem::Mesh& mesh, int axis) {
+  if (mesh.numNodes() == 0) return {0, 0};
+  double low = mesh.coordinates[static_cast<std::size_t>(axis)], high = low;
+  for (auto i = static_cast<std::size_t>(axis); i < mesh.coordinates.size(); i += 3) {
+    low = std::min(low, mesh.coordinates[i]);
+    high = std::max(high, mesh.coordinates[i]);
+  }
+  return {low, high};
+}
+
 }  // namespace atrapos

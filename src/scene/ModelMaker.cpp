@@ -17,6 +17,7 @@
 #include "atrapos/solid/MixedBody.hpp"
 #include "atrapos/solid/ShellResults.hpp"
 #include "machine/Ranks.hpp"
+#include "scene/Extents.hpp"
 #include "scene/FollowerLoads.hpp"
 #include "scene/Registry.hpp"
 #include "scene/Sets.hpp"
@@ -27,12 +28,8 @@ namespace {
 /// The longest side of a box around the mesh.
 double sizeOf(const fem::Mesh& mesh) {
   double size = 0;
-  for (std::size_t axis = 0; axis < 3 && axis < mesh.coordinates.size(); ++axis) {
-    double low = mesh.coordinates[axis], high = low;
-    for (std::size_t i = axis; i < mesh.coordinates.size(); i += 3) {
-      low = std::min(low, mesh.coordinates[i]);
-      high = std::max(high, mesh.coordinates[i]);
-    }
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto [low, high] = rangeAlong(mesh, axis);
     size = std::max(size, high - low);
   }
   return size;

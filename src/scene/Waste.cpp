@@ -43,11 +43,7 @@ bool standsStillAlong(const deck::Deck& deck, const fem::Mesh& mesh, int axis) {
   const auto place = [&](int n) {
     return mesh.coordinates[3 * static_cast<std::size_t>(n) + static_cast<std::size_t>(axis)];
   };
-  double low = place(0), high = low;
-  for (int n = 1; n < mesh.numNodes(); ++n) {
-    low = std::min(low, place(n));
-    high = std::max(high, place(n));
-  }
+  const auto [low, high] = rangeAlong(mesh, axis);
   const double near = 1e-9 * (high - low);  // rounding
   for (const fem::Block& block : mesh.blocks)
     if (!isSolid(block.topology) || extentsOf(mesh, block).cell[axis] < high - low - near) return false;

@@ -33,8 +33,6 @@ std::pair<Face, Face> facesOf(const PointSet& points) {
   }
 }
 
-int numCorners(Face cornerFace) { return cornerFace == Face::Line2 ? 2 : cornerFace == Face::Tri3 ? 3 : 4; }
-
 const Field& contactForce() {
   static const Field field{"contact force", {""}, Role::oneSided};
   return field;

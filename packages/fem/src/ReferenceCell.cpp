@@ -439,6 +439,11 @@ std::vector<double> referenceNodes(Face face) { return nodes(cellOf(face)); }
 
 bool isLine(Face face) { return face == Face::Line2 || face == Face::Line3; }
 
+int numCorners(Face face) {
+  if (isLine(face)) return 2;
+  return face == Face::Tri3 || face == Face::Tri6 ? 3 : 4;
+}
+
 int numSides(Topology topology) {
   const shards::CellTopology cell = cellWithSides(topology);
   if (isPlane(topology)) return static_cast<int>(cell.getSubcellCount(1));

@@ -71,7 +71,7 @@ class FeProblem final : public path::Problem {
   /// Chosen from the unknowns without the parameters.
   double weight(const path::Increment& Xhat, std::optional<double> given) override;
 
-  /// Displacements below 1e-6 of the body's size, where that is known and all other fields are at rest.
+  /// Displacements below 1e-6 of the body's size, where that is known and there are no fields beside them.
   bool isNegligible(const path::Vector& change) const override;
 
   /// Event functions: those of the terms that change at events, one a contact point.

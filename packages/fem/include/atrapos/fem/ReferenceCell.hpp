@@ -19,6 +19,8 @@ enum class Face { Tri3, Tri6, Quad4, Quad8, Quad9, Line2, Line3 };
 
 /// Whether a side is an edge.
 bool isLine(Face face);
+/// Ends of an edge, corners of a triangle or quadrilateral: the first nodes of its own.
+int numCorners(Face face);
 
 /// Shape functions of one cell or face at a set of reference points.
 struct Tabulation {
