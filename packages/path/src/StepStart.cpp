@@ -15,6 +15,13 @@
 
 namespace atrapos::path {
 
+namespace {
+
+/// Part of the usual tolerance to which a state is solved whose residual turns the path.
+constexpr double kSharper = 1e-4;
+
+}  // namespace
+
 void StepStart::equilibrate() {
   Calls& calls = path_.calls;
   Position& here = path_.here;
@@ -124,6 +131,14 @@ bool StepStart::directionAgrees(const Series& series) const {
   return inner(now, before) > path_.options.minCosine * std::sqrt(inner(before, before) * inner(now, now));
 }
 
+/// The step of this report is made again, and what it took counted with that.
+void StepStart::uncount(const StepReport& report) {
+  Outcome& outcome = path_.outcome;
+  --outcome.steps;
+  outcome.corrections -= report.corrections;
+  outcome.cutBacks -= report.cutBacks;
+}
+
 /// The pending step ends half as far along its series. False where it was shortened often enough.
 bool StepStart::retreat() {
   constexpr int maxRetreats = 4;
@@ -134,14 +149,10 @@ bool StepStart::retreat() {
   if (trial.a < path_.options.minStep) return false;
   evaluate(path_, path_.last->series, trial);
   ++report.retreats;
-  Outcome& outcome = path_.outcome;
-  ++outcome.retreats;
-  --outcome.steps;
-  outcome.corrections -= report.corrections;  // counted again by accept
-  outcome.cutBacks -= report.cutBacks;
+  ++path_.outcome.retreats;
+  uncount(report);
   // Two branches are near, and the residual is what turns the path from one to the other.
-  constexpr double sharper = 1e-4;
-  correct(path_, path_.last->series, trial, report, sharper * path_.correctAbove());
+  correct(path_, path_.last->series, trial, report, kSharper * path_.correctAbove());
   path_.accept(std::move(trial), std::move(report), std::move(*path_.last));
   return true;
 }
@@ -161,16 +172,14 @@ bool StepStart::beginAgain() {
   State start = series.state(0).copy();
   auto r = calls.newVector();
   const double before = calls.residual(start, *r).relative();
-  constexpr double sharper = 1e-4, useful = 0.1;
+  constexpr double useful = 0.1;
   constexpr int maxIterations = 5, maxHalvings = 4;
   const NewtonResult result = newton(calls, start, *r, holdPathParameter(problem, series.weight(), tangent),
-                                     sharper * path_.correctAbove(), maxIterations, maxHalvings);
+                                     kSharper * path_.correctAbove(), maxIterations, maxHalvings);
   if (!(result.residual < useful * before)) return false;
   begunAgain_ = report.step;
-  Outcome& outcome = path_.outcome;
-  --outcome.steps;
-  outcome.corrections += result.iterations - report.corrections;
-  outcome.cutBacks -= report.cutBacks;
+  uncount(report);
+  path_.outcome.corrections += result.iterations;
   Position& here = path_.here;
   here.moveTo(calls.settled(start), r, result.residual);
   here.pathLength = report.pathLengthStart;

@@ -21,6 +21,7 @@ class StepStart {
   Series smoothSeries(StepReport& report);
   void stepOverSingularity(const PathError& cause, int attempt);
   bool directionAgrees(const Series& series) const;
+  void uncount(const StepReport& report);
   bool retreat();
   bool beginAgain();
 
