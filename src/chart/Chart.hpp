@@ -2,17 +2,13 @@
 
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
-#include "deck/YamlTree.hpp"
+#include "chart/DeckEdits.hpp"
 
 /// What `atrapos chart` is asked for: a deck, runs of it with other values, and what their error is
 /// (docs/chart.md).
 namespace atrapos::chart {
-
-/// Keys of the deck, "a/b/c", and what stands there in place of the deck's value; no value: the key goes.
-using Edits = std::vector<std::pair<std::string, deck::YamlTree>>;
 
 /// One line of the picture.
 struct Curve {

@@ -105,4 +105,10 @@ std::string yamlText(const YamlTree& root) {
   return text;
 }
 
+std::string settingsOf(const Edits& edits) {
+  std::string text;
+  for (const auto& [keys, value] : edits) text += (text.empty() ? "" : " ") + keys + "=" + onOneLine(value);
+  return text;
+}
+
 }  // namespace atrapos::chart

@@ -135,13 +135,6 @@ class Runs {
   deck::YamlTree root_;
 };
 
-/// Values that a run has of its own, for people.
-std::string settingsOf(const Edits& edits) {
-  std::string text;
-  for (const auto& [keys, value] : edits) text += (text.empty() ? "" : " ") + keys + "=" + onOneLine(value);
-  return text;
-}
-
 using References = std::vector<std::unique_ptr<ReferenceCurve>>;
 
 /// Of every monitor.

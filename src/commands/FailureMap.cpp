@@ -105,7 +105,7 @@ path::Outcome follow(const MapProblem& of, const std::function<void(path::Option
     path::PathFollower follower(problem, *solver, options, pathCase.stops());
     const path::Outcome part = GrowingPath(pathCase, observerOf(stage, problem)).follow(follower, from);
     const int steps = total.steps + part.steps;
-    total = stage == 0 ? part : sumOf(total, part);
+    total = sumOf(total, part);
     total.steps = steps;
     if (part.reason != path::EndReason::stopReached || stage + 1 >= of.deck.path.stages.size()) return total;
     ends.push_back(part.final.lambda);

@@ -22,7 +22,7 @@ class GrowingPath final : public path::Observer {
     do {
       changed_ = false;
       const path::Outcome part = follower.runFrom(from, *this);
-      total = total.final.u ? sumOf(total, part) : part;
+      total = sumOf(total, part);
       if (next_) from = *next_;
     } while (changed_);
     return total;

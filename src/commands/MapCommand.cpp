@@ -6,7 +6,6 @@
 #include <iostream>
 #include <stdexcept>
 
-#include "chart/Chart.hpp"
 #include "chart/DeckEdits.hpp"
 #include "commands/FailureMap.hpp"
 #include "commands/MeshCommand.hpp"
@@ -62,10 +61,9 @@ struct Variant {
 
 Variant variantOf(const deck::Deck& deck, const chart::Edits& edits) {
   if (edits.empty()) return {deck, "", false};
-  Variant variant;
+  Variant variant{{}, chart::settingsOf(edits), false};
   deck::YamlTree root = deck::readYaml(deck.text, deck.file).root;
   for (const auto& [key, value] : edits) {
-    variant.values += (variant.values.empty() ? "" : " ") + key + "=" + chart::onOneLine(value);
     variant.makesMesh = variant.makesMesh || key.rfind("mesh/generate", 0) == 0;
     try {
       root = chart::replaced(root, key, value);
@@ -140,11 +138,12 @@ void makeMap(const MapWords& words) {
   std::vector<MakeProblem> problems;
   for (const std::string& file : words.decks) {
     const deck::Deck deck = deck::readDeck(file);
-    plugins::require(deck);
-    if (!deck.path.series())
-      deck::failAt(deck, "path/method", "the map varies the settings of series; expected series");
-    for (Variant& variant : variantsOf(deck, vary))
+    for (Variant& variant : variantsOf(deck, vary)) {
+      plugins::require(variant.deck);
+      if (!variant.deck.path.series())
+        deck::failAt(variant.deck, "path/method", "the map varies the settings of series; expected series");
       problems.push_back([variant = std::move(variant)] { return problemOf(variant); });
+    }
   }
   writeMap(problems, words.decks, options);
 }

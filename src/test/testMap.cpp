@@ -163,6 +163,8 @@ TEST_F(MapTest, BadWords) {
       {{"map", "truss.yaml", "--pade", "maybe"}, "--pade 'maybe'"},
       {{"map", "truss.yaml", "--vary", "path/order"}, "--vary 'path/order': expected KEY=LIST"},
       {{"map", "truss.yaml", "--vary", "path/order=3"}, "--vary 'path/order=3'"},
+      {{"map", "truss.yaml", "--vary", "path/method=[series, newton]"},
+       "path/method: the map varies the settings of series"},
       {{"map", "truss.yaml", "--vary", "path/none=[1]"}, "--vary path/none=1: "},
       {{"map", "truss.yaml", "--vary", "problem/name/a=[1]"}, "below what is no map"}};
   for (const auto& [words, problem] : cases) {
