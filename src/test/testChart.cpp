@@ -2,6 +2,7 @@
 // kept, and what makes no chart.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -10,6 +11,7 @@
 #include "chart/DeckEdits.hpp"
 #include "chart/PathError.hpp"
 #include "deck/Deck.hpp"
+#include "output/TableFile.hpp"
 #include "support/Command.hpp"
 #include "support/Folder.hpp"
 
@@ -171,18 +173,11 @@ TEST_F(ChartTest, ErrorsOfSeveralMonitors) {
     return rows().at(curve + "1").error;
   };
   const double one = errorOf("load_factor", "one"), both = errorOf("[shortening, load_factor]", "both");
-  std::istringstream path(readFile(folder_ / "c_chart/runs/1-1/results/path.csv"));
-  std::string line;
-  double low = 1e9, high = -1e9;
-  std::getline(path, line);
-  while (std::getline(path, line)) {
-    std::istringstream cells(line);
-    for (int c = 0; c < 3; ++c) std::getline(cells, line, ',');
-    low = std::min(low, std::stod(line));
-    high = std::max(high, std::stod(line));
-  }
+  const auto loads =
+      TableFile((folder_ / "c_chart/runs/1-1/results/path.csv").string()).numbers("load_factor");
+  const auto [low, high] = std::minmax_element(loads.begin(), loads.end());
   EXPECT_GT(one, 0);
-  EXPECT_NEAR(both * (high - low), one, 1e-5 * one);  // six digits in the table
+  EXPECT_NEAR(both * (*high - *low), one, 1e-5 * one);  // six digits in the table
 }
 
 /// Rows of one step's ends alone are exact, and the curve through them is not.

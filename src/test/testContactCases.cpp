@@ -18,25 +18,15 @@ class ContactCases : public testing::Test {
  protected:
   /// `options` of the contact behind its tool and set.
   CommandResult run(const std::string& tool, const std::string& options, int order = 20) {
-    writeFile(folder_ / "deck.yaml", fmt::format(R"(mesh:
-  file: strip.exo
-  generate: {{shape: strip, length: 100, width: 10, thickness: 1, origin: [0, -5, -0.5], divisions: [{}], cell: HEX20, block: strip}}
-materials:
-  steel: {{law: saint_venant_kirchhoff, youngs_modulus: 210000, poissons_ratio: 0.3, blocks: [strip]}}
-supports:
-  clamp: {{set: x_min, x: 0, y: 0, z: 0}}
-loads:
+    writeFile(folder_ / "deck.yaml", body() + fmt::format(R"(loads:
   tip: {{type: surface, set: x_max, total: [0, 0, -20]}}
 tools:
   tool: {}
 contact:
   face: {{tool: tool, set: bottom{}}}
 path: {{order: {}, stop: {{load_factor: 1}}}}
-output:
-  monitors:
-    tip: {{type: displacement, set: x_max, component: z}}
 )",
-                                                 divisions_, tool, options, order));
+                                                          tool, options, order));
     if (!std::filesystem::exists(folder_ / "strip.exo")) {
       EXPECT_EQ(runAtrapos({"mesh", "-q", "deck.yaml"}, folder_.path()).exitCode, 0);
     }
@@ -50,23 +40,13 @@ output:
   }
   /// The same strip under a ball that comes down on it.
   double tipUnderBall(const std::string& options, int order) {
-    writeFile(folder_ / "ball.yaml", fmt::format(R"(mesh:
-  file: strip.exo
-  generate: {{shape: strip, length: 100, width: 10, thickness: 1, origin: [0, -5, -0.5], divisions: [10, 2, 1], cell: HEX20, block: strip}}
-materials:
-  steel: {{law: saint_venant_kirchhoff, youngs_modulus: 210000, poissons_ratio: 0.3, blocks: [strip]}}
-supports:
-  clamp: {{set: x_min, x: 0, y: 0, z: 0}}
-tools:
+    writeFile(folder_ / "ball.yaml", body() + fmt::format(R"(tools:
   ball: {{type: sphere, center: [80, 0, 20.5], radius: 20, motion: {{shift: [0, 0, -10]}}}}
 contact:
   face: {{tool: ball, set: top{}}}
 path: {{order: {}, stop: {{load_factor: 1, steps: 3000}}}}
-output:
-  monitors:
-    tip: {{type: displacement, set: x_max, component: z}}
 )",
-                                                 options, order));
+                                                          options, order));
     EXPECT_EQ(runAtrapos({"mesh", "-q", "ball.yaml"}, folder_.path()).exitCode, 0);
     const CommandResult r = runAtrapos({"run", "-q", "ball.yaml", "-o", "out"}, folder_.path());
     EXPECT_EQ(r.exitCode, 0) << r.err;
@@ -79,6 +59,22 @@ output:
     std::istringstream cells(row);
     for (int i = 0; i < 4; ++i) std::getline(cells, cell, ',');
     return std::stod(cell);
+  }
+
+  /// The strip, clamped, and what is watched of it.
+  std::string body() const {
+    return fmt::format(R"(mesh:
+  file: strip.exo
+  generate: {{shape: strip, length: 100, width: 10, thickness: 1, origin: [0, -5, -0.5], divisions: [{}], cell: HEX20, block: strip}}
+materials:
+  steel: {{law: saint_venant_kirchhoff, youngs_modulus: 210000, poissons_ratio: 0.3, blocks: [strip]}}
+supports:
+  clamp: {{set: x_min, x: 0, y: 0, z: 0}}
+output:
+  monitors:
+    tip: {{type: displacement, set: x_max, component: z}}
+)",
+                       divisions_);
   }
 
   TemporaryFolder folder_;
