@@ -7,6 +7,8 @@ set(atrapos_trilinos_headers <Tpetra_CrsMatrix.hpp> <Tpetra_MultiVector.hpp> <Tp
 set(atrapos_standard_headers <algorithm> <array> <cmath> <functional> <limits> <map> <memory> <stdexcept> <string>
   <utility> <vector>)
 
+# Where little time is spent: a quarter less to compile than with -O3, the command's own sources and tests as fast.
+set(atrapos_lightly $<$<AND:$<CONFIG:Release>,$<CXX_COMPILER_ID:GNU,Clang>>:-O1>)
 # Tests that run commands and look at files compute next to nothing: optimising them takes as long as compiling them.
 set(atrapos_quick $<$<AND:$<CONFIG:Release>,$<CXX_COMPILER_ID:GNU,Clang>>:-O0>)
 
@@ -18,6 +20,8 @@ function(atrapos_precompiled target kind)
     if("OPENMP" IN_LIST Kokkos_DEVICES)
       return()
     endif()
+  elseif(kind STREQUAL "test")
+    target_compile_options(${target} PRIVATE ${atrapos_lightly})
   endif()
   if(NOT ATRAPOS_PRECOMPILE OR (NOT kind STREQUAL "quick" AND NOT TARGET Trilinos::Tpetra))
     return()
@@ -27,6 +31,9 @@ function(atrapos_precompiled target kind)
     set(source ${PROJECT_BINARY_DIR}/precompiled_${kind}.cpp)
     file(CONFIGURE OUTPUT ${source} CONTENT "// Precompiled headers belong to a target, which has a source.\n")
     add_library(${headers} OBJECT ${source})
+    if(kind STREQUAL "test")
+      target_compile_options(${headers} PRIVATE ${atrapos_lightly})
+    endif()
     if(NOT kind STREQUAL "library")  # before Trilinos, which may have headers of a GoogleTest of its own
       atrapos_find_gtest()
       target_link_libraries(${headers} PRIVATE atrapos_gtest)

@@ -1,5 +1,7 @@
 #include "atrapos/path/Problem.hpp"
 
+#include <Tpetra_Vector.hpp>
+
 #include "atrapos/linear/Dot.hpp"
 
 namespace atrapos::path {
