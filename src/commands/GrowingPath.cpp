@@ -15,6 +15,7 @@ path::Outcome sumOf(const path::Outcome& first, path::Outcome last) {
   last.restarts += first.restarts;
   last.retreats += first.retreats;
   last.criticalFactorizations += first.criticalFactorizations;
+  last.hopfFactorizations += first.hopfFactorizations;
   last.closings += first.closings;
   last.cutBacks += first.cutBacks;
   last.jumps += first.jumps;
