@@ -7,21 +7,23 @@ set(atrapos_trilinos_headers <Tpetra_CrsMatrix.hpp> <Tpetra_MultiVector.hpp> <Tp
 set(atrapos_standard_headers <algorithm> <array> <cmath> <functional> <limits> <map> <memory> <stdexcept> <string>
   <utility> <vector>)
 
-# Where little time is spent: a quarter less to compile than with -O3, the command's own sources and tests as fast.
+# Where little time is spent: a quarter less to compile than with -O3, and 1 % more instructions in a run (docs/install.md).
 set(atrapos_lightly $<$<AND:$<CONFIG:Release>,$<CXX_COMPILER_ID:GNU,Clang>>:-O1>)
 # Tests that run commands and look at files compute next to nothing: optimising them takes as long as compiling them.
 set(atrapos_quick $<$<AND:$<CONFIG:Release>,$<CXX_COMPILER_ID:GNU,Clang>>:-O0>)
 
-# atrapos_precompiled(<target> <library|test|quick>)
+# atrapos_precompiled(<target> <library|test|quick>): tests are optimised by their kind, as their headers are.
 function(atrapos_precompiled target kind)
+  set(options "")
   if(kind STREQUAL "quick")
-    target_compile_options(${target} PRIVATE ${atrapos_quick})
-    # With OpenMP those of these tests that link Kokkos are compiled for it and others are not: no header is theirs all.
-    if("OPENMP" IN_LIST Kokkos_DEVICES)
-      return()
-    endif()
+    set(options ${atrapos_quick})
   elseif(kind STREQUAL "test")
-    target_compile_options(${target} PRIVATE ${atrapos_lightly})
+    set(options ${atrapos_lightly})
+  endif()
+  target_compile_options(${target} PRIVATE ${options})
+  # With OpenMP those quick tests that link Kokkos are compiled for it and others are not: no header is theirs all.
+  if(kind STREQUAL "quick" AND "OPENMP" IN_LIST Kokkos_DEVICES)
+    return()
   endif()
   if(NOT ATRAPOS_PRECOMPILE OR (NOT kind STREQUAL "quick" AND NOT TARGET Trilinos::Tpetra))
     return()
@@ -31,16 +33,13 @@ function(atrapos_precompiled target kind)
     set(source ${PROJECT_BINARY_DIR}/precompiled_${kind}.cpp)
     file(CONFIGURE OUTPUT ${source} CONTENT "// Precompiled headers belong to a target, which has a source.\n")
     add_library(${headers} OBJECT ${source})
-    if(kind STREQUAL "test")
-      target_compile_options(${headers} PRIVATE ${atrapos_lightly})
-    endif()
+    target_compile_options(${headers} PRIVATE ${options})
     if(NOT kind STREQUAL "library")  # before Trilinos, which may have headers of a GoogleTest of its own
       atrapos_find_gtest()
       target_link_libraries(${headers} PRIVATE atrapos_gtest)
     endif()
     target_link_libraries(${headers} PRIVATE atrapos_compile_options)
     if(kind STREQUAL "quick")
-      target_compile_options(${headers} PRIVATE ${atrapos_quick})
       target_precompile_headers(${headers} PRIVATE ${atrapos_standard_headers})
     else()
       target_link_libraries(${headers} PRIVATE Trilinos::Tpetra Trilinos::Kokkos)
