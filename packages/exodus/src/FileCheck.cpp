@@ -24,6 +24,7 @@ class ClassicHeader {
   std::uint64_t requiredSize() {
     std::array<char, 4> magic{};
     stream_.read(magic.data(), 4);
+    here_ = 4;
     version_ = static_cast<unsigned char>(magic[3]);
     const std::uint64_t numRecords = count();
     // All bits set: a writer that streams does not know the number of records.
@@ -41,6 +42,7 @@ class ClassicHeader {
   std::uint64_t number(int bytes) {
     std::array<unsigned char, 8> raw{};
     if (!stream_.read(reinterpret_cast<char*>(raw.data()), bytes)) damaged();
+    here_ += static_cast<std::uint64_t>(bytes);
     std::uint64_t value = 0;
     for (int i = 0; i < bytes; ++i) value = value << 8 | raw[i];
     return value;
@@ -57,9 +59,13 @@ class ClassicHeader {
 
   void skip(std::uint64_t bytes) {
     const std::uint64_t padded = (bytes + 3) / 4 * 4;
-    const auto here = static_cast<std::uint64_t>(stream_.tellg());
-    if (padded > fileSize_ || here > fileSize_ - padded) damaged();
-    stream_.seekg(static_cast<std::streamoff>(here + padded));
+    if (padded > fileSize_ || here_ > fileSize_ - padded) damaged();
+    here_ += padded;
+    // A stream that seeks reads its buffer anew: not for a name.
+    if (padded <= 4096)
+      stream_.ignore(static_cast<std::streamsize>(padded));
+    else
+      stream_.seekg(static_cast<std::streamoff>(here_));
   }
 
   /// NetCDF copies names into rows of 257 characters, however long they are.
@@ -138,7 +144,7 @@ class ClassicHeader {
       else
         required = std::max(required, sum(begin, size));
     }
-    required = std::max(required, static_cast<std::uint64_t>(stream_.tellg()));
+    required = std::max(required, here_);
     if (numRecords == 0) return required;
     // A single record variable is packed without padding.
     std::uint64_t stride = 0;
@@ -153,6 +159,7 @@ class ClassicHeader {
   const std::string& file_;
   std::uint64_t fileSize_;
   int version_ = 0;
+  std::uint64_t here_ = 0;  ///< bytes read or left out so far
   std::vector<std::uint64_t> dimensions_;
 };
 
