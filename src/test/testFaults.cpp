@@ -208,7 +208,7 @@ TEST_F(Faults, MeshesSplitsAndJoins) {
   const auto before = snapshot(folder_.path());
   for (const auto& [file, words] : commands) {
     const auto all = counts(words);
-    for (const std::string kind : {"write", "rename", "open", "new"})
+    for (const std::string kind : {"write", "rename", "open", "sync", "new"})
       for (const std::string how : {"once", "kill"})
         for (const long n : spread(all.at(kind), most())) {
           SCOPED_TRACE(file + " " + kind + ":" + std::to_string(n) + ":" + how);

@@ -1,9 +1,12 @@
 #include "MeshWriter.hpp"
 
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
+#include <cstring>
 #include <ctime>
 #include <filesystem>
 
@@ -179,6 +182,35 @@ class MeshWriter {
   const FileContents& contents_;
 };
 
+/// Tells whether what the library wrote into a file reached the disk. A descriptor of its own, from before:
+/// the system tells each descriptor of an error once, and NetCDF keeps to itself what it hears when it closes
+/// its own.
+class DiskCheck {
+ public:
+  /// Messages speak of the file as `shown`.
+  DiskCheck(const std::string& path, std::string shown)
+      : shown_(std::move(shown)), descriptor_(open(path.c_str(), O_RDONLY | O_CLOEXEC)) {
+    if (descriptor_ < 0) fail();
+  }
+  DiskCheck(const DiskCheck&) = delete;
+  DiskCheck& operator=(const DiskCheck&) = delete;
+  ~DiskCheck() { close(descriptor_); }
+
+  /// Throws Error.
+  void operator()() const {
+    // File systems without fsync have nothing that outlasts anything.
+    if (fsync(descriptor_) != 0 && errno != EINVAL && errno != EROFS) fail();
+  }
+
+ private:
+  [[noreturn]] void fail() const {
+    throw Error(shown_ + ": the file cannot be written (" + std::strerror(errno) + ")");
+  }
+
+  std::string shown_;
+  int descriptor_;
+};
+
 /// A file that disappears unless it is moved to its place.
 class Draft {
  public:
@@ -222,12 +254,27 @@ File createFile(const std::string& name, const FileContents& contents) {
   return file;
 }
 
-void writeMesh(const fem::Mesh& mesh, const std::string& file) {
-  createFile(file, {mesh, {}, {}, 0, {}}).close();
+namespace {
+
+/// A file without results, on the disk before it has its name.
+void writeFile(const std::string& name, const FileContents& contents) {
+  checkMesh(contents.mesh, name, contents.part ? Extent::part : Extent::whole);
+  Draft draft(name);
+  File file = File::create(draft.path(), name);
+  const DiskCheck checkDisk(draft.path(), name);
+  MeshWriter(file, contents)();
+  file.close();
+  padFile(draft.path());
+  checkDisk();
+  draft.moveToTarget();
 }
 
+}  // namespace
+
+void writeMesh(const fem::Mesh& mesh, const std::string& file) { writeFile(file, {mesh, {}, {}, 0, {}}); }
+
 void writePart(const MeshPart& part, const std::string& file) {
-  createFile(partName(file, part.parts, part.part), {part.mesh, {}, {}, 0, {}, &part}).close();
+  writeFile(partName(file, part.parts, part.part), {part.mesh, {}, {}, 0, {}, &part});
 }
 
 }  // namespace atrapos::exodus
