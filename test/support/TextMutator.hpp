@@ -34,6 +34,15 @@ class TextMutator {
   }
   std::size_t below(std::size_t n) { return n == 0 ? 0 : random_() % n; }
 
+  /// With another value in one place, for any text.
+  std::string withOtherValue(const std::string& text) {
+    const std::size_t at = text.find_first_of(language_.separators, below(text.size()));
+    if (at == std::string::npos) return text;
+    const std::size_t end = text.find_first_of(language_.ends, at + 1);
+    return text.substr(0, at + 1) + language_.values[below(language_.values.size())] +
+           (end == std::string::npos ? "" : text.substr(end));
+  }
+
  private:
   std::string once(const std::string& text) {
     switch (below(8)) {
@@ -56,14 +65,6 @@ class TextMutator {
       default:
         return withOtherLines(text);
     }
-  }
-
-  std::string withOtherValue(const std::string& text) {
-    const std::size_t at = text.find_first_of(language_.separators, below(text.size()));
-    if (at == std::string::npos) return text;
-    const std::size_t end = text.find_first_of(language_.ends, at + 1);
-    return text.substr(0, at + 1) + language_.values[below(language_.values.size())] +
-           (end == std::string::npos ? "" : text.substr(end));
   }
 
   std::string withOtherLines(const std::string& text) {
