@@ -48,6 +48,7 @@ function(atrapos_kernels target)
   cmake_parse_arguments(arg "WITH_TRILINOS" "" "" ${ARGN})
   set(sources ${arg_UNPARSED_ARGUMENTS})
   target_sources(${target} PRIVATE ${sources})
+  set_source_files_properties(${sources} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)  # half a minute each as they are
   if(NOT ATRAPOS_KERNEL_LEVELS)
     return()
   endif()

@@ -29,7 +29,7 @@ constexpr int kReferenceSamples = 20, kRunSamples = 8;  // of each step
 constexpr double kOnPath = 0.03;
 
 /// Of a path or a stage of it.
-struct Reference {
+struct MapReference {
   ReferencePath path{kReferenceSamples};
   double extent = 0;
   int points = 0;
@@ -37,7 +37,7 @@ struct Reference {
 
 class ReferenceObserver final : public path::Observer {
  public:
-  explicit ReferenceObserver(Reference& reference) : reference_(reference) {}
+  explicit ReferenceObserver(MapReference& reference) : reference_(reference) {}
   bool onStep(const path::StepReport& report, const path::Series& series) override {
     reference_.path.append(report, series);
     reference_.points += static_cast<int>(report.criticalPoints.size());
@@ -45,13 +45,13 @@ class ReferenceObserver final : public path::Observer {
   }
 
  private:
-  Reference& reference_;
+  MapReference& reference_;
 };
 
 /// Watches one run of the map.
 class Judge final : public path::Observer {
  public:
-  Judge(const Reference& reference, path::Problem& problem)
+  Judge(const MapReference& reference, path::Problem& problem)
       : walker_(reference.path, kOnPath * reference.extent),
         problem_(problem),
         r_(Teuchos::rcp(new path::Vector(problem.map()))) {}
@@ -117,10 +117,10 @@ path::Outcome follow(const MapProblem& of, const std::function<void(path::Option
 }
 
 /// The reference path of every stage; throws std::runtime_error, one line.
-std::vector<Reference> referencesOf(const MapProblem& of) {
+std::vector<MapReference> referencesOf(const MapProblem& of) {
   std::string why;
   for (double delta = 1e-10; delta < 2e-6; delta *= 10) {
-    std::vector<Reference> references;
+    std::vector<MapReference> references;
     std::unique_ptr<ReferenceObserver> observer;
     const path::Outcome outcome = follow(
         of,
@@ -138,7 +138,7 @@ std::vector<Reference> referencesOf(const MapProblem& of) {
           return *observer;
         });
     if (outcome.reason == path::EndReason::stopReached) {
-      for (Reference& reference : references) reference.extent = reference.path.extent();
+      for (MapReference& reference : references) reference.extent = reference.path.extent();
       return references;
     }
     why = outcome.text;
@@ -161,7 +161,7 @@ struct Setting {
   path::PadeUse pade;
 };
 
-std::string row(const MapProblem& of, const std::vector<Reference>& references, const Setting& setting,
+std::string row(const MapProblem& of, const std::vector<MapReference>& references, const Setting& setting,
                 std::string& outcome) {
   std::deque<Judge> judges;  // of the stages
   const path::Outcome end = follow(
@@ -184,7 +184,7 @@ std::string row(const MapProblem& of, const std::vector<Reference>& references, 
     worstResidual = std::max(worstResidual, judge.worstResidual);
     points += judge.points;
   }
-  for (const Reference& reference : references) expected += reference.points;
+  for (const MapReference& reference : references) expected += reference.points;
   // Inside a step the bound is not asked for, only expected: the factor leaves room for that.
   constexpr double honest = 2;
   if (left != nullptr) {
@@ -224,7 +224,7 @@ void writeMap(const std::vector<MakeProblem>& problems, const std::vector<std::s
       "worst_residual,seconds,values,reason");
   for (const MakeProblem& make : problems) {
     const MapProblem problem = make();
-    const std::vector<Reference> references = referencesOf(problem);
+    const std::vector<MapReference> references = referencesOf(problem);
     std::map<std::string, int> counts;
     for (const int order : options.orders)
       for (const double delta : options.deltas)

@@ -19,7 +19,7 @@ namespace atrapos {
 namespace {
 
 template <class T, class Owner>
-T sum(const path::BranchDiagram& diagram, T Owner::*member) {
+T sumOver(const path::BranchDiagram& diagram, T Owner::*member) {
   T total{};
   for (const path::Branch& b : diagram.branches) total += b.outcome.*member;
   return total;
@@ -167,23 +167,23 @@ nlohmann::ordered_json runSummary(const deck::Deck& deck, const PathCase& pathCa
   json["load_factor"] = outcome.final.lambda;
   json["path_length"] = outcome.pathLength;
   json["path_weight"] = outcome.weight;
-  json["steps"] = sum(diagram, &Outcome::steps);
+  json["steps"] = sumOver(diagram, &Outcome::steps);
   json["method"] = deck::wordOf(deck.path.method, deck::methods());
   if (deck.path.autoOrder)
     json["order"] = "auto";
   else if (deck.path.series())
     json["order"] = deck.path.order;
-  json["orders_computed"] = sum(diagram, &Outcome::orders);
-  json["factorizations"] = sum(diagram, &Outcome::factorizations) + diagram.switchFactorizations;
-  json["solves"] = sum(diagram, &Outcome::solves);
-  json["corrections"] = sum(diagram, &Outcome::corrections);
-  json["start_iterations"] = sum(diagram, &Outcome::startIterations);
-  json["restarts"] = sum(diagram, &Outcome::restarts);
-  json["retreats"] = sum(diagram, &Outcome::retreats);
-  json["critical_factorizations"] = sum(diagram, &Outcome::criticalFactorizations);
+  json["orders_computed"] = sumOver(diagram, &Outcome::orders);
+  json["factorizations"] = sumOver(diagram, &Outcome::factorizations) + diagram.switchFactorizations;
+  json["solves"] = sumOver(diagram, &Outcome::solves);
+  json["corrections"] = sumOver(diagram, &Outcome::corrections);
+  json["start_iterations"] = sumOver(diagram, &Outcome::startIterations);
+  json["restarts"] = sumOver(diagram, &Outcome::restarts);
+  json["retreats"] = sumOver(diagram, &Outcome::retreats);
+  json["critical_factorizations"] = sumOver(diagram, &Outcome::criticalFactorizations);
   json["switch_factorizations"] = diagram.switchFactorizations;
-  json["closings"] = sum(diagram, &Outcome::closings);
-  json["cut_backs"] = sum(diagram, &Outcome::cutBacks);
+  json["closings"] = sumOver(diagram, &Outcome::closings);
+  json["cut_backs"] = sumOver(diagram, &Outcome::cutBacks);
   json["residual_bound"] = deck.path.residual;
   json["worst_residual"] = recorder.worstResidual();
   double worst = 0, worstJump = 0;
@@ -192,7 +192,7 @@ nlohmann::ordered_json runSummary(const deck::Deck& deck, const PathCase& pathCa
     worstJump = std::max(worstJump, b.outcome.worstJump);
   }
   json["worst_residual_at_step_ends"] = worst;
-  json["jumps"] = sum(diagram, &Outcome::jumps);
+  json["jumps"] = sumOver(diagram, &Outcome::jumps);
   json["worst_jump"] = worstJump;
   json["limit_points"] = recorder.limitPoints().size();
   json["bifurcation_points"] = diagram.points.size();
@@ -201,7 +201,7 @@ nlohmann::ordered_json runSummary(const deck::Deck& deck, const PathCase& pathCa
   json["load_limits"] = limitPointsOf(pathCase, recorder);
   if (deck.path.hopf) {
     json["hopf_points"] = hopfPointsOf(pathCase, recorder);
-    json["hopf_factorizations"] = sum(diagram, &Outcome::hopfFactorizations);
+    json["hopf_factorizations"] = sumOver(diagram, &Outcome::hopfFactorizations);
   }
   json["points"] = pointsOf(pathCase, diagram);
   json["branches"] = branchesOf(diagram);

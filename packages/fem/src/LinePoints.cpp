@@ -7,8 +7,6 @@
 namespace atrapos::fem {
 namespace {
 
-constexpr int L = kLanes;
-
 template <int P>
 void makeStages(LineLaws& laws) {
   laws.curve = pointLaw(CurveStage<P>{});

@@ -8,6 +8,8 @@
 
 namespace atrapos::fem {
 
+constexpr int L = kLanes;  ///< lines side by side
+
 /// The laws of lines of one degree, put together when the program runs.
 struct LineLaws {
   LineLaws(int degree, ZoneLaws laws);

@@ -8,7 +8,7 @@
 namespace atrapos::fem {
 namespace {
 
-constexpr int L = kLanes, Q = ZoneForces::kPoints;
+constexpr int Q = ZoneForces::kPoints;
 
 /// to[q][first + m][lane] = from[q][start + m][lane], m < count.
 void put(int count, const std::vector<double>& from, int start, int fromWidth, int first, int toWidth,

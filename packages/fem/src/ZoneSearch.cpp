@@ -6,8 +6,6 @@
 namespace atrapos::fem {
 namespace {
 
-constexpr int L = kLanes;
-
 /// Places at which a line is looked at: closely enough that extrema of gaps over smooth tools lie apart.
 const std::vector<double>& samples() {
   static const std::vector<double> xi = [] {

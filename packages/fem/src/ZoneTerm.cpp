@@ -17,8 +17,6 @@
 namespace atrapos::fem {
 namespace {
 
-constexpr int L = kLanes;
-
 constexpr int kSlots = 3;  ///< extrema of a line that events know: two minima, a maximum
 
 class ZoneTerm final : public EventTerm {

@@ -17,7 +17,7 @@ namespace {
 using Kind = PlaneSection::Kind;
 
 // r r_xi N has degree 2 + 1 + 2 on edges of three nodes.
-constexpr int kDegree = 5;
+constexpr int kEdgeDegree = 5;
 
 std::vector<int> nodesOfEdge(const fem::Mesh& mesh, const fem::Side& side, const fem::SideSet& set) {
   const auto [b, e] = fem::addressOf(mesh, side.element);
@@ -102,7 +102,7 @@ std::vector<std::unique_ptr<fem::Term>> followerPressure(const fem::Mesh& mesh, 
   for (const fem::Side& side : set.sides) {
     const std::vector<int> nodes = nodesOfEdge(mesh, side, set);
     const fem::Face face = nodes.size() == 2 ? fem::Face::Line2 : fem::Face::Line3;
-    if (!tables.count(face)) tables[face] = fem::tabulateFace(face, kDegree);
+    if (!tables.count(face)) tables[face] = fem::tabulateFace(face, kEdgeDegree);
     append(mesh, tables.at(face), nodes, depth, byShape[face]);
   }
   std::vector<std::unique_ptr<fem::Term>> terms;

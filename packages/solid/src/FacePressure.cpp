@@ -14,7 +14,7 @@ namespace {
 
 // N_a x_xi x x_eta has degree 2 + 2 + 1 in one coordinate on HEX27's faces; on triangles of TET10 the sum of
 // both is 2 + 1 + 1.
-constexpr int kDegree = 5;
+constexpr int kFaceDegree = 5;
 
 struct Faces {
   fem::PointSet points;
@@ -56,7 +56,7 @@ std::vector<std::unique_ptr<fem::Term>> followerPressure(const fem::Mesh& mesh, 
           fmt::format("side set '{}': element {} is a shell, whose pressures are those of its surfaces",
                       set.name, side.element + 1));
     const fem::Face face = fem::sideFace(block.topology, side.side);
-    if (!tables.count(face)) tables[face] = fem::tabulateFace(face, kDegree);
+    if (!tables.count(face)) tables[face] = fem::tabulateFace(face, kFaceDegree);
     std::vector<int> nodes;
     for (int n : fem::sideNodes(block.topology, side.side))
       nodes.push_back(block.nodes[static_cast<std::size_t>(e) * fem::nodesPerElement(block.topology) + n]);

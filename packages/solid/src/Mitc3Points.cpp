@@ -72,7 +72,7 @@ struct BubbledShear {
 };
 
 /// The numbers of Mitc3Place.
-void addPlace(const detail::ShellPlace& at, double poisson, std::vector<double>& data) {
+void addMitc3Place(const detail::ShellPlace& at, double poisson, std::vector<double>& data) {
   const BubbledShear shear(at.R(), at.D(), poisson);
   const double xi = at.xi[0], eta = at.xi[1];
   data.insert(data.end(), {xi, eta, at.zeta});
@@ -86,7 +86,7 @@ void addPlace(const detail::ShellPlace& at, double poisson, std::vector<double>&
                      varying[i] * turn[edge]);
 }
 
-void addPoint(const detail::ShellPlace& at, double poisson, fem::EnhancedPoints& result) {
+void addMitc3Point(const detail::ShellPlace& at, double poisson, fem::EnhancedPoints& result) {
   std::vector<double>&shape = result.points.shape, &data = result.data;
   for (int corner = 0; corner < 3; ++corner)
     shape.insert(shape.end(), {at.dN(corner)[0], at.dN(corner)[1], 0, 0, 0});
@@ -96,7 +96,7 @@ void addPoint(const detail::ShellPlace& at, double poisson, fem::EnhancedPoints&
   }
   const Vec3 a = edgeOf(at.R(), 0, 1), b = edgeOf(at.R(), 0, 2);
   for (int i = 0; i < 3; ++i) data.insert(data.end(), {a[i], b[i], at.D()[i], at.D()[3 + i], at.D()[6 + i]});
-  addPlace(at, poisson, data);
+  addMitc3Place(at, poisson, data);
   detail::Contravariant(at.base).addTo(data);
   detail::addEnhancedVector(at, result);
 }
@@ -107,9 +107,10 @@ fem::EnhancedPoints mitc3Points(const ShellElements& elements, double poissonRat
                                 const ShellCubature& cubature) {
   if (elements.nodesPerElement != 3)
     throw std::logic_error("mitc3Points: elements of three nodes are needed");
-  return detail::makeShellPoints(
-      elements, cubature, 5,
-      [&](const detail::ShellPlace& at, fem::EnhancedPoints& result) { addPoint(at, poissonRatio, result); });
+  return detail::makeShellPoints(elements, cubature, 5,
+                                 [&](const detail::ShellPlace& at, fem::EnhancedPoints& result) {
+                                   addMitc3Point(at, poissonRatio, result);
+                                 });
 }
 
 }  // namespace atrapos::solid

@@ -65,13 +65,13 @@ struct Hourglass {
 };
 
 /// The numbers of Mitc4Place.
-void addPlace(const detail::ShellPlace& at, double poisson, std::vector<double>& data) {
+void addMitc4Place(const detail::ShellPlace& at, double poisson, std::vector<double>& data) {
   const Hourglass hourglass(at, poisson);
   data.insert(data.end(), {at.xi[0], at.xi[1], at.zeta, hourglass.parts[0], hourglass.parts[1]});
   for (const auto& strain : hourglass.strain) data.insert(data.end(), strain, strain + 3);
 }
 
-void addPoint(const detail::ShellPlace& at, double poisson, fem::EnhancedPoints& result) {
+void addMitc4Point(const detail::ShellPlace& at, double poisson, fem::EnhancedPoints& result) {
   std::vector<double>&shape = result.points.shape, &data = result.data;
   for (int corner = 0; corner < 4; ++corner) {
     const auto parts = partsOf(corner);
@@ -87,7 +87,7 @@ void addPoint(const detail::ShellPlace& at, double poisson, fem::EnhancedPoints&
     for (const Vec3& v : ofSurface) data.push_back(v[i]);
     for (int d = 0; d < 4; ++d) data.push_back(at.D()[3 * d + i]);
   }
-  addPlace(at, poisson, data);
+  addMitc4Place(at, poisson, data);
   detail::Contravariant(at.base).addTo(data);
   detail::addEnhancedVector(at, result);
 }
@@ -99,9 +99,10 @@ fem::EnhancedPoints mitc4Points(const ShellElements& elements, double poissonRat
   if (elements.nodesPerElement != 4) throw std::logic_error("mitc4Points: elements of four nodes are needed");
   if (cubature.inPlane != 2)
     throw std::invalid_argument("shell cubature: elements of four nodes have 2 x 2 points in the plane");
-  return detail::makeShellPoints(
-      elements, cubature, 7,
-      [&](const detail::ShellPlace& at, fem::EnhancedPoints& result) { addPoint(at, poissonRatio, result); });
+  return detail::makeShellPoints(elements, cubature, 7,
+                                 [&](const detail::ShellPlace& at, fem::EnhancedPoints& result) {
+                                   addMitc4Point(at, poissonRatio, result);
+                                 });
 }
 
 }  // namespace atrapos::solid

@@ -17,13 +17,13 @@ using Kind = PlaneSection::Kind;
 using fem::Tabulation;
 
 /// A point of a cell or edge: its place, and the tangents of the map from reference coordinates.
-struct Place {
+struct PlanePlace {
   double x[2] = {0, 0};
   double along[2][2] = {{0, 0}, {0, 0}};  ///< [direction][component]
 };
 
-Place placeAt(const fem::Mesh& mesh, const int* nodes, const Tabulation& t, int q) {
-  Place place;
+PlanePlace placeAt(const fem::Mesh& mesh, const int* nodes, const Tabulation& t, int q) {
+  PlanePlace place;
   for (int n = 0; n < t.numNodes; ++n)
     for (int i = 0; i < 2; ++i) {
       const double x = mesh.coordinates[3 * static_cast<std::size_t>(nodes[n]) + i];
@@ -59,7 +59,7 @@ fem::PointSet points(const fem::Mesh& mesh, const fem::Block& block, const Tabul
   if (gradients && !ring && p.numEntities > 0) p.shape = t.gradients;
   for (int e = 0; e < p.numEntities; ++e)
     for (int q = 0; q < t.numPoints; ++q) {
-      const Place place = placeAt(mesh, &block.nodes[static_cast<std::size_t>(e) * t.numNodes], t, q);
+      const PlanePlace place = placeAt(mesh, &block.nodes[static_cast<std::size_t>(e) * t.numNodes], t, q);
       const auto& g = place.along;
       const double det = g[0][0] * g[1][1] - g[0][1] * g[1][0];
       if (!(det > 0))
@@ -121,7 +121,7 @@ std::vector<fem::PointSet> planeEdgePoints(const fem::Mesh& mesh, const fem::Sid
       nodes.push_back(block.nodes[static_cast<std::size_t>(e) * fem::nodesPerElement(block.topology) + n]);
     p.nodes.insert(p.nodes.end(), nodes.begin(), nodes.end());
     for (int q = 0; q < t.numPoints; ++q) {
-      const Place place = placeAt(mesh, nodes.data(), t, q);
+      const PlanePlace place = placeAt(mesh, nodes.data(), t, q);
       const double* along = place.along[0];
       const double length = std::hypot(along[0], along[1]);
       if (!(length > 0)) throw std::runtime_error(which + " has no length");
