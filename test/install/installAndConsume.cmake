@@ -36,7 +36,8 @@ file(RENAME ${WORK_FOLDER}/first_place ${prefix})
 
 # No prefix of Trilinos is given: the installed package file knows its own. -O1: these programs compute little.
 set(common -G Ninja -DCMAKE_PREFIX_PATH=${prefix} -DCMAKE_CXX_COMPILER=${CXX_COMPILER} "-DCMAKE_CXX_FLAGS_RELEASE=-O1 -DNDEBUG"
-  "-DCMAKE_CXX_FLAGS=${CXX_FLAGS}" -DCMAKE_BUILD_TYPE=${BUILD_TYPE} -DCMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER})
+  "-DCMAKE_CXX_FLAGS=${CXX_FLAGS}" -DCMAKE_BUILD_TYPE=${BUILD_TYPE})
+set(ENV{CMAKE_CXX_COMPILER_LAUNCHER} "${LAUNCHER}")  # a list, which no argument of execute_process may be
 
 # One program per component. The list is written with commas: a semicolon would not survive execute_process.
 set(build ${WORK_FOLDER}/consumer)
