@@ -148,7 +148,7 @@ class LawTermOf : public Base {
   void beginSeries(const ConstDofView& u, double lambda, int maxOrder) override {
     a_.reserveHistory(maxOrder);
     if (update_) {
-      const auto data = renewed(u, lambda);
+      const auto data = updatedData(u, lambda);
       if (pieces_) pieces_->beginSeries(data);
       seriesData_ = a_.packed(data);
     }
@@ -257,7 +257,7 @@ class LawTermOf : public Base {
   }
 
   /// The data, [point][datum], brought up to date at the state.
-  std::vector<double> renewed(const ConstDofView& u, double lambda) const {
+  std::vector<double> updatedData(const ConstDofView& u, double lambda) const {
     std::vector<double> data = initialData_;
     update_(numPoints(), places(u, lambda).data(), data.data());
     return data;
@@ -269,7 +269,7 @@ class LawTermOf : public Base {
       return room.data();
     }
     if (!update_) return a_.data();
-    room = a_.packed(renewed(u, lambda));
+    room = a_.packed(updatedData(u, lambda));
     return room.data();
   }
 

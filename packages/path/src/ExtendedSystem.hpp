@@ -10,7 +10,7 @@ namespace atrapos::path {
 class ExtendedSystem {
  public:
   ExtendedSystem(Calls& calls, const CriticalSearch& search, const RCP<Vector>& nullGuess)
-      : calls_(calls), search_(search), w_(search.series.weight()), phi_(nullGuess), F_(calls.newVector()) {}
+      : calls_(calls), w_(search.series.weight()), phi_(nullGuess), F_(calls.newVector()) {}
 
   /// Borders from the tangent at `state`, which is factored here or, where `held`, stands in the solver
   /// already, maybe for a state near; `exact`: the null vector's guess is better than inverse iteration makes
@@ -30,7 +30,6 @@ class ExtendedSystem {
               double& z) const;
 
   Calls& calls_;
-  const CriticalSearch& search_;
   double w_;
   RCP<Vector> phi_, F_, p_, psi_;
   Augmented Q_[2], V_[2];
