@@ -13,7 +13,7 @@ runSetup() {
 configure() {
   local preset=$1 log=$root/build/$1-configure.log prefix options=(-U ATRAPOS_KERNEL_LEVELS)
   [ -z "${2:-}" ] || options=("-DATRAPOS_KERNEL_LEVELS=$2")
-  if [ "$preset" = openmp ]; then
+  if [ "$preset" = openmp ] || [ "$preset" = tsan ]; then
     . "$root/scripts/lib/trilinos-openmp.sh"
     prefix=$(findTrilinosOpenmp)
     [ -n "$prefix" ] || die "no finished Trilinos with Kokkos OpenMP found: run scripts/setup --openmp"
