@@ -208,6 +208,7 @@ TEST_F(BadInput, MotionsThatAreNone) {
   refusesMotion("angle: [5]", {"tools/roll/motion/axis: is missing"});
   refusesMotion("shift: [[0, 0, 1], [0, 0, 1], [0, 0, 1], [0, 0, 1]]",
                 {"tools/roll/motion/shift", "1, 2, 3"});
+  refusesMotion("angle: [1, 2, 3, 4], axis: [0, 0, 1]", {"tools/roll/motion/angle", "1, 2, 3"});
   refusesMotion("shift: [0, 1]", {"tools/roll/motion/shift: expected a list of lists of 3"});
 }
 

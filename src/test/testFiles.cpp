@@ -211,6 +211,19 @@ TEST_F(OwnFiles, WhatIsReadIsNotReplaced) {
   refuses({"join", "box.exo.2.0", "-o", "box.exo.2.1"}, "box.exo.2.1 is read too");
 }
 
+TEST_F(OwnFiles, PartsOfDifferentDecompositionsAreNotJoined) {
+  refuses({"split", "box.exo", "5"}, "box.exo: has 4 elements, which cannot be shared out to 5 parts");
+  for (const char* parts : {"2", "3"})
+    ASSERT_EQ(runAtrapos({"split", "-q", "box.exo", parts}, folder_.path()).exitCode, 0);
+  refuses({"join", "box.exo"}, "box.exo: is cut into 2 and again into 3 parts");
+  refuses({"join", "box.exo.2.0", "box.exo.3.1"}, "are not parts of one decomposition");
+}
+
+TEST_F(OwnFiles, ChartsAreNoFolders) {
+  std::filesystem::create_directory(folder_ / "charts.yaml");
+  refuses({"chart", "charts.yaml"}, "charts.yaml: is a folder; expected a chart file");
+}
+
 TEST_F(OwnFiles, ARunThatFailsBeforeItsFirstStepLeavesTheLastResults) {
   ASSERT_EQ(runAtrapos({"run", "-q", "deck.yaml"}, folder_.path()).exitCode, 0);
   const auto before = snapshot(folder_ / "deck_results");
