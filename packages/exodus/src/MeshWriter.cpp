@@ -182,9 +182,9 @@ class MeshWriter {
   const FileContents& contents_;
 };
 
-/// Tells whether what the library wrote into a file reached the disk. A descriptor of its own, from before:
-/// the system tells each descriptor of an error once, and NetCDF keeps to itself what it hears when it closes
-/// its own.
+/// Tells whether what the library wrote into a file reached the disk. A descriptor of its own, opened while
+/// NetCDF has the file: the system tells each descriptor of an error once, and NetCDF keeps to itself what it
+/// hears when it closes its own.
 class DiskCheck {
  public:
   /// Messages speak of the file as `shown`.
@@ -241,40 +241,40 @@ class Draft {
   std::string target_, path_;
 };
 
-}  // namespace
-
-File createFile(const std::string& name, const FileContents& contents) {
+/// Makes the file under a name of its own; `last(path, file)` is the last that happens to it before it gets
+/// `name`.
+template <class Last>
+File makeFile(const std::string& name, const FileContents& contents, const Last& last) {
   checkMesh(contents.mesh, name, contents.part ? Extent::part : Extent::whole);
   Draft draft(name);
   File file = File::create(draft.path(), name);
   MeshWriter(file, contents)();
   file.check(ex_update(file.id()), "writing the mesh");
   padFile(draft.path());
+  last(draft.path(), file);
   draft.moveToTarget();
   return file;
 }
 
-namespace {
-
-/// A file without results, on the disk before it has its name.
-void writeFile(const std::string& name, const FileContents& contents) {
-  checkMesh(contents.mesh, name, contents.part ? Extent::part : Extent::whole);
-  Draft draft(name);
-  File file = File::create(draft.path(), name);
-  const DiskCheck checkDisk(draft.path(), name);
-  MeshWriter(file, contents)();
-  file.close();
-  padFile(draft.path());
-  checkDisk();
-  draft.moveToTarget();
+/// A file without results, closed and on the disk before it has its name.
+void makeClosed(const std::string& name, const FileContents& contents) {
+  makeFile(name, contents, [&](const std::string& path, File& file) {
+    const DiskCheck checkDisk(path, name);
+    file.close();
+    checkDisk();
+  });
 }
 
 }  // namespace
 
-void writeMesh(const fem::Mesh& mesh, const std::string& file) { writeFile(file, {mesh, {}, {}, 0, {}}); }
+File createFile(const std::string& name, const FileContents& contents) {
+  return makeFile(name, contents, [](const std::string&, File&) {});
+}
+
+void writeMesh(const fem::Mesh& mesh, const std::string& file) { makeClosed(file, {mesh, {}, {}, 0, {}}); }
 
 void writePart(const MeshPart& part, const std::string& file) {
-  writeFile(partName(file, part.parts, part.part), {part.mesh, {}, {}, 0, {}, &part});
+  makeClosed(partName(file, part.parts, part.part), {part.mesh, {}, {}, 0, {}, &part});
 }
 
 }  // namespace atrapos::exodus
