@@ -1,13 +1,12 @@
 // Files of surfaces with changes at random: each makes a tool over which places have projections or none, or
-// is refused with one line. ATRAPOS_MUTANTS asks for more of them (scripts/fuzz).
+// is refused with one line.
 #include <gtest/gtest.h>
 
 #include <Kokkos_Core.hpp>
 
-#include <chrono>
-#include <cstdlib>
-#include <iostream>
+#include <optional>
 
+#include "TextMutants.hpp"
 #include "TextMutator.hpp"
 #include "deck/Deck.hpp"
 #include "scene/DeckTool.hpp"
@@ -64,39 +63,28 @@ void askTool(const std::string& deckFile) {
 
 TEST(Mutants, SurfacesAreReadOrRefusedWithOneLine) {
   const Kokkos::ScopeGuard kokkos;  // patches are held in its arrays
-  const char* const asked = std::getenv("ATRAPOS_MUTANTS");
-  const int mutants = asked != nullptr ? std::atoi(asked) : 1500;
   TemporaryFolder folder;
   const std::string deckFile = (folder / "d.yaml").string(), file = (folder / "die.yaml").string();
   writeFile(file, kSurfaces);
   askTool(deckFile);
   TextMutator mutate(lists(), 8), change(numbers(), 9);
-  int read = 0, refused = 0;
-  double slowest = 0;
-  for (int m = 0; m < mutants; ++m) {
-    const std::string text =
-        m % 2 == 0 ? mutate(kSurfaces) : change.withOtherValue(change.withOtherValue(kSurfaces));
-    writeFile(file, text);
-    const auto start = std::chrono::steady_clock::now();
-    try {
-      askTool(deckFile);
-      ++read;
-    } catch (const deck::DeckError& e) {
-      const std::string line = e.what();
-      ASSERT_EQ(line.find('\n'), std::string::npos) << line << "\n" << text;
-      ASSERT_TRUE(line.rfind(deckFile, 0) == 0 || line.rfind(file, 0) == 0) << line;
-      ++refused;
-    } catch (const std::exception& e) {
-      FAIL() << "mutant " << m << ": " << e.what() << "\n" << text;
-    }
-    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    ASSERT_LT(seconds, 10) << text;
-    slowest = std::max(slowest, seconds);
-  }
-  EXPECT_GT(read, mutants / 20);
-  EXPECT_GT(refused, mutants / 4);
-  std::cout << mutants << " mutants of surfaces: " << read << " read, " << refused
-            << " refused, the slowest in " << slowest << " s\n";
+  TextMutants mutants(1500);
+  mutants.tryAll(
+      "surfaces",
+      [&](int m) {
+        return m % 2 == 0 ? mutate(kSurfaces) : change.withOtherValue(change.withOtherValue(kSurfaces));
+      },
+      [&](int, const std::string& text, std::optional<std::string>& line) {
+        writeFile(file, text);
+        try {
+          askTool(deckFile);
+        } catch (const deck::DeckError& e) {
+          line = e.what();
+          ASSERT_TRUE(line->rfind(deckFile, 0) == 0 || line->rfind(file, 0) == 0) << *line;
+        }
+      });
+  EXPECT_GT(mutants.read(), mutants.number() / 20);
+  EXPECT_GT(mutants.refused(), mutants.number() / 4);
 }
 
 }  // namespace

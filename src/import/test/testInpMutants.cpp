@@ -1,12 +1,10 @@
 // Input files with changes at random: each is read, or refused with one line, all in one process.
-// ATRAPOS_MUTANTS asks for more of them (scripts/fuzz).
 #include <gtest/gtest.h>
 
-#include <chrono>
-#include <cstdlib>
-#include <iostream>
+#include <optional>
 
 #include "InpFile.hpp"
+#include "TextMutants.hpp"
 #include "TextMutator.hpp"
 #include "deck/Deck.hpp"
 
@@ -42,46 +40,32 @@ const std::string
         "*BOUNDARY\n1, 1, 2\n4, 1\n*STEP\n*STATIC\n*DLOAD\np, P2, 2.\n*END STEP\n";
 
 TEST(InpMutants, AreReadOrRefusedWithOneLine) {
-  const char* const asked = std::getenv("ATRAPOS_MUTANTS");
-  const int mutants = asked != nullptr ? std::atoi(asked) : 3000;
   const std::vector<std::string> bases{kBase, kShells, kPlane};
   for (const std::string& base : bases)
     deck::readDeckText("mesh: {file: m.exo}\n" + readText(base, Deck::yes).deck, "m.yaml");
   test::TextMutator mutate(test::inp(), 20);
   const InpFile file("");
-  int read = 0, refused = 0;
-  double slowest = 0;
-  for (int m = 0; m < mutants; ++m) {
-    const std::string text = mutate(bases[mutate.below(bases.size())]);
-    file.beside("model.inp", text);
-    const auto start = std::chrono::steady_clock::now();
-    try {
-      const Model model = readInp(file.path(), m % 2 == 0 ? Deck::yes : Deck::no);
-      ASSERT_GT(model.mesh.numElements(), 0);
-      for (const std::string& remark : model.remarks)
-        ASSERT_EQ(remark.find('\n'), std::string::npos) << remark;
-      // What no law or deck can take is refused there; nothing else may be wrong with what was written.
-      if (!model.deck.empty()) deck::readDeckText("mesh: {file: m.exo}\n" + model.deck, file.path());
-      ++read;
-    } catch (const Error& e) {
-      const std::string line = e.what();
-      ASSERT_EQ(line.find('\n'), std::string::npos) << line << "\n" << text;
-      ASSERT_EQ(line.rfind(file.path(), 0), 0u) << line;
-      ++refused;
-    } catch (const deck::DeckError& e) {
-      ASSERT_EQ(std::string(e.what()).find('\n'), std::string::npos) << e.what();
-      ++refused;
-    } catch (const std::exception& e) {
-      FAIL() << "mutant " << m << ": " << e.what() << "\n" << text;
-    }
-    slowest =
-        std::max(slowest, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
-  }
-  EXPECT_LT(slowest, 10);
-  EXPECT_GT(read, mutants / 10);
-  EXPECT_GT(refused, mutants / 10);
-  std::cout << mutants << " mutants: " << read << " read, " << refused << " refused, the slowest in "
-            << slowest << " s\n";
+  test::TextMutants mutants(3000);
+  mutants.tryAll(
+      "input files", [&](int) { return mutate(bases[mutate.below(bases.size())]); },
+      [&](int m, const std::string& text, std::optional<std::string>& line) {
+        file.beside("model.inp", text);
+        try {
+          const Model model = readInp(file.path(), m % 2 == 0 ? Deck::yes : Deck::no);
+          ASSERT_GT(model.mesh.numElements(), 0);
+          for (const std::string& remark : model.remarks)
+            ASSERT_EQ(remark.find('\n'), std::string::npos) << remark;
+          // What no law or deck can take is refused there; nothing else may be wrong with what was written.
+          if (!model.deck.empty()) deck::readDeckText("mesh: {file: m.exo}\n" + model.deck, file.path());
+        } catch (const Error& e) {
+          line = e.what();
+          ASSERT_EQ(line->rfind(file.path(), 0), 0u) << *line;
+        } catch (const deck::DeckError& e) {
+          line = e.what();
+        }
+      });
+  EXPECT_GT(mutants.read(), mutants.number() / 10);
+  EXPECT_GT(mutants.refused(), mutants.number() / 10);
 }
 
 }  // namespace
