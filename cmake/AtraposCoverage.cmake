@@ -12,9 +12,3 @@ foreach(target IN ITEMS ${atrapos_packages_here} models app deck import gmsh pre
   endif()
 endforeach()
 target_compile_options(atrapos PRIVATE ${counted})
-# Options of a source come behind those of its target, and precompiled headers want the same optimisation.
-foreach(source IN ITEMS linear/src/Eigenvalues linear/src/KrylovSolver fem/src/ReferenceCell)
-  get_filename_component(folder packages/${source} DIRECTORY)
-  get_filename_component(folder ${folder} DIRECTORY)
-  set_source_files_properties(packages/${source}.cpp DIRECTORY ${folder} PROPERTIES COMPILE_OPTIONS -O0)
-endforeach()
