@@ -29,10 +29,9 @@ buildPackages=(
 )
 # What tests use besides: pages of `atrapos report` are looked at in a browser, meshes go to meshio.
 testPackages=(chromium chromium-driver python3-selenium python3-meshio)
-# Fuzz targets and sanitizers: clang, its runtime libraries, names of functions in their reports.
-fuzzPackages=(clang-14 libclang-rt-14-dev llvm-14)
-# The thread sanitizer: an OpenMP that tells it of barriers.
-threadPackages=(libomp-14-dev libomp5-14)
+# Fuzz targets and sanitizers: clang, its runtime libraries, names of functions in their reports, an OpenMP that tells
+# the thread sanitizer of its barriers.
+fuzzPackages=(clang-14 libclang-rt-14-dev llvm-14 libomp-14-dev)
 # What a Trilinos of our own links besides.
 openmpPackages=(libsuitesparse-dev xz-utils)
 # What fetching and building its source takes.
