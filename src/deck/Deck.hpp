@@ -12,7 +12,8 @@
 #include "atrapos/fem/StructuredMesh.hpp"
 #include "atrapos/fem/StructuredPlane.hpp"
 #include "atrapos/fem/StructuredShell.hpp"
-#include "atrapos/path/Branches.hpp"
+#include "atrapos/path/BranchOptions.hpp"
+#include "atrapos/path/Options.hpp"
 
 /// The deck: the input of the `atrapos` command, as plain data. docs/deck.md explains every key.
 /// Units are the user's own, consistent ones; "force", "length", "pressure" below mean those.

@@ -7,8 +7,7 @@
 #include <map>
 #include <optional>
 
-#include "atrapos/formula/Builder.hpp"
-#include "atrapos/physics/Balance.hpp"
+#include "atrapos/physics/Formulas.hpp"
 #include "deck/DeckTables.hpp"
 #include "deck/Stages.hpp"
 

@@ -1,8 +1,7 @@
 // Keys of scalar fields and what acts on them: constants, fields, physics, inflow.
 #include <fmt/format.h>
 
-#include "atrapos/formula/Builder.hpp"
-#include "atrapos/physics/Balance.hpp"
+#include "atrapos/physics/Formulas.hpp"
 #include "deck/DeckTables.hpp"
 #include "deck/Entries.hpp"
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <regex>
 
-#include "atrapos/physics/Balance.hpp"
+#include "atrapos/physics/Formulas.hpp"
 
 namespace atrapos::deck {
 namespace {

@@ -2,7 +2,7 @@
 // evaluated.
 #include "Target.hpp"
 #include "atrapos/formula/Builder.hpp"
-#include "atrapos/physics/Balance.hpp"
+#include "atrapos/physics/Formulas.hpp"
 
 using namespace atrapos;
 

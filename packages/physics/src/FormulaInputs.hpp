@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "atrapos/formula/Parse.hpp"
-#include "atrapos/physics/Balance.hpp"
+#include "atrapos/physics/Formulas.hpp"
 
 /// The inputs of laws as formulas know them.
 namespace atrapos::physics::detail {

@@ -3,7 +3,7 @@
 
 #include "FormulaInputs.hpp"
 #include "atrapos/formula/Parse.hpp"
-#include "atrapos/physics/Balance.hpp"
+#include "atrapos/physics/Formulas.hpp"
 
 namespace atrapos::physics {
 

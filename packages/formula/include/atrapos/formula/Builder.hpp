@@ -1,18 +1,12 @@
 #pragma once
 
-#include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "atrapos/formula/FormulaError.hpp"
 #include "atrapos/formula/Program.hpp"
 
 namespace atrapos::formula {
-
-/// What is wrong with a formula, in one line.
-class FormulaError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
 
 /// Makes programs: what was asked for before is given again, operations on numbers are worked out. Numbers of
 /// steps are counted over all formulas of a builder.

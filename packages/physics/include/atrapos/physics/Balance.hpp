@@ -1,7 +1,5 @@
 #pragma once
 
-#include <functional>
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -10,14 +8,11 @@
 #include "atrapos/fem/DofMap.hpp"
 #include "atrapos/fem/Mesh.hpp"
 #include "atrapos/fem/Term.hpp"
+#include "atrapos/physics/Formulas.hpp"
 #include "atrapos/solid/PlaneBody.hpp"
 
 /// Balances of scalar fields whose coefficients are formulas (docs/theory/balance.md): conduction of heat and
 /// current, reaction and diffusion.
-///
-/// Formulas know the fields by their names, the load factor as `lambda`, the place as x, y, z, and constants;
-/// those of a body also dot(grad(a), grad(b)) of two fields. What cannot be read throws
-/// formula::FormulaError.
 namespace atrapos::physics {
 
 /// capacity dfield/dt - div(conductivity grad field) = source, of which a path follows the steady states.
@@ -34,28 +29,8 @@ struct Inflow {
   std::string amount = "0";
 };
 
-using Constants = std::map<std::string, double>;
-
 /// One component without a name, of a balance of its own.
 fem::Field scalarField(const std::string& name);
-
-/// Whether a formula may call something of one's own so: no function, and not lambda, x, y or z.
-bool isFreeName(const std::string& name);
-
-/// Where a formula stands, which says what it may refer to.
-enum class Place { body, surface, reference };
-
-/// Throws formula::FormulaError where a formula cannot be read; `reference`: of the place and constants
-/// alone.
-void checkFormula(const std::string& text, const std::vector<std::string>& fields, const Constants& constants,
-                  Place place);
-
-/// The values of a formula of the place and constants, by position.
-std::function<double(const double*)> ofPlace(const std::string& text, const Constants& constants);
-
-/// Whether a formula depends on the load factor.
-bool dependsOnLoadFactor(const std::string& text, const std::vector<std::string>& fields,
-                         const Constants& constants, Place place);
 
 /// Terms of a block and of the sides of a set, whose nodes have these fields, at most mostFields; what is
 /// said of one field more than once adds up. `plane`: of plane cells; nothing is said of what has no balance.

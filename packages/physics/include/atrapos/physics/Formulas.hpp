@@ -1,0 +1,35 @@
+#pragma once
+
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "atrapos/formula/FormulaError.hpp"
+
+/// Formulas of coefficients and amounts know the fields by their names, the load factor as `lambda`, the
+/// place as x, y, z, and constants; those of a body also dot(grad(a), grad(b)) of two fields. What cannot be
+/// read throws formula::FormulaError.
+namespace atrapos::physics {
+
+using Constants = std::map<std::string, double>;
+
+/// Whether a formula may call something of one's own so: no function, and not lambda, x, y or z.
+bool isFreeName(const std::string& name);
+
+/// Where a formula stands, which says what it may refer to.
+enum class Place { body, surface, reference };
+
+/// Throws formula::FormulaError where a formula cannot be read; `reference`: of the place and constants
+/// alone.
+void checkFormula(const std::string& text, const std::vector<std::string>& fields, const Constants& constants,
+                  Place place);
+
+/// The values of a formula of the place and constants, by position.
+std::function<double(const double*)> ofPlace(const std::string& text, const Constants& constants);
+
+/// Whether a formula depends on the load factor.
+bool dependsOnLoadFactor(const std::string& text, const std::vector<std::string>& fields,
+                         const Constants& constants, Place place);
+
+}  // namespace atrapos::physics
