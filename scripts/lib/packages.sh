@@ -27,8 +27,9 @@ buildPackages=(
   # The Python module.
   pybind11-dev python3-dev python3-numpy
 )
-# What tests use besides: pages of `atrapos report` are looked at in a browser, meshes go to meshio.
-testPackages=(chromium chromium-driver python3-selenium python3-meshio)
+# What tests use besides: a fast linker for their many programs; pages of `atrapos report` are looked at in a browser,
+# meshes go to meshio.
+testPackages=(lld chromium chromium-driver python3-selenium python3-meshio)
 # Fuzz targets and sanitizers: clang, its runtime libraries, names of functions in their reports, an OpenMP that tells
 # the thread sanitizer of its barriers.
 fuzzPackages=(clang-14 libclang-rt-14-dev llvm-14 libomp-14-dev)
