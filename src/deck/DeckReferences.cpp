@@ -164,9 +164,6 @@ void checkPluginLaw(const Value& at, const PluginLaw& entry, const Deck& deck) {
   for (const std::string& field : entry.fields) {
     checkFieldName(at.at("fields"), field, deck);
   }
-  if (entry.fields.empty()) {
-    at.at("fields").fail("is empty; expected the names of the law's fields");
-  }
 }
 
 void checkPhysics(const Value& root, const Deck& deck) {

@@ -213,7 +213,9 @@ void ModelMaker::choosePressure(const deck::Contact& contact, BodySize body, Con
         reference = *contact.referenceGap;
         if (reference <= least / 2)
           fail(key + "/reference_gap",
-               fmt::format("must be above eta/alpha = {:.6g}, got {:.6g}", least / 2, reference));
+               fmt::format(
+                   "must be above {:.6g}, regularisation/stiffness as the body suggests them, got {:.6g}",
+                   least / 2, reference));
       } else if (!contact.isRigid()) {
         // A law as hard as that of a point that touches, whose force falls over nothing, has no start in
         // floating-point numbers: it gets a thousandth of the scene's gap, and lifts the body by less.

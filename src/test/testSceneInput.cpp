@@ -1,0 +1,353 @@
+// Decks that are right by themselves and not for their mesh, or ask for what is not there together: one line
+// each that names the key.
+#include <gtest/gtest.h>
+
+#include <string>
+#include <utility>
+
+#include "commands/MeshCommand.hpp"
+#include "deck/Deck.hpp"
+#include "scene/DeckMesh.hpp"
+#include "scene/Scene.hpp"
+
+namespace {
+
+using namespace atrapos;
+
+std::string changed(std::string text, const std::string& from, const std::string& to) {
+  const auto at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << "the deck has no '" << from << "'";
+  return at == std::string::npos ? text : text.replace(at, from.size(), to);
+}
+
+/// The line with which a deck with this mesh is refused.
+std::string refusal(const std::string& text, const fem::Mesh* mesh = nullptr) {
+  try {
+    const deck::Deck deck = deck::readDeckText(text, "deck.yaml");
+    Scene(deck, DeckMesh(mesh != nullptr ? *mesh : generateMesh(deck)));
+  } catch (const deck::DeckError& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+void expectRefused(const std::string& text, const std::string& words, const fem::Mesh* mesh = nullptr) {
+  const std::string error = refusal(text, mesh);
+  EXPECT_NE(error.find(words), std::string::npos) << error << "\n  expected: " << words;
+  EXPECT_EQ(error.find('\n'), std::string::npos) << error;
+}
+
+fem::Mesh meshOf(const std::string& text) { return generateMesh(deck::readDeckText(text, "deck.yaml")); }
+
+/// The second half of the mesh's one block becomes the block `other`.
+fem::Mesh halved(fem::Mesh mesh) {
+  fem::Block& first = mesh.blocks.at(0);
+  fem::Block other = first;
+  const auto cut = first.nodes.begin() + static_cast<std::ptrdiff_t>(first.nodes.size() / 2);
+  other.nodes.assign(cut, first.nodes.end());
+  other.name = "other";
+  other.id = first.id + 1;
+  first.nodes.erase(cut, first.nodes.end());
+  mesh.blocks.push_back(std::move(other));
+  return mesh;
+}
+
+const std::string bar = R"(mesh:
+  file: bar.exo
+  generate: {shape: box, lengths: [4, 1, 1], divisions: [4, 1, 1], cell: HEX8, block: bar}
+materials:
+  steel: {law: saint_venant_kirchhoff, youngs_modulus: 1000, poissons_ratio: 0.3, blocks: [bar]}
+tools:
+  floor: {type: plane, point: [0, 0, -1], normal: [0, 0, 1]}
+supports:
+  clamp: {set: x_min, x: 0, y: 0, z: 0}
+loads:
+  tip: {type: surface, set: x_max, traction: [0, 0, -1]}
+path:
+  stop: {load_factor: 1}
+)";
+
+const std::string plate = R"(mesh:
+  file: plate.exo
+  generate: {shape: shell_plate, length: 4, width: 1, divisions: [4, 1], block: plate}
+materials:
+  steel: {law: saint_venant_kirchhoff, youngs_modulus: 1000, poissons_ratio: 0.3, blocks: [plate]}
+shells:
+  sections:
+    skin: {blocks: [plate], thickness: 0.1}
+supports:
+  clamp: {set: x_min, condition: clamped}
+loads:
+  tip: {type: edge, set: x_max, total: [0, 0, -1]}
+path:
+  stop: {load_factor: 1}
+)";
+
+const std::string heat = R"(mesh:
+  file: plate.exo
+  generate: {shape: rectangle, lengths: [4, 2], divisions: [4, 2], cell: QUAD8, block: body}
+plane: {kind: strain}
+materials:
+  steel: {law: neo_hookean, youngs_modulus: 1000, poissons_ratio: 0.3, blocks: [body]}
+physics:
+  heat: {type: balance, field: T, blocks: [body], conductivity: 1, source: lambda}
+supports:
+  hold: {set: x_min, x: 0, y: 0}
+  cold: {set: x_min, field: T, value: 0}
+path:
+  stop: {load_factor: 1}
+)";
+
+const std::string flow = R"(mesh:
+  file: channel.exo
+  generate: {shape: rectangle, lengths: [4, 1], divisions: [4, 2], cell: QUAD9, block: channel}
+plane: {kind: strain}
+physics:
+  fluid: {type: flow, velocity: [u, v], pressure: p, viscosity: 1, density: 1, blocks: [channel]}
+supports:
+  inlet: {set: x_min, field: u, value: {per_load_factor: 1}}
+path:
+  stop: {load_factor: 1}
+)";
+
+}  // namespace
+
+TEST(SceneInput, TheDecksThemselvesPass) {
+  for (const std::string& text : {bar, plate, heat, flow}) EXPECT_EQ(refusal(text), "no error");
+}
+
+TEST(SceneInput, EmptySets) {
+  fem::Mesh mesh = meshOf(bar);
+  mesh.nodeSets.at(static_cast<std::size_t>(fem::findNodeSet(mesh, "x_min"))).nodes.clear();
+  expectRefused(bar, "supports/clamp/set: the node set 'x_min' is empty", &mesh);
+}
+
+TEST(SceneInput, ShellsAreNoSolids) {
+  expectRefused(
+      changed(plate, "poissons_ratio: 0.3", "poissons_ratio: 0.3, expansion: 1.0e-5*lambda"),
+      "materials/steel/expansion: block 'plate' has shells; expansion is for solids and plane bodies");
+  expectRefused(changed(plate, "shells:\n",
+                        "physics:\n  heat: {type: balance, field: T, blocks: [plate], source: 1}\nshells:\n"),
+                "physics/heat/blocks: block 'plate' has shells; balances are for solids and plane cells");
+  expectRefused(changed(plate, "thickness: 0.1}", "thickness: 0.1, shear: 2}"),
+                "shells/sections/skin/shear: expected one of");
+}
+
+TEST(SceneInput, SolidsAreNoShells) {
+  expectRefused(changed(bar, "tools:\n", "shells: {joints: {fold: {set: x_max, joint: hinge}}}\ntools:\n"),
+                "shells/joints/fold/set: no node of 'x_max' belongs to shells");
+  expectRefused(changed(bar, "loads:\n", "couplings:\n  seam: {kind: shell_on_solid, set: x_max}\nloads:\n"),
+                "couplings/seam/set: no node of 'x_max' belongs to shells");
+  const std::string contact =
+      "contact:\n  below: {tool: floor, set: z_min, points: nodes, at: top, stiffness: 10}\npath:\n";
+  expectRefused(changed(bar, "path:\n", contact),
+                "contact/below/at: no node of 'z_min' belongs to shells, which have a top and a bottom");
+}
+
+TEST(SceneInput, FlowsAndTheirCells) {
+  expectRefused(changed(flow, "cell: QUAD9", "cell: QUAD4"),
+                "physics/fluid/blocks: block 'channel' has QUAD4; a flow needs");
+  expectRefused(changed(flow, "velocity: [u, v]", "velocity: [u, v, w]"),
+                "physics/fluid/velocity: has 3 components; the mesh has 2 dimensions");
+  expectRefused(changed(flow, "kind: strain", "kind: stress, thickness: 1"),
+                "physics/fluid: a flow is plane with kind: strain, or axisymmetric");
+  expectRefused(changed(flow, "supports:\n",
+                        "  more: {type: flow, velocity: [a, b], pressure: q, viscosity: 1, blocks: "
+                        "[channel]}\nsupports:\n"),
+                "physics/more/blocks: block 'channel' already has the flow 'fluid'");
+  expectRefused(changed(flow, "physics:\n",
+                        "materials:\n  ice: {law: neo_hookean, youngs_modulus: 1, poissons_ratio: 0.3, "
+                        "blocks: [channel]}\nphysics:\n"),
+                "physics/fluid/blocks: block 'channel' has the material 'ice'; a fluid has none");
+  expectRefused(changed(flow, "supports:\n",
+                        "  heat: {type: balance, field: u, blocks: [channel], conductivity: 1}\nsupports:\n"),
+                "physics/fluid/velocity: 'u' has a balance already");
+}
+
+/// Fields are there where something acts on them alone.
+TEST(SceneInput, FieldsThatABlockDoesNotHave) {
+  const fem::Mesh two = halved(meshOf(heat));
+  const std::string half =
+      changed(changed(heat, "blocks: [body]}\nphysics", "blocks: [body, other]}\nphysics"), "source: lambda}",
+              "source: lambda}\n  charge: {type: balance, field: phi, blocks: [other], conductivity: 1}");
+  EXPECT_EQ(refusal(half, &two), "no error");
+  expectRefused(changed(half, "conductivity: 1, source: lambda", "conductivity: 1 + phi, source: lambda"),
+                "physics/heat: in block 'body' a formula does not know 'phi'", &two);
+  expectRefused(changed(half, "poissons_ratio: 0.3", "poissons_ratio: 0.3, expansion: phi"),
+                "materials/steel/expansion: in block 'body' does not know 'phi'", &two);
+  expectRefused(changed(half, "supports:\n", "supports:\n  pole: {set: x_min, field: phi, value: 1}\n"),
+                "supports/pole/set: node", &two);
+  expectRefused(
+      changed(half, "path:\n", "loads:\n  air: {type: inflow, set: x_min, field: phi, amount: 1}\npath:\n"),
+      "loads/air/field: a side of 'x_min' belongs to a block without the field 'phi'", &two);
+  expectRefused(
+      changed(half, "path:\n", "loads:\n  air: {type: inflow, set: x_min, field: T, amount: phi}\npath:\n"),
+      "loads/air/amount: does not know 'phi'", &two);
+  expectRefused(half + "output: {monitors: {m: {type: field, field: phi, set: x_min}}}\n",
+                "output/monitors/m/set: node", &two);
+
+  const std::string fluid = changed(
+      flow, "supports:\n", "  push: {type: balance, field: u, blocks: [other], source: 1}\nsupports:\n");
+  const fem::Mesh channel = halved(meshOf(flow));
+  expectRefused(
+      fluid, "physics/push/blocks: block 'other' has no flow, whose velocity 'u' is; a force acts on a fluid",
+      &channel);
+}
+
+TEST(SceneInput, SupportsAndFieldsThatDisagree) {
+  expectRefused(changed(heat, "path:\n", "  warm: {set: x_min, field: T, value: 1}\npath:\n"),
+                "supports/warm: the field 'T' of node");
+  const fem::Mesh two = halved(meshOf(heat));
+  expectRefused(
+      changed(changed(heat, "source: lambda}",
+                      "source: lambda}\n  more: {type: balance, field: T, blocks: [other], conductivity: 1}"),
+              "supports:\n", "supports:\n  end: {set: x_max, x: 0}\n"),
+      "supports/end/set: node", &two);  // no material there, no displacement
+}
+
+TEST(SceneInput, TooManyFields) {
+  std::string many = heat;
+  for (int f = 0; f < 9; ++f) {
+    const std::string name = "c" + std::to_string(f);
+    many = changed(
+        many, "supports:\n",
+        "  " + name + ": {type: balance, field: " + name + ", blocks: [body], conductivity: 1}\nsupports:\n");
+  }
+  expectRefused(many, "scalar fields; expected at most");
+}
+
+TEST(SceneInput, WhatMaterialsInFieldsCannotBe) {
+  const auto with = [](const std::string& words) {
+    return changed(heat, "poissons_ratio: 0.3", "poissons_ratio: 0.3" + words);
+  };
+  const std::string dielectric = ", dielectric: {field: phi, permittivity: 1}";
+  expectRefused(with(", expansion: 0.1*T" + dielectric),
+                "materials/steel/dielectric: stands beside expansion; expected one of them");
+  expectRefused(with(", expansion: 0.1*T, formulation: mixed"),
+                "materials/steel/expansion: is not for formulation: mixed");
+  expectRefused(changed(with(dielectric), "kind: strain", "kind: axisymmetric"),
+                "materials/steel/dielectric: is not for axisymmetric bodies");
+  expectRefused(
+      with(", dielectric: {field: T, permittivity: 1}"),
+      "materials/steel/dielectric/field: physics/heat has a balance of 'T', whose rows are no charges");
+  expectRefused(
+      changed(heat, "law: neo_hookean, youngs_modulus: 1000, poissons_ratio: 0.3",
+              "law: yeoh, c1: 1, c2: 0, c3: 0, bulk_modulus: 10, expansion: 0.1*T"),
+      "materials/steel/expansion: is for the laws saint_venant_kirchhoff, neo_hookean and mooney_rivlin");
+  expectRefused(changed(heat, "path:\n", "path:\n  imperfections: [0.1]\n"),
+                "path/imperfections: their shapes are of displacements alone; not with scalar fields");
+}
+
+TEST(SceneInput, ConstantsAreAMap) {
+  expectRefused(changed(heat, "plane:", "constants: 3\nplane:"),
+                "constants: expected a map of names to numbers, got 3");
+}
+
+TEST(SceneInput, MetalsThatAreNone) {
+  const auto metal = [](const std::string& words) {
+    return changed(bar, "law: saint_venant_kirchhoff, youngs_modulus: 1000, poissons_ratio: 0.3",
+                   "law: von_mises, youngs_modulus: 1000, poissons_ratio: 0.3, yield_stress: 1" + words);
+  };
+  expectRefused(metal(", strains: finite, kinematic_modulus: 10"),
+                "materials/steel/kinematic_modulus: is for strains: small");
+  expectRefused(metal(", saturation: -1, exponent: 5"),
+                "materials/steel/saturation: must leave some of the yield stress 1, got -1");
+}
+
+TEST(SceneInput, MixedBodiesHaveNoImperfections) {
+  const std::string rubber =
+      changed(bar, "law: saint_venant_kirchhoff, youngs_modulus: 1000, poissons_ratio: 0.3",
+              "law: neo_hookean, youngs_modulus: 1000, poissons_ratio: 0.3, formulation: mixed");
+  expectRefused(
+      changed(rubber, "path:\n", "path:\n  imperfections: [0.1]\n"),
+      "path/imperfections: their shapes are of displacements alone; expected formulation: displacement");
+}
+
+TEST(SceneInput, ContactsThatCannotBe) {
+  const auto with = [](const std::string& words) {
+    return changed(bar, "path:\n", "contact:\n  below: {tool: floor, set: z_min, " + words + "}\npath:\n");
+  };
+  const auto touching = [&](const std::string& words) {
+    return changed(with(words), "point: [0, 0, -1]", "point: [0, 0, 0]");
+  };
+  EXPECT_EQ(refusal(with("stiffness: 10")), "no error");
+  expectRefused(with("unknown: curve, carried: near, stiffness: 10, regularisation: 0.1"),
+                "contact/below/carried: near has no meaning with unknown: curve; expected all");
+  expectRefused(with("points: nodes, stiffness: 10") +
+                    "output: {monitors: {a: {type: contact_area, contact: below}}}\n",
+                "output/monitors/a/contact: contact 'below' acts at nodes, which have no area");
+  expectRefused(touching("unknown: curve, stiffness: 10, regularisation: 0.1"),
+                "contact/below/reference_gap: the body touches tool 'floor' at");
+  expectRefused(with("stiffness: 10, regularisation: 5, reference_gap: 0.1"),
+                "contact/below/reference_gap: must be above regularisation/stiffness = 0.5, got 0.1");
+  expectRefused(
+      with("reference_gap: 1.0e-9"),
+      "contact/below/reference_gap: must be above 3.90625e-06, regularisation/stiffness as the body suggests "
+      "them, got 1e-09");
+}
+
+TEST(SceneInput, ZonesThatCannotBe) {
+  const auto with = [](const std::string& mesh, const std::string& tool) {
+    return changed(changed(changed(bar, "path:\n",
+                                   "contact:\n  below: {tool: floor, set: z_min, points: zones}\npath:\n"),
+                           "cell: HEX8", mesh),
+                   "{type: plane, point: [0, 0, -1], normal: [0, 0, 1]}", tool);
+  };
+  const std::string floor = "{type: plane, point: [0, 0, -1], normal: [0, 0, 1]}";
+  expectRefused(with("cell: TET4", floor), "contact/below/set: side set 'z_min': side ");
+  expectRefused(with("cell: TET4", floor),
+                "is a triangle; zones of contact are found on lines across quadrilaterals");
+}
+
+TEST(SceneInput, PlaneBodiesNeedToolsThatGoOnAlongZ) {
+  const std::string plane = R"(mesh:
+  file: block.exo
+  generate: {shape: rectangle, lengths: [2, 1], divisions: [2, 1], cell: QUAD8, block: body}
+plane: {kind: strain}
+materials: {m: {law: neo_hookean, youngs_modulus: 1, poissons_ratio: 0.3, blocks: [body]}}
+tools: {ball: {type: sphere, center: [0, -3, 1], radius: 2}}
+contact: {below: {tool: ball, set: y_min, stiffness: 10}}
+supports: {clamp: {set: y_max, x: 0, y: {per_load_factor: -1}}}
+path: {stop: {load_factor: 0.1}}
+)";
+  expectRefused(plane, "contact/below: the normal of tool 'ball' leaves the plane z = 0 at");
+  EXPECT_EQ(refusal(changed(plane, "center: [0, -3, 1]", "center: [0, -3, 0]")), "no error");
+}
+
+TEST(SceneInput, StopsMonitorsAndImperfections) {
+  expectRefused(changed(bar, "stop: {load_factor: 1}", "stop: {bifurcation: 1}\nsolver: {type: belos}"),
+                "path/stop/bifurcation: bifurcation points are found by the number of negative eigenvalues, "
+                "that needs solver/type: mumps");
+  expectRefused(changed(bar, "path:\n", "path:\n  hopf: true\n"),
+                "path/hopf: is for balances and flows alone");
+  expectRefused(bar + "output: {monitors: {f: {type: reaction, support: clamp}}}\n",
+                "output/monitors/f/component: is missing");
+  const std::string model =
+      "problem: {name: lee_frame}\npath: {imperfections: [0.1], imperfections_as: geometry}\n";
+  expectRefused(
+      model,
+      "path/imperfections_as: geometry needs a mesh, which a model problem does not have; expected load");
+}
+
+TEST(SceneInput, LatitudesOfSpheres) {
+  expectRefused(
+      changed(plate, "shape: shell_plate, length: 4, width: 1, divisions: [4, 1]",
+              "shape: shell_sphere, radius: 1, latitude: [-90, 0], longitude: [0, 90], divisions: [4, 4]"),
+      "mesh/generate/latitude: must stay above -90 and below 90 degrees, got the list [-90, 0]");
+}
+
+TEST(SceneInput, PluginsThatAreNotAllThere) {
+  const std::string own = changed(
+      flow,
+      "  fluid: {type: flow, velocity: [u, v], pressure: p, viscosity: 1, density: 1, blocks: [channel]}",
+      "  film: {type: plugin, law: soap, fields: [u], blocks: [channel]}");
+  const std::string with = changed(own, "plane:", "plugins: [soap]\nplane:");
+  expectRefused(own, "physics/film/law: needs the block plugins");
+  expectRefused(
+      changed(with, "path:\n",
+              "loads:\n  pull: {type: plugin, law: pull, set: x_max, fields: [u], constant: true}\npath:\n"),
+      "loads/pull/constant: has no meaning with type: plugin, whose law reads the load factor itself");
+  expectRefused(changed(with, "path:\n  stop: {load_factor: 1}\n",
+                        "path:\n  stages: {one: {stop: {load_factor: 1}}}\n"),
+                "path/stages: are not for decks with plug-ins, whose laws have one load factor");
+}
