@@ -272,6 +272,22 @@ TEST_F(ChartTest, WhatMakesNoChart) {
       "deck: bar.yaml\nerror: {monitor: [a, b], reference: {file: t.csv, columns: [x, a]}}\ncurves: {a: "
       "{}}\n",
       "expected 3 names: of the quantity `over`, of each monitor");
+  expectLine(
+      "deck: bar.yaml\nerror: {monitor: a, reference: {formula: x, columns: [x, a]}}\ncurves: {a: {}}\n",
+      "error/reference/columns: has no meaning without a file");
+  expectLine("deck: bar.yaml\nerror: {reference: {formula: x}}\ncurves: {a: {}}\n",
+             "error/monitor: is missing; expected a name or a list of names");
+  writeFile(folder_ / "other.csv", "seconds,error\n3,1e-3\n");
+  expectLine(head + "curves: {a: {table: other.csv}}\n", "curves: expected a curve that is not a table");
+  writeFile(folder_ / "t.csv", "x,a,b\n100,1,1\n200,inf,2\n300,3,3\n");
+  const std::string table =
+      "deck: bar.yaml\nerror: {monitor: shortening, reference: {file: t.csv, columns: [x, ";
+  expectLine(table + "a]}}\ncurves: {a: {}}\n", "t.csv: row 2 holds no numbers");
+  expectLine(table + "b]}}\ncurves: {a: {}}\n", "the reference knows no load_factor of the path");
+  expectLine(
+      "deck: bar.yaml\nerror: {monitor: shortening, reference: {set: {path/order: 2, path/pade: off, "
+      "path/accuracy: 1e-9}}}\ncurves: {a: {}}\n",
+      "error/reference: the run does not reach a stop: ");
   expectLine("deck: none.yaml\nerror: {monitor: a, reference: {formula: load_factor}}\ncurves: {a: {}}\n",
              "none.yaml: cannot be read");
 }
@@ -290,6 +306,10 @@ TEST_F(ChartTest, WritesIntoNoFolderOfOthers) {
   EXPECT_EQ(r.exitCode, 2);
   EXPECT_NE(r.err.find("was not made by atrapos"), std::string::npos) << r.err;
   EXPECT_EQ(readFile(folder_.path() / "c_chart" / "chart.csv"), "mine\n");
+  std::filesystem::remove(folder_.path() / "c_chart" / "chart.csv");
+  std::filesystem::create_directory(folder_.path() / "c_chart" / "runs");
+  EXPECT_NE(chart(kBar).err.find("c_chart/runs is there, but no c_chart/chart.csv; expected another folder"),
+            std::string::npos);
 }
 
 }  // namespace

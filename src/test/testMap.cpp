@@ -162,6 +162,7 @@ TEST_F(MapTest, BadWords) {
       {{"map", "truss.yaml", "--deltas", "2"}, "--deltas '2'"},
       {{"map", "truss.yaml", "--pade", "maybe"}, "--pade 'maybe'"},
       {{"map", "truss.yaml", "--vary", "path/order"}, "--vary 'path/order': expected KEY=LIST"},
+      {{"map", "truss.yaml", "--vary", "path/order=[3"}, "--vary 'path/order=[3'"},
       {{"map", "truss.yaml", "--vary", "path/order=3"}, "--vary 'path/order=3'"},
       {{"map", "truss.yaml", "--vary", "path/method=[series, newton]"},
        "path/method: the map varies the settings of series"},

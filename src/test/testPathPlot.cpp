@@ -204,6 +204,27 @@ TEST(PathPlot, ColumnsInAnotherOrderAreRefused) {
   EXPECT_THROW(readCurves(folder.path().string()), std::invalid_argument);
 }
 
+TEST(PathPlot, TablesThatDoNotBelongTogetherAreRefused) {
+  const TemporaryFolder folder;
+  const auto refusal = [&] {
+    try {
+      readCurves(folder.path().string());
+    } catch (const std::invalid_argument& e) {
+      return std::string(e.what());
+    }
+    return std::string("no error");
+  };
+  writeTables(folder.path());
+  EXPECT_EQ(refusal(), "no error");
+  writeFile(folder / "points.csv", pointHeader({"x"}) + "\n");
+  EXPECT_NE(refusal().find("path.csv and points.csv have different monitors"), std::string::npos)
+      << refusal();
+  PointRow nowhere{2, 0, std::nan(""), 2.1, "maximum"};
+  nowhere.monitors = {1, 1};
+  writeTables(folder.path(), kRows, text(nowhere) + "\n");
+  EXPECT_EQ(refusal(), "points.csv: row 1 has no path length");
+}
+
 TEST(PathPlot, ForcesOverDisplacementsWhereTheseAreGiven) {
   const TemporaryFolder folder;
   writeTables(folder.path());

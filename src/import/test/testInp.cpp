@@ -218,7 +218,15 @@ TEST(Inp, ErrorsHaveFileAndLine) {
       {kCube + "*ELEMENT, TYPE=C3D8\n1, 1,2,3,4,5,6,7,8\n", ":14: element 1 is there already"},
       {kCube + "*NSET, NSET=a\nnone\n", ":14: there is no node set 'none'"},
       {kCube + "*NSET\n1\n", ":13: *NSET: has no name"},
+      {kCube + "*NSET, NSET=a, ELSET=none\n", ":13: *NSET: there is no element set 'none'"},
       {kCube + "*SURFACE, NAME=s\ncube, S7\n", ":14: element 1 has no face 'S7'"},
+      {kCube + "*SURFACE, NAME=s\nnone, S1\n", ":14: there is no element set 'none'"},
+      {kNodes + "*ELEMENT, TYPE=S4, ELSET=plate\n1, 1,2,3,4\n*SURFACE, NAME=s\nplate\n",
+       ":14: a surface of shells has no face; expected SPOS, SNEG, E1"},
+      {"*PART, NAME=p\n" + kCube +
+           "*NSET, NSET=a\n1\n*END PART\n*ASSEMBLY, NAME=A\n*INSTANCE, NAME=i, PART=p\n" +
+           "*END INSTANCE\n*NSET, NSET=a, INSTANCE=i\n3\n*END ASSEMBLY\n",
+       ":20: *NSET: a set of this name is in the part too; expected different names"},
       {kCube + "*NGEN\n1, 2\n", ":13: *NGEN: is not known"},
       {kCube + "*INCLUDE, INPUT=none.inc\n", "none.inc' does not exist"},
       {"*INCLUDE, INPUT=model.inp\n", "is included 17 deep"},
@@ -315,6 +323,35 @@ TEST(Inp, DecksThatWouldBeAnotherProblemAreRefused) {
   expectRefused(kCube + "*BOUNDARY\n1, 1, 3\n" + step, Deck::yes, "has no section with a material");
   expectRefused(kCube + kSteel + "*BOUNDARY\n1, 1, 3\n*TRANSFORM, NSET=all\n1, 0, 0, 0, 1, 0\n" + step,
                 Deck::yes, ":21: *TRANSFORM");
+}
+
+TEST(Inp, LoadsAndSupportsThatDecksCannotHave) {
+  const std::string held = "*BOUNDARY\n1, 1, 3\n", begin = "*STEP\n*STATIC\n", end = "*END STEP\n";
+  const auto loads = [&](const std::string& text) { return kCube + kSteel + held + begin + text + end; };
+  expectRefused(kNodes + "*ELEMENT, TYPE=C3D4, ELSET=cube\n1, 1,2,3,5\n" + kSteel + held + begin +
+                    "*DLOAD\ncube, P5, 1.\n" + end,
+                Deck::yes, ":24: element 1 has no face for 'P5'");
+  expectRefused(loads("*DSLOAD\nnone, P, 1.\n"), Deck::yes, ":24: there is no surface 'none' of elements");
+  expectRefused(kCube + kSteel + "*BOUNDARY\n1, 1, 1, .5\n" + begin + "*CLOAD\n7, 1, 1.\n" + end, Deck::yes,
+                ":20: a displacement before the first step is not 0; expected it in a step");
+  expectRefused(kCube + kSteel + "*BOUNDARY\n1, XSYM\n" + begin + "*CLOAD\n7, 1, 1.\n" + end, Deck::yes,
+                ":20: 'XSYM' is no degree of freedom; expected 1 to 6, XSYMM");
+  std::string light = loads("*DLOAD\ncube, GRAV, 10., 0., 0., -2.\n");
+  const std::string density = "*DENSITY\n2.\n";
+  light.erase(light.find(density), density.size());
+  expectRefused(light, Deck::yes, "gravity acts on material 'steel', which has no *DENSITY");
+  expectRefused(
+      kNodes + "*ELEMENT, TYPE=CPS4, ELSET=a\n1, 1,2,3,4\n*ELEMENT, TYPE=CPS4, ELSET=cube\n2, 1,2,3,4\n" +
+          kSteel + "1.\n" + "*SOLID SECTION, ELSET=a, MATERIAL=steel\n2.\n" + held + begin +
+          "*CLOAD\n3, 1, 1.\n" + end,
+      Deck::yes, "sections of plane elements have thicknesses 1 and 2; a deck has one");
+  std::string many = kNodes + "*ELEMENT, TYPE=C3D8, ELSET=cube\n", weights = "*DLOAD\n";
+  for (int e = 1; e <= 65; ++e) {
+    many += std::to_string(e) + ", 1,2,3,4,5,6,7,8\n";
+    weights += std::to_string(e) + ", GRAV, 10., 0., 0., -2.\n";
+  }
+  expectRefused(many + kSteel + held + begin + weights + end, Deck::yes,
+                "has loads by volume on 65 different element sets; expected at most 64");
 }
 
 }  // namespace
