@@ -329,6 +329,15 @@ TEST(SceneInput, StopsMonitorsAndImperfections) {
       "path/imperfections_as: geometry needs a mesh, which a model problem does not have; expected load");
 }
 
+TEST(SceneInput, StagesThatDriveTwoEntriesOfOneName) {
+  const std::string moved =
+      changed(changed(bar, "x: 0, y: 0, z: 0", "x: {per_load_factor: 1}, y: 0, z: 0"), "tip:", "clamp:");
+  expectRefused(changed(moved, "  stop: {load_factor: 1}",
+                        "  stages: {pull: {drives: [clamp], stop: {load_factor: 1}}}"),
+                "path/stages/pull/drives: 'clamp' is the name of 2 entries that depend on the load factor; "
+                "expected other names");
+}
+
 TEST(SceneInput, LatitudesOfSpheres) {
   expectRefused(
       changed(plate, "shape: shell_plate, length: 4, width: 1, divisions: [4, 1]",
