@@ -39,7 +39,8 @@ def shortened(text):
 
 def mutant(text, choose):
     for _ in range(choose.randint(1, 3)):
-        places = [m for m in NUMBER.finditer(text) if not text[: m.start()].rsplit("\n", 1)[-1].lstrip().startswith("#")]
+        # Not in comments, and not the number of steps.
+        places = [m for m in NUMBER.finditer(text) if not re.search(r"^\s*#|\bsteps: $", text[: m.start()].rsplit("\n", 1)[-1])]
         at = choose.choice(places)
         if choose.random() < 0.5:
             word = choose.choice(EXTREMES)

@@ -4,6 +4,7 @@
 
 #include <Tpetra_Map.hpp>
 
+#include "atrapos/taylor/Domain.hpp"
 #include "plugin/Plugins.hpp"
 #include "scene/ModelMaker.hpp"
 
@@ -37,7 +38,12 @@ Scene::Scene(const deck::Deck& deck, DeckMesh mesh)
     body_ = fem::shellBody(mesh_, shells_.geometry);
   }
   tools_ = sceneTools(deck_);
-  problem_ = std::make_unique<fem::FeProblem>(makeModel());
+  fem::FeModel model = makeModel();
+  try {
+    problem_ = std::make_unique<fem::FeProblem>(std::move(model));
+  } catch (const taylor::DomainError& e) {
+    throw deck::DeckError(fmt::format("{}: the start cannot be evaluated: {}", deck_.file, e.what()));
+  }
   addMonitors();
 }
 

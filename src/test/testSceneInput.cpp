@@ -194,6 +194,23 @@ TEST(SceneInput, FieldsThatABlockDoesNotHave) {
       &channel);
 }
 
+/// Forces are measured where driven supports leave the initial values, by as little as laws allow.
+TEST(SceneInput, LawsWithoutAValueAtTheStart) {
+  const std::string hot = changed(changed(heat, "conductivity: 1,", "conductivity: log(T/20),"), "value: 0}",
+                                  "value: {value: 30, per_load_factor: 1}}");
+  EXPECT_EQ(refusal(changed(hot, "supports:\n", "fields: {T: {initial: 30}}\nsupports:\n")), "no error");
+  const std::string metal =
+      changed(changed(bar, "law: saint_venant_kirchhoff, youngs_modulus: 1000",
+                      "law: von_mises, strains: finite, yield_stress: 1, youngs_modulus: 1.0e300"),
+              "loads:\n  tip: {type: surface, set: x_max, traction: [0, 0, -1]}\n",
+              "  push: {set: x_max, x: {per_load_factor: 1}}\n");
+  expectRefused(metal, "the start cannot be evaluated: entity 1, point 1: sqrt of -nan");
+  const std::string thin = changed(changed(bar, "lengths: [4, 1, 1]", "lengths: [4.0e-4, 1, 1]"),
+                                   "law: saint_venant_kirchhoff", "law: neo_hookean");
+  EXPECT_EQ(refusal(changed(thin, "loads:\n", "  push: {set: x_max, x: {per_load_factor: -1}}\nloads:\n")),
+            "no error");
+}
+
 TEST(SceneInput, SupportsAndFieldsThatDisagree) {
   expectRefused(changed(heat, "path:\n", "  warm: {set: x_min, field: T, value: 1}\npath:\n"),
                 "supports/warm: the field 'T' of node");

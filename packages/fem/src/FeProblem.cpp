@@ -17,6 +17,7 @@
 #include "EventTerms.hpp"
 #include "PieceTerms.hpp"
 #include "Upload.hpp"
+#include "atrapos/linear/NoMemory.hpp"
 #include "atrapos/linear/OnAllRanks.hpp"
 
 namespace atrapos::fem {
@@ -331,14 +332,11 @@ struct FeProblem::Impl {
   void findScale() {
     Sizes size = largest(norms(load), norms(constantLoad));
     if (model.supports.driven() || model.couplings.driven()) {
-      constexpr double part = 1e-3;  // far above rounding, and what is not linear counts a thousandth
-      const Sizes there = forcesAt(part), start = forcesAt(0);
-      for (std::size_t b = 0; b < size.size(); ++b) {
-        const double driving = (there[b] - start[b]) / part;
-        // Ten times: a body that they move as a whole has no forces, but the rounding of those that it would
-        // have.
-        if (std::isfinite(driving)) size[b] = std::max(size[b], 10 * driving);
-      }
+      const Sizes driving = drivingForces();
+      // Ten times: a body that they move as a whole has no forces, but the rounding of those that it would
+      // have.
+      for (std::size_t b = 0; b < size.size(); ++b)
+        if (std::isfinite(driving[b])) size[b] = std::max(size[b], 10 * driving[b]);
     }
     Kokkos::deep_copy(sum, 0.0);
     const DofView start("start", value.extent(0));
@@ -383,12 +381,30 @@ struct FeProblem::Impl {
     return forcesAt(u, 0);
   }
 
-  /// Sizes of the forces of terms that do not see lambda, where supports alone are displaced, by their rate.
+  /// By load factor, what driven supports alone would need; zero where laws have no value next to the start.
+  Sizes drivingForces() {
+    // Far above rounding, and what is not linear counts a thousandth; less where so much of it crushes a
+    // cell.
+    for (const double part : {1e-3, 1e-6, 1e-9}) try {
+        Sizes driving = forcesAt(part);
+        const Sizes start = forcesAt(0);
+        for (std::size_t b = 0; b < driving.size(); ++b) driving[b] = (driving[b] - start[b]) / part;
+        return driving;
+      } catch (const std::runtime_error& error) {
+        if (linear::isNoMemory(error)) throw;
+      }
+    return Sizes(numBalances(), 0.0);
+  }
+
+  /// Sizes of the forces of terms that do not see lambda, where supports alone leave the initial values, by
+  /// their rate.
   Sizes forcesAt(double lambda) {
-    const DofView u("displaced supports", rate.extent(0)), per = rate;
+    const std::vector<int>& nodes = ranks->nodes();
+    const DofView u = toDevice(ofNodes(model.initial, model.dofs, nodes, static_cast<int>(nodes.size()))),
+                  per = rate;
     Kokkos::parallel_for(
         "supports", Kokkos::RangePolicy<Execution>(0, u.size()),
-        KOKKOS_LAMBDA(int d) { u(d) = lambda * per(d); });
+        KOKKOS_LAMBDA(int d) { u(d) += lambda * per(d); });
     return forcesAt(u, lambda);
   }
   Sizes forcesAt(const ConstDofView& u, double lambda) {

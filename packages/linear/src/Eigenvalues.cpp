@@ -116,6 +116,8 @@ NearestEigenvalues nearestEigenvalues(const Inverse& inverse, const RCP<const Ma
     Anasazi::BlockKrylovSchurSolMgr<double, MultiVector, Operator>(problem, list).solve();
   } catch (const Anasazi::AnasaziError&) {
     return {};  // its orthogonalization broke down
+  } catch (const std::logic_error&) {
+    return {};  // LAPACK found no Schur form of what are no numbers
   }
   const auto& solution = problem->getSolution();
   std::vector<std::complex<double>> theta;

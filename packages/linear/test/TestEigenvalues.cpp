@@ -131,6 +131,17 @@ TEST(Eigenvalues, InfiniteOnesAreLeftOut) {
   }
 }
 
+/// LAPACK takes no NaN for a Schur form, and Anasazi throws.
+TEST(Eigenvalues, NoneOfWhatAreNoNumbers) {
+  const auto K = makeMatrix(300, [](int i) { return Row{{i, 1.0 + i}}; });
+  int calls = 0;
+  const Inverse inverse = [&](const MultiVector& x, MultiVector& y) {
+    y.update(++calls < 5 ? 1 : std::nan(""), x, 0);
+  };
+  EXPECT_TRUE(nearestEigenvalues(inverse, K->getRowMap(), 4).values.empty());
+  EXPECT_GE(calls, 5);
+}
+
 /// The sign does not depend on how rows are numbered and scaled, nor on who has them.
 TEST(Eigenvalues, SignOfTheDeterminant) {
   for (const auto layout : {Layout::contiguous, Layout::scattered})
