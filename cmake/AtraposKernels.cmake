@@ -37,7 +37,9 @@ foreach(level IN LISTS ATRAPOS_KERNEL_LEVELS)
 endforeach()
 set(ATRAPOS_KERNEL_LANES ${lanes})
 
-# atrapos_kernels(<target> <sources...> [WITH_TRILINOS])
+# atrapos_kernels(<target> <sources...> [WITH_TRILINOS] [LIGHTLY_BESIDE])
+#
+# LIGHTLY_BESIDE: beside its kernels the target sets up, and is optimised little: half the time of a law's source.
 #
 # A level's objects see nothing of Trilinos (taylor/FunctionMarks.hpp), but with WITH_TRILINOS: laws that solve equations
 # of their own (taylor/Implicit.hpp) or read Kokkos' views.
@@ -45,7 +47,7 @@ set(ATRAPOS_KERNEL_LANES ${lanes})
 # The linker keeps one copy of an inline function that several objects have, which might be one that the processor
 # cannot run: a level's objects become one, in which nothing but the tables of kernels is visible from outside.
 function(atrapos_kernels target)
-  cmake_parse_arguments(arg "WITH_TRILINOS" "" "" ${ARGN})
+  cmake_parse_arguments(arg "WITH_TRILINOS;LIGHTLY_BESIDE" "" "" ${ARGN})
   set(sources ${arg_UNPARSED_ARGUMENTS})
   target_sources(${target} PRIVATE ${sources})
   set_source_files_properties(${sources} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)  # half a minute each as they are
@@ -53,6 +55,9 @@ function(atrapos_kernels target)
     return()
   endif()
   target_compile_definitions(${target} PRIVATE ATRAPOS_KERNEL_LEVELS=${ATRAPOS_KERNEL_LANES})
+  if(arg_LIGHTLY_BESIDE)
+    target_compile_options(${target} PRIVATE ${atrapos_lightly})
+  endif()
   foreach(level IN LISTS ATRAPOS_KERNEL_LEVELS)
     set(objects ${target}_${level})
     add_library(${objects} OBJECT ${sources})

@@ -4,7 +4,7 @@ add_library(atrapos_compile_options INTERFACE)
 target_compile_features(atrapos_compile_options INTERFACE cxx_std_17)
 target_compile_options(atrapos_compile_options INTERFACE $<BUILD_INTERFACE:-Wall -Wextra -Wno-unknown-pragmas>)
 
-# atrapos_package(<name> [SOURCES ...] [KERNELS ... [WITH_TRILINOS]] [DEPENDS ...] [PRIVATE_DEPENDS ...])
+# atrapos_package(<name> [SOURCES ...] [KERNELS ... [WITH_TRILINOS] [LIGHTLY_BESIDE]] [DEPENDS ...] [PRIVATE_DEPENDS ...])
 # One library target atrapos_<name>, alias Atrapos::<name>; header-only where SOURCES is empty. KERNELS: sources for
 # atrapos_kernels.
 function(atrapos_package name)
