@@ -4,7 +4,6 @@
 
 #include <Tpetra_Map.hpp>
 
-#include "atrapos/taylor/Domain.hpp"
 #include "plugin/Plugins.hpp"
 #include "scene/ModelMaker.hpp"
 
@@ -38,12 +37,7 @@ Scene::Scene(const deck::Deck& deck, DeckMesh mesh)
     body_ = fem::shellBody(mesh_, shells_.geometry);
   }
   tools_ = sceneTools(deck_);
-  fem::FeModel model = makeModel();
-  try {
-    problem_ = std::make_unique<fem::FeProblem>(std::move(model));
-  } catch (const taylor::DomainError& e) {
-    throw deck::DeckError(fmt::format("{}: the start cannot be evaluated: {}", deck_.file, e.what()));
-  }
+  problem_ = std::make_unique<fem::FeProblem>(makeModel());
   addMonitors();
 }
 

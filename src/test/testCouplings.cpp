@@ -51,12 +51,6 @@ class CouplingsTest : public testing::Test {
   TemporaryFolder folder_;
 };
 
-std::string changed(std::string text, const std::string& from, const std::string& to) {
-  const auto at = text.find(from);
-  EXPECT_NE(at, std::string::npos) << from;
-  return at == std::string::npos ? text : text.replace(at, from.size(), to);
-}
-
 /// Columns of the last line of a CSV file, by the names of its first.
 std::map<std::string, double> lastRow(const std::string& csv) {
   std::istringstream in(csv);
@@ -148,14 +142,14 @@ output:
 
 // Supports on what a coupling moves are refused with the coupling's name.
 TEST_F(CouplingsTest, SupportedSlavesAreRefused) {
-  const CommandResult r = run(changed(kStrip, "supports:\n", "supports:\n  tip: {set: x_max, y: 0}\n"));
+  const CommandResult r = run(edited(kStrip, "supports:\n", "supports:\n  tip: {set: x_max, y: 0}\n"));
   EXPECT_EQ(r.exitCode, 2);
   EXPECT_NE(r.err.find("couplings/end: displacement y of node"), std::string::npos) << r.err;
   EXPECT_NE(r.err.find("is both supported and coupled"), std::string::npos) << r.err;
 }
 
 TEST_F(CouplingsTest, AShellWithoutASolidIsNamed) {
-  const CommandResult r = run(changed(kStrip, "kind: rigid", "kind: shell_on_solid"));
+  const CommandResult r = run(edited(kStrip, "kind: rigid", "kind: shell_on_solid"));
   EXPECT_EQ(r.exitCode, 2);
   EXPECT_NE(r.err.find("couplings/end/set: no node of a solid at the top of the shell's node"),
             std::string::npos)

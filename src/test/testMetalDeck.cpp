@@ -4,9 +4,12 @@
 #include <string>
 #include <vector>
 
+#include "atrapos/exodus/MeshFile.hpp"
+#include "atrapos/fem/StructuredMesh.hpp"
 #include "output/TableFile.hpp"
 #include "support/Command.hpp"
 #include "support/Folder.hpp"
+#include "support/HalvedMesh.hpp"
 
 namespace atrapos::test {
 namespace {
@@ -68,6 +71,36 @@ TEST_F(MetalDeck, ShellsYieldOnRanksAsAlone) {
   EXPECT_GT(a.size(), 10u);  // points yield one after the other
   // Sums in another order; a residual of 1e-6.
   EXPECT_NEAR(b.back(), a.back(), 1e-7 * a.back());
+}
+
+/// Laws have no value next to the start on one rank, whichever that is.
+TEST_F(MetalDeck, AStartWithoutAValueOnOneRankIsBadInput) {
+  fem::BoxOptions bar;
+  bar.lengths = {8, 1, 1};
+  bar.divisions = {8, 1, 1};
+  bar.blockName = "block";
+  exodus::writeMesh(halved(fem::boxMesh(bar)), (folder_ / "bar.exo").string());
+  for (const bool first : {true, false}) {
+    const std::string bad = first ? "block" : "other", good = first ? "other" : "block";
+    writeFile(folder_ / "bar.yaml",
+              "mesh: {file: bar.exo}\nmaterials:\n"
+              "  steel: {law: saint_venant_kirchhoff, youngs_modulus: 1000, poissons_ratio: 0.3, blocks: [" +
+                  good +
+                  "]}\n"
+                  "  hard: {law: von_mises, strains: finite, yield_stress: 1, youngs_modulus: 1.0e300, "
+                  "poissons_ratio: 0.3, blocks: [" +
+                  bad +
+                  "]}\n"
+                  "supports:\n  clamp: {set: " +
+                  (first ? "x_max" : "x_min") +
+                  ", x: 0, y: 0, z: 0}\n"
+                  "  pull: {set: " +
+                  (first ? "x_min" : "x_max") +
+                  ", x: {per_load_factor: 1}}\npath: {stop: {load_factor: 1}}\n");
+    const CommandResult r = runAtraposOnRanks(2, {"run", "-q", "bar.yaml"}, folder_.path());
+    EXPECT_EQ(r.exitCode, 2) << r.err;
+    EXPECT_EQ(r.err.rfind("bar.yaml: the start cannot be evaluated: entity ", 0), 0u) << r.err;
+  }
 }
 
 TEST_F(MetalDeck, RestartRemembersShells) {

@@ -2,23 +2,20 @@
 // each that names the key.
 #include <gtest/gtest.h>
 
+#include <stdexcept>
 #include <string>
-#include <utility>
 
 #include "commands/MeshCommand.hpp"
 #include "deck/Deck.hpp"
 #include "scene/DeckMesh.hpp"
 #include "scene/Scene.hpp"
+#include "support/Folder.hpp"
+#include "support/HalvedMesh.hpp"
 
 namespace {
 
 using namespace atrapos;
-
-std::string changed(std::string text, const std::string& from, const std::string& to) {
-  const auto at = text.find(from);
-  EXPECT_NE(at, std::string::npos) << "the deck has no '" << from << "'";
-  return at == std::string::npos ? text : text.replace(at, from.size(), to);
-}
+using test::edited, test::halved;
 
 /// The line with which a deck with this mesh is refused.
 std::string refusal(const std::string& text, const fem::Mesh* mesh = nullptr) {
@@ -26,6 +23,8 @@ std::string refusal(const std::string& text, const fem::Mesh* mesh = nullptr) {
     const deck::Deck deck = deck::readDeckText(text, "deck.yaml");
     Scene(deck, DeckMesh(mesh != nullptr ? *mesh : generateMesh(deck)));
   } catch (const deck::DeckError& error) {
+    return error.what();
+  } catch (const std::invalid_argument& error) {  // of the problem; the command tells the deck's name
     return error.what();
   }
   return "no error";
@@ -38,19 +37,6 @@ void expectRefused(const std::string& text, const std::string& words, const fem:
 }
 
 fem::Mesh meshOf(const std::string& text) { return generateMesh(deck::readDeckText(text, "deck.yaml")); }
-
-/// The second half of the mesh's one block becomes the block `other`.
-fem::Mesh halved(fem::Mesh mesh) {
-  fem::Block& first = mesh.blocks.at(0);
-  fem::Block other = first;
-  const auto cut = first.nodes.begin() + static_cast<std::ptrdiff_t>(first.nodes.size() / 2);
-  other.nodes.assign(cut, first.nodes.end());
-  other.name = "other";
-  other.id = first.id + 1;
-  first.nodes.erase(cut, first.nodes.end());
-  mesh.blocks.push_back(std::move(other));
-  return mesh;
-}
 
 const std::string bar = R"(mesh:
   file: bar.exo
@@ -124,43 +110,43 @@ TEST(SceneInput, EmptySets) {
 
 TEST(SceneInput, ShellsAreNoSolids) {
   expectRefused(
-      changed(plate, "poissons_ratio: 0.3", "poissons_ratio: 0.3, expansion: 1.0e-5*lambda"),
+      edited(plate, "poissons_ratio: 0.3", "poissons_ratio: 0.3, expansion: 1.0e-5*lambda"),
       "materials/steel/expansion: block 'plate' has shells; expansion is for solids and plane bodies");
-  expectRefused(changed(plate, "shells:\n",
-                        "physics:\n  heat: {type: balance, field: T, blocks: [plate], source: 1}\nshells:\n"),
+  expectRefused(edited(plate, "shells:\n",
+                       "physics:\n  heat: {type: balance, field: T, blocks: [plate], source: 1}\nshells:\n"),
                 "physics/heat/blocks: block 'plate' has shells; balances are for solids and plane cells");
-  expectRefused(changed(plate, "thickness: 0.1}", "thickness: 0.1, shear: 2}"),
+  expectRefused(edited(plate, "thickness: 0.1}", "thickness: 0.1, shear: 2}"),
                 "shells/sections/skin/shear: expected one of");
 }
 
 TEST(SceneInput, SolidsAreNoShells) {
-  expectRefused(changed(bar, "tools:\n", "shells: {joints: {fold: {set: x_max, joint: hinge}}}\ntools:\n"),
+  expectRefused(edited(bar, "tools:\n", "shells: {joints: {fold: {set: x_max, joint: hinge}}}\ntools:\n"),
                 "shells/joints/fold/set: no node of 'x_max' belongs to shells");
-  expectRefused(changed(bar, "loads:\n", "couplings:\n  seam: {kind: shell_on_solid, set: x_max}\nloads:\n"),
+  expectRefused(edited(bar, "loads:\n", "couplings:\n  seam: {kind: shell_on_solid, set: x_max}\nloads:\n"),
                 "couplings/seam/set: no node of 'x_max' belongs to shells");
   const std::string contact =
       "contact:\n  below: {tool: floor, set: z_min, points: nodes, at: top, stiffness: 10}\npath:\n";
-  expectRefused(changed(bar, "path:\n", contact),
+  expectRefused(edited(bar, "path:\n", contact),
                 "contact/below/at: no node of 'z_min' belongs to shells, which have a top and a bottom");
 }
 
 TEST(SceneInput, FlowsAndTheirCells) {
-  expectRefused(changed(flow, "cell: QUAD9", "cell: QUAD4"),
+  expectRefused(edited(flow, "cell: QUAD9", "cell: QUAD4"),
                 "physics/fluid/blocks: block 'channel' has QUAD4; a flow needs");
-  expectRefused(changed(flow, "velocity: [u, v]", "velocity: [u, v, w]"),
+  expectRefused(edited(flow, "velocity: [u, v]", "velocity: [u, v, w]"),
                 "physics/fluid/velocity: has 3 components; the mesh has 2 dimensions");
-  expectRefused(changed(flow, "kind: strain", "kind: stress, thickness: 1"),
+  expectRefused(edited(flow, "kind: strain", "kind: stress, thickness: 1"),
                 "physics/fluid: a flow is plane with kind: strain, or axisymmetric");
-  expectRefused(changed(flow, "supports:\n",
-                        "  more: {type: flow, velocity: [a, b], pressure: q, viscosity: 1, blocks: "
-                        "[channel]}\nsupports:\n"),
+  expectRefused(edited(flow, "supports:\n",
+                       "  more: {type: flow, velocity: [a, b], pressure: q, viscosity: 1, blocks: "
+                       "[channel]}\nsupports:\n"),
                 "physics/more/blocks: block 'channel' already has the flow 'fluid'");
-  expectRefused(changed(flow, "physics:\n",
-                        "materials:\n  ice: {law: neo_hookean, youngs_modulus: 1, poissons_ratio: 0.3, "
-                        "blocks: [channel]}\nphysics:\n"),
+  expectRefused(edited(flow, "physics:\n",
+                       "materials:\n  ice: {law: neo_hookean, youngs_modulus: 1, poissons_ratio: 0.3, "
+                       "blocks: [channel]}\nphysics:\n"),
                 "physics/fluid/blocks: block 'channel' has the material 'ice'; a fluid has none");
-  expectRefused(changed(flow, "supports:\n",
-                        "  heat: {type: balance, field: u, blocks: [channel], conductivity: 1}\nsupports:\n"),
+  expectRefused(edited(flow, "supports:\n",
+                       "  heat: {type: balance, field: u, blocks: [channel], conductivity: 1}\nsupports:\n"),
                 "physics/fluid/velocity: 'u' has a balance already");
 }
 
@@ -168,25 +154,25 @@ TEST(SceneInput, FlowsAndTheirCells) {
 TEST(SceneInput, FieldsThatABlockDoesNotHave) {
   const fem::Mesh two = halved(meshOf(heat));
   const std::string half =
-      changed(changed(heat, "blocks: [body]}\nphysics", "blocks: [body, other]}\nphysics"), "source: lambda}",
-              "source: lambda}\n  charge: {type: balance, field: phi, blocks: [other], conductivity: 1}");
+      edited(edited(heat, "blocks: [body]}\nphysics", "blocks: [body, other]}\nphysics"), "source: lambda}",
+             "source: lambda}\n  charge: {type: balance, field: phi, blocks: [other], conductivity: 1}");
   EXPECT_EQ(refusal(half, &two), "no error");
-  expectRefused(changed(half, "conductivity: 1, source: lambda", "conductivity: 1 + phi, source: lambda"),
+  expectRefused(edited(half, "conductivity: 1, source: lambda", "conductivity: 1 + phi, source: lambda"),
                 "physics/heat: in block 'body' a formula does not know 'phi'", &two);
-  expectRefused(changed(half, "poissons_ratio: 0.3", "poissons_ratio: 0.3, expansion: phi"),
+  expectRefused(edited(half, "poissons_ratio: 0.3", "poissons_ratio: 0.3, expansion: phi"),
                 "materials/steel/expansion: in block 'body' does not know 'phi'", &two);
-  expectRefused(changed(half, "supports:\n", "supports:\n  pole: {set: x_min, field: phi, value: 1}\n"),
+  expectRefused(edited(half, "supports:\n", "supports:\n  pole: {set: x_min, field: phi, value: 1}\n"),
                 "supports/pole/set: node", &two);
   expectRefused(
-      changed(half, "path:\n", "loads:\n  air: {type: inflow, set: x_min, field: phi, amount: 1}\npath:\n"),
+      edited(half, "path:\n", "loads:\n  air: {type: inflow, set: x_min, field: phi, amount: 1}\npath:\n"),
       "loads/air/field: a side of 'x_min' belongs to a block without the field 'phi'", &two);
   expectRefused(
-      changed(half, "path:\n", "loads:\n  air: {type: inflow, set: x_min, field: T, amount: phi}\npath:\n"),
+      edited(half, "path:\n", "loads:\n  air: {type: inflow, set: x_min, field: T, amount: phi}\npath:\n"),
       "loads/air/amount: does not know 'phi'", &two);
   expectRefused(half + "output: {monitors: {m: {type: field, field: phi, set: x_min}}}\n",
                 "output/monitors/m/set: node", &two);
 
-  const std::string fluid = changed(
+  const std::string fluid = edited(
       flow, "supports:\n", "  push: {type: balance, field: u, blocks: [other], source: 1}\nsupports:\n");
   const fem::Mesh channel = halved(meshOf(flow));
   expectRefused(
@@ -196,29 +182,29 @@ TEST(SceneInput, FieldsThatABlockDoesNotHave) {
 
 /// Forces are measured where driven supports leave the initial values, by as little as laws allow.
 TEST(SceneInput, LawsWithoutAValueAtTheStart) {
-  const std::string hot = changed(changed(heat, "conductivity: 1,", "conductivity: log(T/20),"), "value: 0}",
-                                  "value: {value: 30, per_load_factor: 1}}");
-  EXPECT_EQ(refusal(changed(hot, "supports:\n", "fields: {T: {initial: 30}}\nsupports:\n")), "no error");
+  const std::string hot = edited(edited(heat, "conductivity: 1,", "conductivity: log(T/20),"), "value: 0}",
+                                 "value: {value: 30, per_load_factor: 1}}");
+  EXPECT_EQ(refusal(edited(hot, "supports:\n", "fields: {T: {initial: 30}}\nsupports:\n")), "no error");
   const std::string metal =
-      changed(changed(bar, "law: saint_venant_kirchhoff, youngs_modulus: 1000",
-                      "law: von_mises, strains: finite, yield_stress: 1, youngs_modulus: 1.0e300"),
-              "loads:\n  tip: {type: surface, set: x_max, traction: [0, 0, -1]}\n",
-              "  push: {set: x_max, x: {per_load_factor: 1}}\n");
+      edited(edited(bar, "law: saint_venant_kirchhoff, youngs_modulus: 1000",
+                    "law: von_mises, strains: finite, yield_stress: 1, youngs_modulus: 1.0e300"),
+             "loads:\n  tip: {type: surface, set: x_max, traction: [0, 0, -1]}\n",
+             "  push: {set: x_max, x: {per_load_factor: 1}}\n");
   expectRefused(metal, "the start cannot be evaluated: entity 1, point 1: sqrt of -nan");
-  const std::string thin = changed(changed(bar, "lengths: [4, 1, 1]", "lengths: [4.0e-4, 1, 1]"),
-                                   "law: saint_venant_kirchhoff", "law: neo_hookean");
-  EXPECT_EQ(refusal(changed(thin, "loads:\n", "  push: {set: x_max, x: {per_load_factor: -1}}\nloads:\n")),
+  const std::string thin = edited(edited(bar, "lengths: [4, 1, 1]", "lengths: [4.0e-4, 1, 1]"),
+                                  "law: saint_venant_kirchhoff", "law: neo_hookean");
+  EXPECT_EQ(refusal(edited(thin, "loads:\n", "  push: {set: x_max, x: {per_load_factor: -1}}\nloads:\n")),
             "no error");
 }
 
 TEST(SceneInput, SupportsAndFieldsThatDisagree) {
-  expectRefused(changed(heat, "path:\n", "  warm: {set: x_min, field: T, value: 1}\npath:\n"),
+  expectRefused(edited(heat, "path:\n", "  warm: {set: x_min, field: T, value: 1}\npath:\n"),
                 "supports/warm: the field 'T' of node");
   const fem::Mesh two = halved(meshOf(heat));
   expectRefused(
-      changed(changed(heat, "source: lambda}",
-                      "source: lambda}\n  more: {type: balance, field: T, blocks: [other], conductivity: 1}"),
-              "supports:\n", "supports:\n  end: {set: x_max, x: 0}\n"),
+      edited(edited(heat, "source: lambda}",
+                    "source: lambda}\n  more: {type: balance, field: T, blocks: [other], conductivity: 1}"),
+             "supports:\n", "supports:\n  end: {set: x_max, x: 0}\n"),
       "supports/end/set: node", &two);  // no material there, no displacement
 }
 
@@ -226,7 +212,7 @@ TEST(SceneInput, TooManyFields) {
   std::string many = heat;
   for (int f = 0; f < 9; ++f) {
     const std::string name = "c" + std::to_string(f);
-    many = changed(
+    many = edited(
         many, "supports:\n",
         "  " + name + ": {type: balance, field: " + name + ", blocks: [body], conductivity: 1}\nsupports:\n");
   }
@@ -235,35 +221,35 @@ TEST(SceneInput, TooManyFields) {
 
 TEST(SceneInput, WhatMaterialsInFieldsCannotBe) {
   const auto with = [](const std::string& words) {
-    return changed(heat, "poissons_ratio: 0.3", "poissons_ratio: 0.3" + words);
+    return edited(heat, "poissons_ratio: 0.3", "poissons_ratio: 0.3" + words);
   };
   const std::string dielectric = ", dielectric: {field: phi, permittivity: 1}";
   expectRefused(with(", expansion: 0.1*T" + dielectric),
                 "materials/steel/dielectric: stands beside expansion; expected one of them");
   expectRefused(with(", expansion: 0.1*T, formulation: mixed"),
                 "materials/steel/expansion: is not for formulation: mixed");
-  expectRefused(changed(with(dielectric), "kind: strain", "kind: axisymmetric"),
+  expectRefused(edited(with(dielectric), "kind: strain", "kind: axisymmetric"),
                 "materials/steel/dielectric: is not for axisymmetric bodies");
   expectRefused(
       with(", dielectric: {field: T, permittivity: 1}"),
       "materials/steel/dielectric/field: physics/heat has a balance of 'T', whose rows are no charges");
   expectRefused(
-      changed(heat, "law: neo_hookean, youngs_modulus: 1000, poissons_ratio: 0.3",
-              "law: yeoh, c1: 1, c2: 0, c3: 0, bulk_modulus: 10, expansion: 0.1*T"),
+      edited(heat, "law: neo_hookean, youngs_modulus: 1000, poissons_ratio: 0.3",
+             "law: yeoh, c1: 1, c2: 0, c3: 0, bulk_modulus: 10, expansion: 0.1*T"),
       "materials/steel/expansion: is for the laws saint_venant_kirchhoff, neo_hookean and mooney_rivlin");
-  expectRefused(changed(heat, "path:\n", "path:\n  imperfections: [0.1]\n"),
+  expectRefused(edited(heat, "path:\n", "path:\n  imperfections: [0.1]\n"),
                 "path/imperfections: their shapes are of displacements alone; not with scalar fields");
 }
 
 TEST(SceneInput, ConstantsAreAMap) {
-  expectRefused(changed(heat, "plane:", "constants: 3\nplane:"),
+  expectRefused(edited(heat, "plane:", "constants: 3\nplane:"),
                 "constants: expected a map of names to numbers, got 3");
 }
 
 TEST(SceneInput, MetalsThatAreNone) {
   const auto metal = [](const std::string& words) {
-    return changed(bar, "law: saint_venant_kirchhoff, youngs_modulus: 1000, poissons_ratio: 0.3",
-                   "law: von_mises, youngs_modulus: 1000, poissons_ratio: 0.3, yield_stress: 1" + words);
+    return edited(bar, "law: saint_venant_kirchhoff, youngs_modulus: 1000, poissons_ratio: 0.3",
+                  "law: von_mises, youngs_modulus: 1000, poissons_ratio: 0.3, yield_stress: 1" + words);
   };
   expectRefused(metal(", strains: finite, kinematic_modulus: 10"),
                 "materials/steel/kinematic_modulus: is for strains: small");
@@ -273,19 +259,19 @@ TEST(SceneInput, MetalsThatAreNone) {
 
 TEST(SceneInput, MixedBodiesHaveNoImperfections) {
   const std::string rubber =
-      changed(bar, "law: saint_venant_kirchhoff, youngs_modulus: 1000, poissons_ratio: 0.3",
-              "law: neo_hookean, youngs_modulus: 1000, poissons_ratio: 0.3, formulation: mixed");
+      edited(bar, "law: saint_venant_kirchhoff, youngs_modulus: 1000, poissons_ratio: 0.3",
+             "law: neo_hookean, youngs_modulus: 1000, poissons_ratio: 0.3, formulation: mixed");
   expectRefused(
-      changed(rubber, "path:\n", "path:\n  imperfections: [0.1]\n"),
+      edited(rubber, "path:\n", "path:\n  imperfections: [0.1]\n"),
       "path/imperfections: their shapes are of displacements alone; expected formulation: displacement");
 }
 
 TEST(SceneInput, ContactsThatCannotBe) {
   const auto with = [](const std::string& words) {
-    return changed(bar, "path:\n", "contact:\n  below: {tool: floor, set: z_min, " + words + "}\npath:\n");
+    return edited(bar, "path:\n", "contact:\n  below: {tool: floor, set: z_min, " + words + "}\npath:\n");
   };
   const auto touching = [&](const std::string& words) {
-    return changed(with(words), "point: [0, 0, -1]", "point: [0, 0, 0]");
+    return edited(with(words), "point: [0, 0, -1]", "point: [0, 0, 0]");
   };
   EXPECT_EQ(refusal(with("stiffness: 10")), "no error");
   expectRefused(with("unknown: curve, carried: near, stiffness: 10, regularisation: 0.1"),
@@ -304,16 +290,11 @@ TEST(SceneInput, ContactsThatCannotBe) {
 }
 
 TEST(SceneInput, ZonesThatCannotBe) {
-  const auto with = [](const std::string& mesh, const std::string& tool) {
-    return changed(changed(changed(bar, "path:\n",
-                                   "contact:\n  below: {tool: floor, set: z_min, points: zones}\npath:\n"),
-                           "cell: HEX8", mesh),
-                   "{type: plane, point: [0, 0, -1], normal: [0, 0, 1]}", tool);
-  };
-  const std::string floor = "{type: plane, point: [0, 0, -1], normal: [0, 0, 1]}";
-  expectRefused(with("cell: TET4", floor), "contact/below/set: side set 'z_min': side ");
-  expectRefused(with("cell: TET4", floor),
-                "is a triangle; zones of contact are found on lines across quadrilaterals");
+  const std::string triangles =
+      edited(edited(bar, "path:\n", "contact:\n  below: {tool: floor, set: z_min, points: zones}\npath:\n"),
+             "cell: HEX8", "cell: TET4");
+  expectRefused(triangles, "contact/below/set: side set 'z_min': side ");
+  expectRefused(triangles, "is a triangle; zones of contact are found on lines across quadrilaterals");
 }
 
 TEST(SceneInput, PlaneBodiesNeedToolsThatGoOnAlongZ) {
@@ -328,14 +309,14 @@ supports: {clamp: {set: y_max, x: 0, y: {per_load_factor: -1}}}
 path: {stop: {load_factor: 0.1}}
 )";
   expectRefused(plane, "contact/below: the normal of tool 'ball' leaves the plane z = 0 at");
-  EXPECT_EQ(refusal(changed(plane, "center: [0, -3, 1]", "center: [0, -3, 0]")), "no error");
+  EXPECT_EQ(refusal(edited(plane, "center: [0, -3, 1]", "center: [0, -3, 0]")), "no error");
 }
 
 TEST(SceneInput, StopsMonitorsAndImperfections) {
-  expectRefused(changed(bar, "stop: {load_factor: 1}", "stop: {bifurcation: 1}\nsolver: {type: belos}"),
+  expectRefused(edited(bar, "stop: {load_factor: 1}", "stop: {bifurcation: 1}\nsolver: {type: belos}"),
                 "path/stop/bifurcation: bifurcation points are found by the number of negative eigenvalues, "
                 "that needs solver/type: mumps");
-  expectRefused(changed(bar, "path:\n", "path:\n  hopf: true\n"),
+  expectRefused(edited(bar, "path:\n", "path:\n  hopf: true\n"),
                 "path/hopf: is for balances and flows alone");
   expectRefused(bar + "output: {monitors: {f: {type: reaction, support: clamp}}}\n",
                 "output/monitors/f/component: is missing");
@@ -348,32 +329,32 @@ TEST(SceneInput, StopsMonitorsAndImperfections) {
 
 TEST(SceneInput, StagesThatDriveTwoEntriesOfOneName) {
   const std::string moved =
-      changed(changed(bar, "x: 0, y: 0, z: 0", "x: {per_load_factor: 1}, y: 0, z: 0"), "tip:", "clamp:");
-  expectRefused(changed(moved, "  stop: {load_factor: 1}",
-                        "  stages: {pull: {drives: [clamp], stop: {load_factor: 1}}}"),
+      edited(edited(bar, "x: 0, y: 0, z: 0", "x: {per_load_factor: 1}, y: 0, z: 0"), "tip:", "clamp:");
+  expectRefused(edited(moved, "  stop: {load_factor: 1}",
+                       "  stages: {pull: {drives: [clamp], stop: {load_factor: 1}}}"),
                 "path/stages/pull/drives: 'clamp' is the name of 2 entries that depend on the load factor; "
                 "expected other names");
 }
 
 TEST(SceneInput, LatitudesOfSpheres) {
   expectRefused(
-      changed(plate, "shape: shell_plate, length: 4, width: 1, divisions: [4, 1]",
-              "shape: shell_sphere, radius: 1, latitude: [-90, 0], longitude: [0, 90], divisions: [4, 4]"),
+      edited(plate, "shape: shell_plate, length: 4, width: 1, divisions: [4, 1]",
+             "shape: shell_sphere, radius: 1, latitude: [-90, 0], longitude: [0, 90], divisions: [4, 4]"),
       "mesh/generate/latitude: must stay above -90 and below 90 degrees, got the list [-90, 0]");
 }
 
 TEST(SceneInput, PluginsThatAreNotAllThere) {
-  const std::string own = changed(
+  const std::string own = edited(
       flow,
       "  fluid: {type: flow, velocity: [u, v], pressure: p, viscosity: 1, density: 1, blocks: [channel]}",
       "  film: {type: plugin, law: soap, fields: [u], blocks: [channel]}");
-  const std::string with = changed(own, "plane:", "plugins: [soap]\nplane:");
+  const std::string with = edited(own, "plane:", "plugins: [soap]\nplane:");
   expectRefused(own, "physics/film/law: needs the block plugins");
   expectRefused(
-      changed(with, "path:\n",
-              "loads:\n  pull: {type: plugin, law: pull, set: x_max, fields: [u], constant: true}\npath:\n"),
+      edited(with, "path:\n",
+             "loads:\n  pull: {type: plugin, law: pull, set: x_max, fields: [u], constant: true}\npath:\n"),
       "loads/pull/constant: has no meaning with type: plugin, whose law reads the load factor itself");
-  expectRefused(changed(with, "path:\n  stop: {load_factor: 1}\n",
-                        "path:\n  stages: {one: {stop: {load_factor: 1}}}\n"),
-                "path/stages: are not for decks with plug-ins, whose laws have one load factor");
+  expectRefused(
+      edited(with, "path:\n  stop: {load_factor: 1}\n", "path:\n  stages: {one: {stop: {load_factor: 1}}}\n"),
+      "path/stages: are not for decks with plug-ins, whose laws have one load factor");
 }

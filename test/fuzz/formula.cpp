@@ -1,7 +1,6 @@
 // A formula of a deck, in each of the places where one may stand; what depends on the place alone is
 // evaluated.
 #include "Target.hpp"
-#include "atrapos/formula/Builder.hpp"
 #include "atrapos/physics/Formulas.hpp"
 
 using namespace atrapos;

@@ -156,7 +156,6 @@ struct FeProblem::Impl {
     for (std::size_t d = 0; d < numOwned(); ++d)
       balances.push_back(ranks->dofs().balanceOf(ranks->dofs().addressOf(static_cast<int>(d)).field));
     makeMatrix();
-    findScale();
   }
 
   /// The map of the first nodes of the rank.
@@ -272,6 +271,12 @@ struct FeProblem::Impl {
     }
   }
 
+  /// Of a field of the whole model what this rank has.
+  DofView here(const std::vector<double>& whole) const {
+    const std::vector<int>& nodes = ranks->nodes();
+    return toDevice(ofNodes(whole, model.dofs, nodes, static_cast<int>(nodes.size())));
+  }
+
   /// What is prescribed, of the whole model, and of it what this rank has.
   void uploadConditions(const std::vector<Coupling>& couplings) {
     const DofMap& dofs = model.dofs;
@@ -309,11 +314,10 @@ struct FeProblem::Impl {
       }
     }
     const std::vector<int>& nodes = ranks->nodes();
-    const int all = static_cast<int>(nodes.size());
-    fixed = upload("fixed", ofNodes(flags, dofs, nodes, all));
-    initial = toDevice(ofNodes(free, dofs, nodes, all));
-    value = toDevice(ofNodes(values, dofs, nodes, all));
-    rate = toDevice(ofNodes(rates, dofs, nodes, all));
+    fixed = upload("fixed", ofNodes(flags, dofs, nodes, static_cast<int>(nodes.size())));
+    initial = here(free);
+    value = here(values);
+    rate = here(rates);
     // Dead loads act at their owners'.
     const auto loads = [&](const std::vector<double>& whole) {
       auto part = ofNodes(whole, dofs, nodes, ranks->numOwned());
@@ -376,9 +380,7 @@ struct FeProblem::Impl {
     const double off = part * events->touching(DofView("rest", rate.extent(0)));
     std::vector<double> whole(model.dofs.numDofs());
     for (std::size_t d = 0; d < whole.size(); ++d) whole[d] = d % 2 == 0 ? off : -off;
-    const std::vector<int>& nodes = ranks->nodes();
-    const DofView u = toDevice(ofNodes(whole, model.dofs, nodes, static_cast<int>(nodes.size())));
-    return forcesAt(u, 0);
+    return forcesAt(here(whole), 0);
   }
 
   /// By load factor, what driven supports alone would need; zero where laws have no value next to the start.
@@ -399,9 +401,7 @@ struct FeProblem::Impl {
   /// Sizes of the forces of terms that do not see lambda, where supports alone leave the initial values, by
   /// their rate.
   Sizes forcesAt(double lambda) {
-    const std::vector<int>& nodes = ranks->nodes();
-    const DofView u = toDevice(ofNodes(model.initial, model.dofs, nodes, static_cast<int>(nodes.size()))),
-                  per = rate;
+    const DofView u = here(model.initial), per = rate;
     Kokkos::parallel_for(
         "supports", Kokkos::RangePolicy<Execution>(0, u.size()),
         KOKKOS_LAMBDA(int d) { u(d) += lambda * per(d); });
@@ -683,6 +683,16 @@ struct FeProblem::Impl {
 };
 
 FeProblem::FeProblem(FeModel model) : impl_(std::make_unique<Impl>(std::move(model))) {
+  try {
+    evaluateStart();
+  } catch (const std::runtime_error& error) {  // what a law tells, of another rank too
+    if (linear::isNoMemory(error)) throw;
+    throw std::invalid_argument(std::string("the start cannot be evaluated: ") + error.what());
+  }
+}
+
+void FeProblem::evaluateStart() {
+  impl_->findScale();
   auto& events = *impl_->events;
   impl_->pieces.emplace(
       impl_->model.terms, events, *impl_->ranks, [this](const path::State& s) { return onRank(s); },

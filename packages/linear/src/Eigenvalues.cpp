@@ -114,10 +114,8 @@ NearestEigenvalues nearestEigenvalues(const Inverse& inverse, const RCP<const Ma
   list.set("Verbosity", static_cast<int>(Anasazi::Errors));
   try {
     Anasazi::BlockKrylovSchurSolMgr<double, MultiVector, Operator>(problem, list).solve();
-  } catch (const Anasazi::AnasaziError&) {
-    return {};  // its orthogonalization broke down
   } catch (const std::logic_error&) {
-    return {};  // LAPACK found no Schur form of what are no numbers
+    return {};  // its orthogonalization broke down, or LAPACK found no Schur form of what are no numbers
   }
   const auto& solution = problem->getSolution();
   std::vector<std::complex<double>> theta;

@@ -35,6 +35,7 @@ namespace atrapos::fem {
 /// several ranks may have one problem on each, with Teuchos::MpiComm<int>(MPI_COMM_SELF) as FeModel::comm.
 class FeProblem final : public path::Problem {
  public:
+  /// Throws std::invalid_argument, one line, also where laws have no value at the start.
   explicit FeProblem(FeModel model);
   ~FeProblem() override;
 
@@ -141,6 +142,9 @@ class FeProblem final : public path::Problem {
   std::size_t historyBytes(int maxOrder) const;
 
  private:
+  /// Scales, start and size of prescribed rows.
+  void evaluateStart();
+
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
