@@ -11,10 +11,10 @@ from .decks import check, mesh, run, write
 from .meshes import import_mesh
 from .problem import Path, follow
 from .results import Result, States
-from .taylor import Taylor
+from .taylor import Taylor, linear
 
 __version__ = _atrapos.version
 __all__ = ["DeckError", "FileError", "MeshError", "Path", "Result", "States", "Taylor", "check", "follow",
-           "import_mesh", "mesh", "run", "write"]
+           "import_mesh", "linear", "mesh", "run", "write"]
 
 _atexit.register(_atrapos.finalize)

@@ -17,7 +17,7 @@ from .command import program
 _SOLID = {"tetra": "C3D4", "tetra10": "C3D10", "wedge": "C3D6", "hexahedron": "C3D8",
           "hexahedron20": "C3D20R"}
 _PLANE = {"triangle": "CPS3", "triangle6": "CPS6", "quad": "CPS4", "quad8": "CPS8R"}
-_SHELL = {"triangle": "S3", "quad": "S4R", "quad8": "S8R"}
+_SHELL = {"triangle": "S3", "triangle6": "S6", "quad": "S4R", "quad8": "S8R"}
 # Corners of the faces S1, S2, ...
 _FACES = {"tetra": [(0, 1, 2), (0, 1, 3), (1, 2, 3), (0, 2, 3)],
           "wedge": [(0, 1, 2), (3, 4, 5), (0, 1, 3, 4), (1, 2, 4, 5), (0, 2, 3, 5)],

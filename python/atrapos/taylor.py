@@ -175,6 +175,11 @@ _LINEAR = {np.sum, np.mean, np.roll, np.diff, np.reshape, np.transpose, np.ravel
            np.squeeze, np.expand_dims, np.broadcast_to, np.gradient, np.pad, np.tile, np.repeat, np.trapz}
 
 
+def linear(function, x):
+    """function(x) of a linear function of arrays, as `lambda v: A @ v` of a sparse matrix A: of series order by order."""
+    return _each(function, x) if isinstance(x, Taylor) else function(x)
+
+
 def _matmul(a, b):
     return np.stack([sum(np.matmul(a[i], b[k - i]) for i in range(k + 1)) for k in range(len(a))])
 

@@ -2,21 +2,27 @@
 
 #include <Teuchos_DefaultMpiComm.hpp>
 #include <Tpetra_Map.hpp>
-#include <cmath>
+#include <algorithm>
 #include <stdexcept>
 
 namespace py = pybind11;
 
 namespace atrapos::python {
 
-NumpyProblem::NumpyProblem(py::object equations, int size, bool symmetric)
-    : equations_(std::move(equations)), size_(size), symmetric_(symmetric) {
+NumpyProblem::NumpyProblem(py::object equations, int size, bool symmetric, std::vector<int> rows,
+                           std::vector<long long> columns)
+    : equations_(std::move(equations)),
+      size_(size),
+      symmetric_(symmetric),
+      rows_(std::move(rows)),
+      columns_(std::move(columns)) {
   map_ = Teuchos::rcp(new path::Map(size, 0, Teuchos::rcp(new Teuchos::MpiComm<int>(MPI_COMM_SELF))));
-  K_ = Teuchos::rcp(new path::CrsMatrix(map_, size));
-  std::vector<long long> columns(size);
-  for (int j = 0; j < size; ++j) columns[j] = j;
-  const std::vector<double> zeros(size, 0.0);
-  for (int i = 0; i < size; ++i) K_->insertGlobalValues(i, size, zeros.data(), columns.data());
+  int widest = 0;
+  for (int i = 0; i < size; ++i) widest = std::max(widest, rows_[i + 1] - rows_[i]);
+  K_ = Teuchos::rcp(new path::CrsMatrix(map_, widest));
+  const std::vector<double> zeros(widest, 0.0);
+  for (int i = 0; i < size; ++i)
+    K_->insertGlobalValues(i, rows_[i + 1] - rows_[i], zeros.data(), &columns_[rows_[i]]);
   K_->fillComplete();
 }
 
@@ -52,17 +58,15 @@ path::ResidualNorm NumpyProblem::residual(const path::State& state, path::Vector
 path::RCP<const path::CrsMatrix> NumpyProblem::tangent(const path::State& state, path::Vector& F) {
   const Numbers K = kept([&] {
     const py::tuple told = equations_.attr("tangent")(numbers(*state.u), state.lambda);
-    const auto matrix = told[0].cast<Numbers>();
-    if (matrix.ndim() != 2 || matrix.shape(0) != size_ || matrix.shape(1) != size_)
-      throw std::invalid_argument("the tangent is not a square matrix of the unknowns");
+    const auto values = told[0].cast<Numbers>();
+    if (values.size() != static_cast<py::ssize_t>(columns_.size()))
+      throw std::invalid_argument("the tangent has not the entries that it was to have");
     put(told[1], F);
-    return matrix;
+    return values;
   });
   K_->resumeFill();
-  std::vector<long long> columns(size_);
-  for (int j = 0; j < size_; ++j) columns[j] = j;
   for (int i = 0; i < size_; ++i)
-    K_->replaceGlobalValues(i, size_, K.data() + static_cast<std::size_t>(i) * size_, columns.data());
+    K_->replaceGlobalValues(i, rows_[i + 1] - rows_[i], K.data() + rows_[i], &columns_[rows_[i]]);
   K_->fillComplete();
   return K_;
 }

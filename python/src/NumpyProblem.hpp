@@ -16,13 +16,15 @@ using Numbers = pybind11::array_t<double, pybind11::array::c_style | pybind11::a
 
 /// A Problem whose equations are a Python object (atrapos.problem.Equations there):
 ///
-///     value(u, lam) -> r [n], scale          tangent(u, lam) -> K [n, n], F [n]
+///     value(u, lam) -> r [n], scale          tangent(u, lam) -> K, F [n]
 ///     order(U [k, n], L [k]) -> F_k [n], from orders 0 to k - 1
 ///
-/// One rank, dense tangent.
+/// K has entries at the places of a matrix in compressed rows, the same at every state. One rank.
 class NumpyProblem final : public path::Problem {
  public:
-  NumpyProblem(pybind11::object equations, int size, bool symmetric);
+  /// rows: where each row begins in columns, n + 1.
+  NumpyProblem(pybind11::object equations, int size, bool symmetric, std::vector<int> rows,
+               std::vector<long long> columns);
 
   path::RCP<const path::Map> map() const override { return map_; }
   bool symmetric() const override { return symmetric_; }
@@ -56,6 +58,8 @@ class NumpyProblem final : public path::Problem {
   pybind11::object equations_;
   int size_;
   bool symmetric_;
+  std::vector<int> rows_;
+  std::vector<long long> columns_;
   path::RCP<const path::Map> map_;
   path::RCP<path::CrsMatrix> K_;
   std::exception_ptr error_;

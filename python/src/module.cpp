@@ -17,6 +17,7 @@
 #include "atrapos/exodus/MeshFile.hpp"
 #include "atrapos/exodus/ResultReader.hpp"
 #include "atrapos/linear/MakeTangentSolver.hpp"
+#include "atrapos/path/Branches.hpp"
 #include "atrapos/path/PathFollower.hpp"
 #include "commands/FollowDeck.hpp"
 #include "machine/Interrupt.hpp"
@@ -139,43 +140,51 @@ py::array_t<double> numbersOf(const std::vector<double>& values) {
 }
 
 /// What a path of NumpyProblem gives.
-class Watch final : public path::Observer {
+class PathTables {
  public:
-  Watch(py::dict& result, int points, const std::optional<py::function>& onStep)
-      : points_(points), onStep_(onStep) {
-    for (const char* name : {"u", "load_factor", "path_length", "step", "negative_eigenvalues"}) {
-      const py::list column;
-      columns_[name] = column;
-      result[name] = column;
-    }
-    result["points"] = points_list_;
-    result["steps"] = steps_;
+  explicit PathTables(int points) : points_(points) {
+    for (const char* name : {"u", "load_factor", "path_length", "step", "negative_eigenvalues"})
+      told_[name] = py::list();
+    told_["points"] = py::list();
+    told_["steps"] = py::list();
   }
-  void add(int step, double length, const path::State& state, long long negative) {
+  /// The step as the caller sees it.
+  py::dict add(int branch, const path::StepReport& report, const path::Series& series) {
+    const auto negative = [&](double a) { return report.negativeAt(a).value_or(-1); };
+    if (report.step == 1) row(0, 0, series.state(0), negative(0));
+    for (int j = 1; j < points_; ++j) {
+      const double a = report.length * j / points_;
+      row(report.step, report.pathLengthStart + a, series.state(a), negative(a));
+    }
+    row(report.step, report.pathLengthEnd, report.end, negative(report.length));
+    for (const auto& limit : report.limitPoints) point("limit", report, series, limit.a);
+    for (const auto& critical : report.criticalPoints) point("bifurcation", report, series, critical.a);
+    py::dict step = stepOf(branch, report);
+    append("steps", step);
+    return step;
+  }
+  py::dict end(const path::Branch& branch) {
+    const path::Outcome& outcome = branch.outcome;
+    const bool followed = branch.end == path::BranchEnd::path;
+    told_["reached_stop"] = !followed || outcome.reason == path::EndReason::stopReached ||
+                            outcome.reason == path::EndReason::stepLimit ||
+                            outcome.reason == path::EndReason::pathClosed;
+    told_["text"] = outcome.text.empty() ? path::toString(branch.end) : outcome.text;
+    told_["factorizations"] = outcome.factorizations;
+    told_["solves"] = outcome.solves;
+    told_["parent"] = branch.parent;
+    return told_;
+  }
+
+ private:
+  void append(const char* name, const py::object& value) { told_[name].cast<py::list>().append(value); }
+  void row(int step, double length, const path::State& state, long long negative) {
     append("u", NumpyProblem::numbers(*state.u));
     append("load_factor", py::float_(state.lambda));
     append("path_length", py::float_(length));
     append("step", py::int_(step));
     append("negative_eigenvalues", py::int_(negative));
   }
-  bool onStep(const path::StepReport& report, const path::Series& series) override {
-    const auto negative = [&](double a) { return report.negativeAt(a).value_or(-1); };
-    if (report.step == 1) add(0, 0, series.state(0), negative(0));
-    for (int j = 1; j < points_; ++j) {
-      const double a = report.length * j / points_;
-      add(report.step, report.pathLengthStart + a, series.state(a), negative(a));
-    }
-    add(report.step, report.pathLengthEnd, report.end, negative(report.length));
-    for (const auto& limit : report.limitPoints) point("limit", report, series, limit.a);
-    for (const auto& critical : report.criticalPoints) point("bifurcation", report, series, critical.a);
-    const py::dict step = stepOf(0, report);
-    steps_.append(step);
-    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-    return !onStep_ || !(*onStep_)(step).is(py::bool_(false));
-  }
-
- private:
-  void append(const char* name, const py::object& value) { columns_[name].cast<py::list>().append(value); }
   void point(const char* kind, const path::StepReport& report, const path::Series& series, double a) {
     const path::State state = series.state(a);
     py::dict p;
@@ -183,41 +192,71 @@ class Watch final : public path::Observer {
     p["step"] = report.step;
     p["load_factor"] = state.lambda;
     p["u"] = NumpyProblem::numbers(*state.u);
-    points_list_.append(p);
+    append("points", p);
   }
   int points_;
-  const std::optional<py::function>& onStep_;
-  py::dict columns_;
-  py::list points_list_, steps_;
+  py::dict told_;
 };
 
-py::dict follow(const py::object& equations, const Numbers& start0, double loadFactor, bool symmetric,
-                const std::vector<double>& stops, int steps, int order, double accuracy, double direction,
-                int points, const std::optional<py::function>& onStep) {
+class Watch final : public path::BranchObserver {
+ public:
+  Watch(int points, const std::optional<py::function>& onStep) : points_(points), onStep_(onStep) {}
+  bool onStep(int branch, const path::StepReport& report, const path::Series& series) override {
+    const py::dict step = of(branch).add(branch, report, series);
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+    return !onStep_ || !(*onStep_)(step).is(py::bool_(false));
+  }
+  PathTables& of(int branch) {
+    while (static_cast<int>(paths_.size()) <= branch) paths_.emplace_back(points_);
+    return paths_[branch];
+  }
+
+ private:
+  int points_;
+  const std::optional<py::function>& onStep_;
+  std::vector<PathTables> paths_;
+};
+
+struct FollowOptions {
+  std::vector<double> stops;
+  int steps = 0, order = 0, points = 0;
+  double accuracy = 0, direction = 1;
+  std::string branches;
+};
+
+path::Follow branchesOf(const std::string& name) {
+  if (name == "none") return path::Follow::none;
+  if (name == "stable") return path::Follow::stable;
+  if (name == "all") return path::Follow::all;
+  throw std::invalid_argument("branches: '" + name + "'; expected none, stable or all");
+}
+
+/// One dict a path: the first one, then its branches.
+py::list follow(const py::object& equations, const Numbers& start0, double loadFactor, bool symmetric,
+                const std::vector<int>& rows, const std::vector<long long>& columns,
+                const FollowOptions& given, const std::optional<py::function>& onStep) {
   start();
-  NumpyProblem problem(equations, static_cast<int>(start0.size()), symmetric);
+  NumpyProblem problem(equations, static_cast<int>(start0.size()), symmetric, rows, columns);
   linear::TangentSolverOptions solverOptions;
   solverOptions.symmetric = symmetric;
   const auto solver = linear::makeTangentSolver(solverOptions);
   path::Options options;
-  options.order = order;
-  options.delta = options.residualBound = accuracy;
-  options.direction = direction;
-  options.maxSteps = steps;
+  options.order = given.order;
+  options.delta = options.residualBound = given.accuracy;
+  options.direction = given.direction;
+  options.maxSteps = given.steps;
   path::Stops ends;
-  ends.loadFactors = stops;
-  path::PathFollower follower(problem, *solver, options, ends);
-  py::dict result;
-  Watch watch(result, points, onStep);
-  const path::Outcome outcome = follower.run({problem.vector(start0), loadFactor}, watch);
+  ends.loadFactors = given.stops;
+  path::BranchOptions branches;
+  branches.follow = branchesOf(given.branches);
+  path::BranchFollower follower(problem, *solver, options, ends, branches);
+  Watch watch(given.points, onStep);
+  const path::BranchDiagram diagram = follower.run({problem.vector(start0), loadFactor}, watch);
   problem.rethrow();
-  result["reached_stop"] = outcome.reason == path::EndReason::stopReached ||
-                           outcome.reason == path::EndReason::stepLimit ||
-                           outcome.reason == path::EndReason::pathClosed;
-  result["text"] = outcome.text;
-  result["factorizations"] = outcome.factorizations;
-  result["solves"] = outcome.solves;
-  return result;
+  py::list paths;
+  for (std::size_t b = 0; b < diagram.branches.size(); ++b)
+    paths.append(watch.of(static_cast<int>(b)).end(diagram.branches[b]));
+  return paths;
 }
 
 }  // namespace
@@ -235,6 +274,15 @@ PYBIND11_MODULE(_atrapos, m) {
   m.def("check", &check);
   m.def("mesh", &mesh);
   m.def("mesh_of", &meshOf);
+  py::class_<FollowOptions>(m, "FollowOptions")
+      .def(py::init<>())
+      .def_readwrite("stops", &FollowOptions::stops)
+      .def_readwrite("steps", &FollowOptions::steps)
+      .def_readwrite("order", &FollowOptions::order)
+      .def_readwrite("points", &FollowOptions::points)
+      .def_readwrite("accuracy", &FollowOptions::accuracy)
+      .def_readwrite("direction", &FollowOptions::direction)
+      .def_readwrite("branches", &FollowOptions::branches);
   m.def("follow", &follow);
   m.def("finalize", [] { runtime().reset(); });
   py::class_<exodus::ResultReader>(m, "ResultFile")

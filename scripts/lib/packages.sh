@@ -29,7 +29,7 @@ buildPackages=(
 )
 # What tests use besides: a fast linker for their many programs; pages of `atrapos report` are looked at in a browser,
 # meshes go to meshio.
-testPackages=(lld chromium chromium-driver python3-selenium python3-meshio)
+testPackages=(lld chromium chromium-driver python3-selenium python3-meshio python3-scipy python3-matplotlib)
 # Fuzz targets and sanitizers: clang, its runtime libraries, names of functions in their reports, an OpenMP that tells
 # the thread sanitizer of its barriers.
 fuzzPackages=(clang-14 libclang-rt-14-dev llvm-14 libomp-14-dev)

@@ -1,4 +1,0 @@
-#include "atrapos/fem/PointLawOf.hpp"
-#include "atrapos/solid/TiedShellMetal.hpp"
-
-ATRAPOS_POINT_LAW(atrapos::solid::Mitc3Metal<true>)
