@@ -31,6 +31,7 @@ const Choices<fem::Topology>& shellCells() {
   using fem::Topology;
   static const Choices<Topology> choices{{"SHELL3", Topology::Shell3},
                                          {"SHELL4", Topology::Shell4},
+                                         {"SHELL6", Topology::Shell6},
                                          {"SHELL8", Topology::Shell8},
                                          {"SHELL9", Topology::Shell9}};
   return choices;

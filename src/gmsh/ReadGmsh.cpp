@@ -95,8 +95,7 @@ std::optional<Topology> topologyOf(int dimension, int nodes, bool shells) {
   if (nodes == 8) return shells ? Topology::Shell8 : Topology::Quad8;
   if (nodes == 9) return shells ? Topology::Shell9 : Topology::Quad9;
   if (nodes == 3) return shells ? Topology::Shell3 : Topology::Tri3;
-  if (shells) return std::nullopt;
-  if (nodes == 6) return Topology::Tri6;
+  if (nodes == 6) return shells ? Topology::Shell6 : Topology::Tri6;
   return std::nullopt;
 }
 

@@ -17,6 +17,7 @@ constexpr const char* kIncompatible = "QUAD4 has no incompatible modes: it locks
 constexpr const char* kShell3 = "SHELL3 has assumed strains of its own (MITC3+)";
 constexpr const char* kShell4 = "SHELL4 has assumed strains of its own (MITC4)";
 constexpr const char* kShell4R = "SHELL4 has 2 x 2 points and assumed strains (MITC4), not one point";
+constexpr const char* kShell6 = "SHELL6 has assumed strains of its own (MITC6)";
 constexpr const char* kShell8 = "SHELL8 has 2 x 2 points of integration, as S8R";
 
 const std::vector<InpElementType>& types() {
@@ -37,6 +38,8 @@ const std::vector<InpElementType>& types() {
       {"S3R", 3, Family::shell, Topology::Shell3, kShell3},
       {"S4", 4, Family::shell, Topology::Shell4, kShell4},
       {"S4R", 4, Family::shell, Topology::Shell4, kShell4R},
+      {"S6", 6, Family::shell, Topology::Shell6, kShell6},
+      {"STRI65", 6, Family::shell, Topology::Shell6, kShell6},
       {"S8", 8, Family::shell, Topology::Shell8, kShell8},
       {"S8R", 8, Family::shell, Topology::Shell8, ""},
       {"CPS3", 3, Family::planeStress, Topology::Tri3, ""},
@@ -119,6 +122,7 @@ int inpSide(fem::Topology topology, int face) {
       case Topology::Wedge15:
         return wedge;
       case Topology::Shell3:
+      case Topology::Shell6:
         return triShell;
       case Topology::Shell4:
       case Topology::Shell8:

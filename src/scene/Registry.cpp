@@ -11,8 +11,7 @@
 #include "atrapos/solid/MixedBody.hpp"
 #include "atrapos/solid/MixedLaw.hpp"
 #include "atrapos/solid/SaintVenantKirchhoff.hpp"
-#include "atrapos/solid/ShellMetal.hpp"
-#include "atrapos/solid/TiedShellMetal.hpp"
+#include "atrapos/solid/ShellTerms.hpp"
 #include "atrapos/solid/VonMises.hpp"
 
 namespace atrapos::registry {
@@ -142,38 +141,18 @@ std::unique_ptr<fem::PointLaw> expanding(const Entry& entry, const physics::Expa
 double poissonsRatio(double lambda, double mu) { return lambda / (2 * (lambda + mu)); }
 double poissonsRatio(const solid::SaintVenantKirchhoff& law) { return poissonsRatio(law.lambda, law.mu); }
 double poissonsRatio(const solid::NeoHookean& law) { return poissonsRatio(law.lambda, law.mu); }
-double poissonsRatio(const solid::Metal& metal) { return poissonsRatio(metal.lambda, metal.mu); }
 template <class Rubber>
 double poissonsRatio(const Rubber& law) {
   const double mu = law.shearModulus();
   return poissonsRatio(law.bulk - 2 * mu / 3, mu);
 }
 
-template <bool kinematic>
-std::unique_ptr<fem::Term> metalShells(const solid::Metal& metal, const solid::ShellElements& elements,
-                                       const solid::ShellCubature& cubature, deck::Shear shear) {
-  if (elements.nodesPerElement == 3) {
-    using Law = solid::Mitc3Metal<kinematic>;
-    const auto at = solid::mitc3MetalPoints(elements, poissonsRatio(metal), cubature, Law::numData);
-    return fem::lawTerm(fem::pointLaw(Law{metal}), at.points, at.data);
-  }
-  if (elements.nodesPerElement == 4) {
-    using Law = solid::Mitc4Metal<kinematic>;
-    const auto at = solid::mitc4MetalPoints(elements, poissonsRatio(metal), cubature, Law::numData);
-    return fem::lawTerm(fem::pointLaw(Law{metal}), at.points, at.data);
-  }
-  using Compatible = solid::ShellMetal<kinematic>;
-  using Assumed = solid::AssumedShearMetal<kinematic>;
-  const bool assumed = shear == deck::Shear::Assumed;
-  auto at = assumed ? solid::assumedShearMetalPoints(elements, cubature, Assumed::numData)
-                    : solid::shellMetalPoints(elements, cubature, Compatible::numData);
-  auto law = assumed ? fem::pointLaw(Assumed{metal}) : fem::pointLaw(Compatible{metal});
-  return fem::lawTerm(std::move(law), at.points, at.data);
-}
 std::unique_ptr<fem::Term> shells(const deck::VonMises& entry, const solid::ShellElements& elements,
                                   const solid::ShellCubature& cubature, deck::Shear shear) {
-  return entry.kinematicModulus > 0 ? metalShells<true>(metal(entry), elements, cubature, shear)
-                                    : metalShells<false>(metal(entry), elements, cubature, shear);
+  return solid::shellMetalTerm(
+      metal(entry), elements,
+      shear == deck::Shear::Assumed ? solid::ShellStrains::assumedShear : solid::ShellStrains::compatible,
+      cubature);
 }
 template <class Entry>
 std::unique_ptr<fem::Term> shells(const Entry& entry, const solid::ShellElements& elements,
@@ -189,6 +168,10 @@ std::unique_ptr<fem::Term> shells(const Entry& entry, const solid::ShellElements
     return fem::enhancedTerm(fem::pointLaw(solid::Mitc4Law<Law>{material}),
                              solid::mitc4Points(elements, poissonsRatio(material), cubature));
   }
+  if (elements.nodesPerElement == 6)
+    return fem::enhancedTerm(
+        solid::sixNodeShellLaw(fem::pointLaw(solid::ShellMaterialStage<Law>{law(entry)})),
+        solid::mitc6Points(elements, cubature));
   if (shear == deck::Shear::Assumed)
     return fem::enhancedTerm(fem::pointLaw(solid::AssumedShearLaw<Law>{law(entry)}),
                              solid::assumedShearPoints(elements, cubature));

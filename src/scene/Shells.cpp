@@ -25,16 +25,19 @@ std::vector<fem::ShellSection> sectionsOf(const deck::Deck& deck, const fem::Mes
   return sections;
 }
 
-/// Whether a cell has no middle nodes: assumed strains of its own, and a surface of facets.
+/// Whether a cell has no middle nodes: a surface of facets.
 bool isFacet(fem::Topology topology) {
   return topology == fem::Topology::Shell4 || topology == fem::Topology::Shell3;
 }
+
+/// Whether its assumed strains are its own, and there are no others to choose.
+bool isTied(fem::Topology topology) { return isFacet(topology) || topology == fem::Topology::Shell6; }
 
 deck::Shear shearOf(const deck::Deck& deck, const fem::Mesh& mesh, int block) {
   for (const deck::ShellSection& section : deck.shells.sections)
     for (const std::string& name : section.blocks)
       if (section.shear && fem::findBlock(mesh, name) == block) {
-        if (*section.shear == deck::Shear::Compatible && isFacet(mesh.blocks[block].topology))
+        if (*section.shear == deck::Shear::Compatible && isTied(mesh.blocks[block].topology))
           deck::failAt(deck, "shells/sections/" + section.name + "/shear",
                        fmt::format("block '{}' has {}, whose shear is always assumed", name,
                                    fem::topologyName(mesh.blocks[block].topology)));
@@ -112,8 +115,9 @@ int SceneShells::find(int block) const {
 SceneShells sceneShells(const deck::Deck& deck, fem::Mesh& mesh) {
   for (const fem::Block& block : mesh.blocks)
     if (block.topology == fem::Topology::Shell9)
-      deck::failAt(deck, "mesh/file",
-                   fmt::format("block '{}' has SHELL9; accepted are SHELL8, SHELL4 and SHELL3", block.name));
+      deck::failAt(
+          deck, "mesh/file",
+          fmt::format("block '{}' has SHELL9; accepted are SHELL8, SHELL6, SHELL4 and SHELL3", block.name));
   SceneShells shells;
   shells.parts = fem::orientShells(mesh, deck.shells.foldAngle);
   shells.geometry = geometryOf(deck, mesh);

@@ -176,12 +176,16 @@ TEST(ShellInput, EdgeLoadOnFaces) {
 
 TEST(ShellInput, CellsWithOtherNodes) {
   expectRefused(checked(roof(fem::Topology::Shell9)),
-                {"mesh/file: block 'roof' has SHELL9; accepted are SHELL8, SHELL4 and SHELL3"});
+                {"mesh/file: block 'roof' has SHELL9; accepted are SHELL8, SHELL6, SHELL4 and SHELL3"});
   EXPECT_EQ(checked(roof(fem::Topology::Shell4)).exitCode, 0);
   expectRefused(checked(roof(fem::Topology::Shell4),
                         edited(kDeck, "thickness: 0.1", "thickness: 0.1, shear: compatible")),
                 {"/shear: block 'roof' has SHELL4, whose shear is always assumed"});
   EXPECT_EQ(checked(roof(fem::Topology::Shell3)).exitCode, 0);
+  EXPECT_EQ(checked(roof(fem::Topology::Shell6)).exitCode, 0);
+  expectRefused(checked(roof(fem::Topology::Shell6),
+                        edited(kDeck, "thickness: 0.1", "thickness: 0.1, shear: compatible")),
+                {"/shear: block 'roof' has SHELL6, whose shear is always assumed"});
 }
 
 // Contact points lie where the deck says: a plane 1 below the middle surface of a plate of thickness 0.2.

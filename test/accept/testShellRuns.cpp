@@ -149,6 +149,15 @@ fem::Mesh mixedTube() {
   return mesh;
 }
 
+// Six nodes: the tube of SHELL8, on as many squares, with and without a material that yields (far above these
+// stresses).
+TEST(ShellRuns, TubeOfSixNodesUnderPressure) {
+  const std::string deck = edited(kTube, "divisions: [8, 1]", "divisions: [8, 1], cell: SHELL6");
+  const Ring ring(deck), eight(kTube);
+  EXPECT_NEAR(ring.radius, eight.radius, 1e-4);
+  EXPECT_NEAR(ring.hoop, 20 * (ring.radius - ring.halfThickness), 2e-3 * ring.hoop);
+}
+
 // Three nodes, and three beside four: the same tube. The circle is met with the chords' error, and hoop
 // strains of a sixth are the same in all triangles of a ring.
 TEST(ShellRuns, TubeOfThreeNodesUnderPressure) {
@@ -336,7 +345,9 @@ TEST(ShellRuns, ContactOfTheBottom) {
                         {"points: quadrature", "compatible", "SHELL8"},
                         {"points: quadrature", "assumed", "SHELL8"},
                         {"points: nodes", "assumed", "SHELL3"},
-                        {"points: quadrature", "assumed", "SHELL3"}}) {
+                        {"points: quadrature", "assumed", "SHELL3"},
+                        {"points: nodes", "assumed", "SHELL6"},
+                        {"points: quadrature", "assumed", "SHELL6"}}) {
     SCOPED_TRACE(c.points + ", " + c.shear + ", " + c.cell);
     const auto run = [&](const char* place, const char* floor) {
       return DeckRun(

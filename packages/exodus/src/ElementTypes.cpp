@@ -36,8 +36,9 @@ std::optional<fem::Topology> topologyOf(const std::string& elementType, int node
   } else if (dimensions == 2 && begins("TRI")) {
     if (nodesPerElement == 3) return Topology::Tri3;
     if (nodesPerElement == 6) return Topology::Tri6;
-  } else if (dimensions == 3 && nodesPerElement == 3 && (begins("TRI") || begins("SHELL"))) {
-    return Topology::Shell3;
+  } else if (dimensions == 3 && (nodesPerElement == 3 || nodesPerElement == 6) &&
+             (begins("TRI") || begins("SHELL"))) {
+    return nodesPerElement == 3 ? Topology::Shell3 : Topology::Shell6;
   } else if (dimensions == 3 && (begins("SHELL") || begins("QUAD"))) {
     if (nodesPerElement == 4) return Topology::Shell4;
     if (nodesPerElement == 8) return Topology::Shell8;
@@ -47,7 +48,8 @@ std::optional<fem::Topology> topologyOf(const std::string& elementType, int node
 }
 
 const char* elementType(fem::Topology topology) {
-  return topology == fem::Topology::Shell3 ? "TRISHELL3" : fem::topologyName(topology);
+  if (topology == fem::Topology::Shell3) return "TRISHELL3";
+  return topology == fem::Topology::Shell6 ? "TRISHELL6" : fem::topologyName(topology);
 }
 
 bool isLower(const std::string& elementType) {
@@ -65,7 +67,7 @@ int firstSide(const std::string& elementType, int dimensions) {
 const char* acceptedElementTypes(int dimensions) {
   if (dimensions == 2) return "QUAD with 4, 8 or 9 nodes, TRI with 3 or 6";
   return "HEX with 8, 20 or 27 nodes, TET with 4 or 10, WEDGE or PENTA with 6 or 15, SHELL or QUAD "
-         "with 4, 8 or 9, TRISHELL, TRI or SHELL with 3";
+         "with 4, 8 or 9, TRISHELL, TRI or SHELL with 3 or 6";
 }
 
 int numSides(fem::Topology topology) {
@@ -81,6 +83,7 @@ int numSides(fem::Topology topology) {
     case Topology::Wedge6:
     case Topology::Wedge15:
     case Topology::Shell3:
+    case Topology::Shell6:
       return 5;
     case Topology::Tet4:
     case Topology::Tet10:

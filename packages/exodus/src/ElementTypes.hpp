@@ -11,7 +11,8 @@ namespace atrapos::exodus {
 /// nothing where it is not supported. In three dimensions QUAD is a shell.
 std::optional<fem::Topology> topologyOf(const std::string& elementType, int nodesPerElement, int dimensions);
 
-/// What a file calls cells: as Topology's names, but for SHELL3, which Exodus has as TRISHELL3.
+/// What a file calls cells: as Topology's names, but for SHELL3 and SHELL6, which Exodus has as TRISHELL3 and
+/// TRISHELL6.
 const char* elementType(fem::Topology topology);
 
 /// Whether an element type is one of lines or points: BAR, BEAM, TRUSS, EDGE, LINE, SPHERE, POINT, ...

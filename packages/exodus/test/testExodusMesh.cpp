@@ -129,7 +129,8 @@ TEST(ExodusMesh, elementTypesByPrefixAndNodeCount) {
       {"PENTA15", Topology::Wedge15}, {"SHELL", Topology::Shell8},  {"shell8", Topology::Shell8},
       {"QUAD8", Topology::Shell8},    {"QUAD", Topology::Shell8},   {"SHELL9", Topology::Shell9},
       {"Quad", Topology::Shell9},     {"SHELL4", Topology::Shell4}, {"QUAD", Topology::Shell4},
-      {"TRI3", Topology::Shell3},     {"shell", Topology::Shell3},  {"TRISHELL3", Topology::Shell3}};
+      {"TRI3", Topology::Shell3},     {"shell", Topology::Shell3},  {"TRISHELL3", Topology::Shell3},
+      {"TRI6", Topology::Shell6},     {"SHELL6", Topology::Shell6}, {"TRISHELL6", Topology::Shell6}};
   for (const auto& [type, topology] : types) {
     SCOPED_TRACE(type);
     Raw raw;
@@ -259,12 +260,12 @@ TEST(ExodusMesh, whatIsNotSupportedIsNamed) {
   expectMessage(messageOf([&] { exodus::readMesh(file.directory().string()); }), "not a regular file");
 
   Raw raw;
-  for (const char* type : {"SHELL6", "TRISHELL6", "TRI6"}) {
+  for (const char* type : {"SHELL7", "TRISHELL7", "TRI7"}) {
     raw.type = type;
-    raw.nodesPerElement = 6;
+    raw.nodesPerElement = 7;
     raw.write(file());
     expectMessage(read(), "block '' (id 10): element type '" + std::string(type) +
-                              "' with 6 nodes is not supported; accepted are HEX");
+                              "' with 7 nodes is not supported; accepted are HEX");
   }
   raw = {};
   raw.type = "SHELL8";
@@ -392,12 +393,13 @@ TEST(ExodusMesh, roundTripOfShells) {
 // What the library itself says are the nodes of a shell's sides, for every name that we read as a shell.
 TEST(ExodusMesh, sidesOfShellsAreTheLibrarys) {
   const std::vector<std::pair<std::string, Topology>> types = {
-      {"SHELL4", Topology::Shell4}, {"SHELL8", Topology::Shell8},    {"SHELL9", Topology::Shell9},
-      {"SHELL", Topology::Shell8},  {"QUAD8", Topology::Shell8},     {"QUAD4", Topology::Shell4},
-      {"QUAD9", Topology::Shell9},  {"TRISHELL3", Topology::Shell3}, {"TRI3", Topology::Shell3}};
+      {"SHELL4", Topology::Shell4},    {"SHELL8", Topology::Shell8},    {"SHELL9", Topology::Shell9},
+      {"SHELL", Topology::Shell8},     {"QUAD8", Topology::Shell8},     {"QUAD4", Topology::Shell4},
+      {"QUAD9", Topology::Shell9},     {"TRISHELL3", Topology::Shell3}, {"TRI3", Topology::Shell3},
+      {"TRISHELL6", Topology::Shell6}, {"TRI6", Topology::Shell6}};
   for (const auto& [type, topology] : types) {
     const bool quad = type[0] == 'Q';  // four edges only
-    for (int side = 0; side < (quad ? 4 : topology == Topology::Shell3 ? 5 : 6); ++side) {
+    for (int side = 0; side < (quad ? 4 : fem::shellCorners(topology) == 3 ? 5 : 6); ++side) {
       SCOPED_TRACE(type + " side " + std::to_string(side + 1));
       const TempFile file;
       Raw raw;
@@ -423,8 +425,9 @@ TEST(ExodusMesh, sidesOfShellsAreTheLibrarys) {
       const bool old = type == "SHELL9" && count < static_cast<int>(expected.size());
       ASSERT_EQ(count, old ? (side < 2 ? 4 : 2) : static_cast<int>(expected.size()));
       // Of triangles the library has the bottom from its third corner on, in the same sense.
-      const int turn = topology == Topology::Shell3 && side == 1 ? 2 : 0;
-      for (int n = 0; n < count; ++n) EXPECT_EQ(nodes[(n + turn) % count] - 1, expected[n]);
+      const int turn = fem::shellCorners(topology) == 3 && side == 1 ? 2 : 0;
+      const int ring = count == 6 ? 3 : count;  // middles behind corners
+      for (int n = 0; n < count; ++n) EXPECT_EQ(nodes[n / ring * ring + (n + turn) % ring] - 1, expected[n]);
     }
   }
 }

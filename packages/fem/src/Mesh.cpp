@@ -26,11 +26,13 @@ int Mesh::numElements() const {
 }
 
 bool isShell(Topology topology) {
-  return topology == Topology::Shell3 || topology == Topology::Shell4 || topology == Topology::Shell8 ||
-         topology == Topology::Shell9;
+  return topology == Topology::Shell3 || topology == Topology::Shell4 || topology == Topology::Shell6 ||
+         topology == Topology::Shell8 || topology == Topology::Shell9;
 }
 
-int shellCorners(Topology topology) { return topology == Topology::Shell3 ? 3 : 4; }
+int shellCorners(Topology topology) {
+  return topology == Topology::Shell3 || topology == Topology::Shell6 ? 3 : 4;
+}
 
 bool isPlane(Topology topology) {
   return topology == Topology::Quad4 || topology == Topology::Quad8 || topology == Topology::Quad9 ||
@@ -42,6 +44,7 @@ int nodesPerElement(Topology topology) {
     case Topology::Shell3:
     case Topology::Tri3:
       return 3;
+    case Topology::Shell6:
     case Topology::Tri6:
       return 6;
     case Topology::Hex8:
@@ -91,6 +94,8 @@ const char* topologyName(Topology topology) {
       return "SHELL3";
     case Topology::Shell4:
       return "SHELL4";
+    case Topology::Shell6:
+      return "SHELL6";
     case Topology::Shell8:
       return "SHELL8";
     case Topology::Shell9:

@@ -71,6 +71,7 @@ shards::CellTopology cellOf(Topology topology) {
     case Topology::Shell3:
     case Topology::Tri3:
       return shardsCell<shards::Triangle<3>>();
+    case Topology::Shell6:
     case Topology::Tri6:
       return shardsCell<shards::Triangle<6>>();
   }
@@ -84,6 +85,8 @@ shards::CellTopology cellWithSides(Topology topology) {
       return shardsCell<shards::ShellTriangle<3>>();
     case Topology::Shell4:
       return shardsCell<shards::ShellQuadrilateral<4>>();
+    case Topology::Shell6:
+      return shardsCell<shards::ShellTriangle<6>>();
     case Topology::Shell8:
       return shardsCell<shards::ShellQuadrilateral<8>>();
     case Topology::Shell9:
@@ -349,7 +352,7 @@ std::vector<int> defaultDegrees(Topology topology) {
     case Topology::Tri3:
       return {1};
     case Topology::Shell3:
-      return {2};
+    case Topology::Shell6:
     case Topology::Tri6:
       return {2};
   }

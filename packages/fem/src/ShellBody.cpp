@@ -22,20 +22,33 @@ constexpr std::array<Place, 27> kPlaces{
      {middle, 2}, {middle, 3}, {top, 4},    {top, 5},    {top, 6},    {top, 7},    {middle, 8},
      {bottom, 8}, {top, 8},    {middle, 7}, {middle, 5}, {middle, 4}, {middle, 6}}};
 
-/// Nodes of WEDGE6.
-constexpr std::array<Place, 6> kWedge{{{bottom, 0}, {bottom, 1}, {bottom, 2}, {top, 0}, {top, 1}, {top, 2}}};
+/// Nodes of WEDGE15; WEDGE6 has the first of them.
+constexpr std::array<Place, 15> kWedge{{{bottom, 0},
+                                        {bottom, 1},
+                                        {bottom, 2},
+                                        {top, 0},
+                                        {top, 1},
+                                        {top, 2},
+                                        {bottom, 3},
+                                        {bottom, 4},
+                                        {bottom, 5},
+                                        {middle, 0},
+                                        {middle, 1},
+                                        {middle, 2},
+                                        {top, 3},
+                                        {top, 4},
+                                        {top, 5}}};
 
 /// Sides of a shell (top, bottom, edges) as sides of the solid, 0-based.
 constexpr std::array<int, 6> kSides{5, 4, 0, 1, 2, 3};
 constexpr std::array<int, 5> kSidesOfWedge{4, 3, 0, 1, 2};
 
-int sideOf(Topology shell, int side) {
-  return shell == Topology::Shell3 ? kSidesOfWedge[side] : kSides[side];
-}
+int sideOf(Topology shell, int side) { return shellCorners(shell) == 3 ? kSidesOfWedge[side] : kSides[side]; }
 
 Topology solidOf(Topology shell) {
   return shell == Topology::Shell3   ? Topology::Wedge6
          : shell == Topology::Shell4 ? Topology::Hex8
+         : shell == Topology::Shell6 ? Topology::Wedge15
          : shell == Topology::Shell8 ? Topology::Hex20
                                      : Topology::Hex27;
 }
@@ -65,10 +78,11 @@ ShellBody shellBody(const Mesh& mesh, const ShellGeometry& shells) {
     block.topology = solidOf(block.topology);
     block.nodes.clear();
     const int N = s.nodesPerElement;
+    const bool wedge = block.topology == Topology::Wedge6 || block.topology == Topology::Wedge15;
     for (int e = 0; e < s.numElements(); ++e) {
       const int* v = &s.nodes[2 * static_cast<std::size_t>(N) * e];
       for (int n = 0; n < nodesPerElement(block.topology); ++n) {
-        const auto [level, local] = N == 3 ? kWedge[n] : kPlaces[n];
+        const auto [level, local] = wedge ? kWedge[n] : kPlaces[n];
         const int director = v[N + local] - shells.numMeshNodes;
         block.nodes.push_back(level == middle ? v[local] : body.numMeshNodes + 2 * director + (level == top));
       }

@@ -86,8 +86,9 @@ class Builder {
     for (const ShellSection& section : sections_) {
       const Block& b = mesh_.blocks.at(section.block);
       if (!isShell(b.topology))
-        fail(fmt::format("{}: has {}, no shells; a shell section is for SHELL3, SHELL4, SHELL8 or SHELL9",
-                         blockLabel(b), topologyName(b.topology)));
+        fail(fmt::format(
+            "{}: has {}, no shells; a shell section is for SHELL3, SHELL4, SHELL6, SHELL8 or SHELL9",
+            blockLabel(b), topologyName(b.topology)));
       if (++count[section.block] > 1) fail(fmt::format("{}: has two shell sections", blockLabel(b)));
     }
     for (std::size_t b = 0; b < mesh_.blocks.size(); ++b)
@@ -100,7 +101,7 @@ class Builder {
   void addBlock(int section) {
     const Topology topology = block(section).topology;
     const Tabulation nodal = tabulateAt(topology, referenceNodes(topology)),
-                     centre = tabulateAt(topology, topology == Topology::Shell3
+                     centre = tabulateAt(topology, shellCorners(topology) == 3
                                                        ? std::vector<double>{1.0 / 3, 1.0 / 3}
                                                        : std::vector<double>{0, 0});
     ShellBlock shells;
@@ -167,7 +168,8 @@ class Builder {
       if (uses.size() > 2)
         for (const Corner& c : {uses[0].from, uses[0].to}) atBranch_[node(c.section, c.element, c.local)] = 1;
       if (uses.size() > 2 && hasMiddles(uses[0].from.section))
-        atBranch_[node(uses[0].from.section, uses[0].from.element, 4 + uses[0].from.local)] = 1;
+        atBranch_[node(uses[0].from.section, uses[0].from.element,
+                       corners(uses[0].from.section) + uses[0].from.local)] = 1;
       for (std::size_t i = 0; i < uses.size(); ++i)
         for (std::size_t j = 0; j < i; ++j) {
           if (first(uses[i]) != first(uses[j])) continue;

@@ -14,6 +14,7 @@ namespace {
 /// The same cell seen from the other side: its first corner stays.
 std::vector<int> reversedNodes(Topology topology) {
   if (topology == Topology::Shell3) return {0, 2, 1};
+  if (topology == Topology::Shell6) return {0, 2, 1, 5, 4, 3};
   std::vector<int> order{0, 3, 2, 1};
   if (topology != Topology::Shell4) order.insert(order.end(), {7, 6, 5, 4});
   if (topology == Topology::Shell9) order.push_back(8);

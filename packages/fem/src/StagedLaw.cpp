@@ -19,7 +19,7 @@ class StagedLaw final : public PointLaw {
           static_cast<int>(stage.data.size()) != s.data || !within(stage.inputs, 0, numWires_) ||
           !within(stage.data, -1, plan_.data))
         throw std::logic_error("stagedLaw: a stage reads what is not there");
-      if (s.variables > 0) throw std::logic_error("stagedLaw: a stage with internal variables");
+      if (s.variables > 0) setRemembering(stage, s);
       numWires_ += s.outputs;
       widest_ = std::max({widest_, s.inputs, s.outputs, s.data});
       largest_ = std::max(largest_, s.inputs * s.outputs);
@@ -29,8 +29,14 @@ class StagedLaw final : public PointLaw {
   }
 
   LawShape shape() const override {
-    return {plan_.inputs, static_cast<int>(plan_.outputs.size()), plan_.data, plan_.symmetric,
-            static_cast<int>(plan_.observed.size())};
+    LawShape shape{plan_.inputs, static_cast<int>(plan_.outputs.size()), plan_.data, plan_.symmetric,
+                   static_cast<int>(plan_.show ? plan_.names.size() : plan_.observed.size())};
+    if (remembering_ >= 0) {
+      const LawShape own = plan_.stages[remembering_].law->shape();
+      shape.variables = own.variables;
+      shape.events = own.events;
+    }
+    return shape;
   }
   // The memory of one stage stands behind that of another, for series and for scratch.
   std::size_t seriesDoubles(const SeriesOrder& order) const override {
@@ -63,11 +69,11 @@ class StagedLaw final : public PointLaw {
         for (int o = 0; o < outputs; ++o)
           for (int i = 0; i < I; ++i) {
             const double* by = room.jacobian + ((q * outputs + o) * I + i) * kLanes;
-            const double* from = row(q, stage.inputs[i]);
             double* to = row(q, firstWire + o);
-            for (int j = 0; j < J; ++j)
-              for (int lane = 0; lane < kLanes; ++lane)
-                to[j * kLanes + lane] += by[lane] * from[j * kLanes + lane];
+            if (const int wire = stage.inputs[i]; wire < J)  // an input of the whole law
+              add(by, to + wire * kLanes);
+            else
+              addProducts(by, J, row(q, wire), to);
           }
     });
     room.pick(plan_.outputs, room.wires, out);
@@ -76,13 +82,39 @@ class StagedLaw final : public PointLaw {
         std::copy_n(row(q, plan_.outputs[o]), J * kLanes, jacobian + (q * O + o) * J * kLanes);
   }
 
+  // By what depends on the input alone: one call for each input of a stage that does.
   void derivative(const PointBatch& points, int input, const double* in, double* out,
                   double* derivative) const override {
-    const std::size_t rows = points.numPoints * plan_.outputs.size(), J = plan_.inputs;
-    std::vector<double> jacobian(rows * J * kLanes);
-    tangent(points, in, out, jacobian.data());
-    for (std::size_t m = 0; m < rows; ++m)
-      std::copy_n(&jacobian[(m * J + input) * kLanes], kLanes, derivative + m * kLanes);
+    const int Q = points.numPoints;
+    const Room room(*this, Q, true);
+    double* const wires = room.derivatives;  // [wire][point][lane]
+    const auto of = [&](int wire) { return wires + wire * Q * kLanes; };
+    std::fill_n(wires, numWires_ * Q * kLanes, 0.0);
+    std::fill_n(of(input), Q * kLanes, 1.0);
+    std::vector<char> depends(numWires_, 0);
+    depends[input] = 1;
+    evaluate(points, in, room, [&](const PointLaw& law, const PointBatch& own, int s, int firstWire) {
+      const LawStage& stage = plan_.stages[s];
+      const int outputs = law.shape().outputs;
+      bool any = false;
+      for (std::size_t i = 0; i < stage.inputs.size(); ++i) {
+        if (depends[stage.inputs[i]] == 0) continue;
+        law.derivative(own, static_cast<int>(i), room.in, room.out, room.jacobian);
+        any = true;
+        for (int q = 0; q < Q; ++q)
+          for (int o = 0; o < outputs; ++o)
+            addProducts(room.jacobian + (q * outputs + o) * kLanes, 1, of(stage.inputs[i]) + q * kLanes,
+                        of(firstWire + o) + q * kLanes);
+      }
+      if (any)
+        std::fill_n(depends.begin() + firstWire, outputs, char{1});
+      else
+        law.value(own, room.in, room.out);
+    });
+    room.pick(plan_.outputs, room.wires, out);
+    for (int q = 0; q < Q; ++q)
+      for (const int wire : plan_.outputs)
+        derivative = std::copy_n(of(wire) + q * kLanes, kLanes, derivative);
   }
 
   void start(const PointBatch& points, const SeriesOrder& order, const double* in, double* out,
@@ -115,16 +147,35 @@ class StagedLaw final : public PointLaw {
       memory += points.numPoints * stage.law->seriesDoubles(order);
       if (completes) room.pick(stage.inputs, room.lastWires, room.lastIn);
       room.pick(stage.inputs, room.wires, room.in);
-      stage.law->advance(own, order, {room.lastIn, room.in}, {room.lastOut, room.out});
+      double* const current = out.current != nullptr ? room.out : nullptr;
+      stage.law->advance(own, order, {room.lastIn, room.in}, {room.lastOut, current});
       if (completes) room.put(outputs, room.lastOut, wire, room.lastWires);
       room.put(outputs, room.out, wire, room.wires);
       wire += outputs;
     }
     if (out.last != nullptr && completes) room.pick(plan_.outputs, room.lastWires, out.last);
-    room.pick(plan_.outputs, room.wires, out.current);
+    if (out.current != nullptr) room.pick(plan_.outputs, room.wires, out.current);
+  }
+
+  // Along the straight line between what the stage that remembers reads at the two ends.
+  void carry(const PointBatch& points, const double* from, const double* to, double* variables,
+             PointFailure& failure) const override {
+    if (remembering_ < 0) return PointLaw::carry(points, from, to, variables, failure);
+    const LawStage& stage = plan_.stages[remembering_];
+    const Room room(*this, points.numPoints);
+    const auto inputsAt = [&](const double* in, double* ofStage) {
+      evaluate(points, in, room, remembering_, [&](const PointLaw& law, const PointBatch& own, int, int) {
+        law.value(own, room.in, room.out);
+      });
+      room.pick(stage.inputs, room.wires, ofStage);
+    };
+    inputsAt(from, room.lastIn);
+    inputsAt(to, room.lastOut);
+    stage.law->carry(batchOf(stage, points, room), room.lastIn, room.lastOut, variables, failure);
   }
 
   std::vector<std::string> observedNames() const override {
+    if (plan_.show) return plan_.names;
     std::vector<std::string> names;
     for (const auto& shown : plan_.observed) names.push_back(shown.name);
     return names;
@@ -135,6 +186,7 @@ class StagedLaw final : public PointLaw {
     evaluate(points, in, room, [&](const PointLaw& law, const PointBatch& own, int, int) {
       law.value(own, room.in, room.out);
     });
+    if (plan_.show) return show(points, room, values);
     for (int q = 0; q < points.numPoints; ++q)
       for (const StagedPlan::Shown& shown : plan_.observed) {
         const double* wire = room.wires + (q * numWires_ + shown.wire) * kLanes;
@@ -150,6 +202,18 @@ class StagedLaw final : public PointLaw {
   bool exists(const double* data) const override { return plan_.existence < 0 || data[plan_.existence] >= 0; }
 
  private:
+  static void add(const double* by, double* __restrict to) {
+    for (int lane = 0; lane < kLanes; ++lane) to[lane] += by[lane];
+  }
+  /// to[j][lane] += by[lane] from[j][lane], j < count.
+  static void addProducts(const double* by, int count, const double* from, double* __restrict to) {
+    double factor[kLanes];
+    std::copy_n(by, kLanes, factor);
+    for (int j = 0; j < count; ++j)
+      for (int lane = 0; lane < kLanes; ++lane)
+        to[j * kLanes + lane] += factor[lane] * from[j * kLanes + lane];
+  }
+
   /// A thread's numbers of a batch: wires [point][wire][lane], and what one stage reads and writes.
   struct Room {
     Room(const StagedLaw& law, int numPoints, bool tangent = false)
@@ -204,20 +268,50 @@ class StagedLaw final : public PointLaw {
   /// room.in into room.out.
   template <class Call>
   void evaluate(const PointBatch& points, const double* in, const Room& room, const Call& call) const {
+    evaluate(points, in, room, static_cast<int>(plan_.stages.size()), call);
+  }
+  /// Of the first stages alone.
+  template <class Call>
+  void evaluate(const PointBatch& points, const double* in, const Room& room, int count,
+                const Call& call) const {
     room.put(plan_.inputs, in, 0, room.wires);
     int wire = plan_.inputs;
-    for (std::size_t s = 0; s < plan_.stages.size(); ++s) {
+    for (int s = 0; s < count; ++s) {
       const LawStage& stage = plan_.stages[s];
       const int outputs = stage.law->shape().outputs;
       room.pick(stage.inputs, room.wires, room.in);
-      call(*stage.law, batchOf(stage, points, room), static_cast<int>(s), wire);
+      call(*stage.law, batchOf(stage, points, room), s, wire);
       room.put(outputs, room.out, wire, room.wires);
       wire += outputs;
     }
   }
 
+  /// One stage may have variables: as the whole law has them.
+  void setRemembering(const LawStage& stage, const LawShape& own) {
+    const int D = plan_.data, V = own.variables, O = static_cast<int>(plan_.outputs.size());
+    bool fits = remembering_ < 0 && O >= V + own.events && (own.events == 0 || stage.data[0] == 0);
+    for (int v = 0; v < V; ++v) fits = fits && stage.data[own.data - V + v] == D - V + v;
+    for (int o = 1; fits && o <= V + own.events; ++o)
+      fits = plan_.outputs[O - o] == numWires_ + own.outputs - o;
+    if (!fits) throw std::logic_error("stagedLaw: the variables of a stage are not the whole law's");
+    remembering_ = static_cast<int>(&stage - plan_.stages.data());
+  }
+
+  void show(const PointBatch& points, const Room& room, double* values) const {
+    const std::size_t V = plan_.names.size();
+    std::vector<double> wires(numWires_), data(plan_.data), shown(V);
+    for (int q = 0; q < points.numPoints; ++q)
+      for (int lane = 0; lane < points.lanes; ++lane) {
+        for (int w = 0; w < numWires_; ++w) wires[w] = room.wires[(q * numWires_ + w) * kLanes + lane];
+        for (int d = 0; d < plan_.data; ++d) data[d] = points.data[(q * plan_.data + d) * kLanes + lane];
+        plan_.show(wires.data(), data.data(), shown.data());
+        for (std::size_t v = 0; v < V; ++v) values[(q * V + v) * kLanes + lane] = shown[v];
+      }
+  }
+
   StagedPlan plan_;
   int numWires_, widest_ = 1, largest_ = 1;
+  int remembering_ = -1;  ///< the stage with internal variables
 };
 
 }  // namespace

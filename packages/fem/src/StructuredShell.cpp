@@ -44,7 +44,7 @@ class SurfaceMesher {
     addNodeSets();
     addLineSets();
     addSideSets();
-    if (surface_.topology == Topology::Shell3) splitCells();
+    if (shellCorners(surface_.topology) == 3) splitCells();
     return std::move(mesh_);
   }
 
@@ -64,7 +64,8 @@ class SurfaceMesher {
 
   /// Of the cells that are made first: triangles come from quadrilaterals.
   Topology firstCell() const {
-    return surface_.topology == Topology::Shell3 ? Topology::Shell4 : surface_.topology;
+    if (surface_.topology == Topology::Shell3) return Topology::Shell4;
+    return surface_.topology == Topology::Shell6 ? Topology::Shell9 : surface_.topology;
   }
 
   template <class F>
@@ -202,20 +203,22 @@ class SurfaceMesher {
     }
   }
 
-  /// Two triangles in place of each quadrilateral, with diagonals in turn.
+  /// Two triangles in place of each quadrilateral, with diagonals in turn; of SHELL9 with its centre on them.
   void splitCells() {
-    constexpr int corners[2][2][3] = {{{0, 1, 2}, {0, 2, 3}}, {{0, 1, 3}, {1, 2, 3}}};
+    constexpr int triangles[2][2][6] = {{{0, 1, 2, 4, 5, 8}, {0, 2, 3, 8, 6, 7}},
+                                        {{0, 1, 3, 4, 8, 7}, {1, 2, 3, 5, 6, 8}}};
     // Triangle of the cell and side of it, by diagonal and edge of the cell.
     constexpr int edges[2][4][2] = {{{0, 2}, {0, 3}, {1, 3}, {1, 4}}, {{0, 2}, {1, 2}, {1, 3}, {0, 4}}};
     Block& block = mesh_.blocks[0];
+    const int N = nodesPerElement(block.topology), own = nodesPerElement(surface_.topology);
     std::vector<int> nodes, diagonal;
     forEachCell([&](const Lattice& at) {
-      const int* quad = &block.nodes[4 * diagonal.size()];
+      const int* quad = &block.nodes[N * diagonal.size()];
       diagonal.push_back((at[0] + at[1]) % 2);
-      for (const auto& triangle : corners[diagonal.back()])
-        for (const int corner : triangle) nodes.push_back(quad[corner]);
+      for (const auto& triangle : triangles[diagonal.back()])
+        for (int n = 0; n < own; ++n) nodes.push_back(quad[triangle[n]]);
     });
-    block.topology = Topology::Shell3;
+    block.topology = surface_.topology;
     block.nodes = std::move(nodes);
     block.attributes.resize(2 * block.attributes.size(), surface_.thickness);
     for (SideSet& set : mesh_.sideSets) {
@@ -289,9 +292,9 @@ Surface common(const Options& options, const std::string& title) {
     points *= 2.0 * n + 1.0;
   }
   require(points < std::numeric_limits<int>::max(), title, "too many divisions for one mesh");
-  require(
-      isShell(options.topology), title,
-      std::string("cells must be SHELL3, SHELL4, SHELL8 or SHELL9, got ") + topologyName(options.topology));
+  require(isShell(options.topology), title,
+          std::string("cells must be SHELL3, SHELL4, SHELL6, SHELL8 or SHELL9, got ") +
+              topologyName(options.topology));
   require(std::isfinite(options.thickness) && options.thickness >= 0, title,
           "thickness must not be below 0, got " + std::to_string(options.thickness));
   Surface surface;

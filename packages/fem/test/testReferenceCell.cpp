@@ -562,7 +562,7 @@ TEST(ReferenceCell, DefaultCubatureHasTheDocumentedPoints) {
   const std::map<Topology, int> points{{Topology::Hex8, 8},    {Topology::Hex20, 8},  {Topology::Hex27, 27},
                                        {Topology::Tet4, 1},    {Topology::Tet10, 4},  {Topology::Wedge6, 6},
                                        {Topology::Wedge15, 9}, {Topology::Shell4, 4}, {Topology::Shell8, 4},
-                                       {Topology::Shell9, 9},  {Topology::Shell3, 3}};
+                                       {Topology::Shell9, 9},  {Topology::Shell3, 3}, {Topology::Shell6, 3}};
   for (const auto& [cell, count] : points) {
     SCOPED_TRACE(name(cell));
     const Tabulation t = tabulate(cell);
@@ -636,12 +636,20 @@ TEST(ReferenceCell, SidesOfShellsAreTwoFacesThenFourEdges) {
 }
 
 TEST(ReferenceCell, SidesOfTriangularShellsAreTwoFacesThenThreeEdges) {
-  const std::vector<std::vector<int>> exodus{{0, 1, 2}, {0, 2, 1}, {0, 1}, {1, 2}, {2, 0}};
-  ASSERT_EQ(numSides(Topology::Shell3), 5);
-  EXPECT_THROW(sideNodes(Topology::Shell3, 5), std::out_of_range);
-  for (int side = 0; side < 5; ++side) {
-    EXPECT_EQ(sideNodes(Topology::Shell3, side), exodus[side]);
-    EXPECT_EQ(sideFace(Topology::Shell3, side), side < 2 ? Face::Tri3 : Face::Line2);
+  const std::vector<std::vector<int>> exodus{
+      {0, 1, 2, 3, 4, 5}, {0, 2, 1, 5, 4, 3}, {0, 1, 3}, {1, 2, 4}, {2, 0, 5}};
+  for (Topology shell : {Topology::Shell3, Topology::Shell6}) {
+    const bool middles = shell == Topology::Shell6;
+    ASSERT_EQ(numSides(shell), 5);
+    EXPECT_THROW(sideNodes(shell, 5), std::out_of_range);
+    for (int side = 0; side < 5; ++side) {
+      const std::vector<int>& all = exodus[side];
+      const auto corners = static_cast<std::ptrdiff_t>(side < 2 ? 3 : 2);
+      EXPECT_EQ(sideNodes(shell, side),
+                std::vector<int>(all.begin(), middles ? all.end() : all.begin() + corners));
+      EXPECT_EQ(sideFace(shell, side),
+                side < 2 ? (middles ? Face::Tri6 : Face::Tri3) : (middles ? Face::Line3 : Face::Line2));
+    }
   }
 }
 

@@ -39,7 +39,8 @@ double sum(const std::vector<PointSet>& sets) {
 }  // namespace
 
 TEST(ShellBody, HasTheShellsFacesAndVolume) {
-  for (Topology cell : {Topology::Shell3, Topology::Shell4, Topology::Shell8, Topology::Shell9}) {
+  for (Topology cell :
+       {Topology::Shell3, Topology::Shell4, Topology::Shell6, Topology::Shell8, Topology::Shell9}) {
     SCOPED_TRACE(topologyName(cell));
     const Mesh mesh = roof(cell);
     const ShellGeometry shells = shellGeometry(mesh, {{0, 0.2}});

@@ -150,7 +150,8 @@ TEST(ShellFaces, EdgesHaveTheirLengthAndPointOutwards) {
       EXPECT_NEAR(p.normals[3 * q], std::cos(40 * degree), 1e-4);  // along theta, h^3 off at an end
       EXPECT_NEAR(p.normals[3 * q + 2], -std::sin(40 * degree), 1e-4);
     }
-  for (Topology cell : {Topology::Shell3, Topology::Shell4, Topology::Shell8, Topology::Shell9}) {
+  for (Topology cell :
+       {Topology::Shell3, Topology::Shell4, Topology::Shell6, Topology::Shell8, Topology::Shell9}) {
     auto o = roof();
     o.topology = cell;
     const Mesh any = shellCylinderMesh(o);

@@ -103,6 +103,22 @@ TEST(ShellOrientation, SidesAndThicknessesStayInPlace) {
   EXPECT_TRUE(orientShells(mixed, foldAngle)[0].sidesMixed);
 }
 
+// A triangle of six nodes that is turned over: its middles and edges go with it.
+TEST(ShellOrientation, TrianglesOfSixNodes) {
+  const Mesh right = plate({4, 2}, Topology::Shell6);
+  Mesh mesh = right;
+  int* nodes = &mesh.blocks[0].nodes[6 * 5];
+  std::swap(nodes[1], nodes[2]);
+  std::swap(nodes[3], nodes[5]);
+  mesh.sideSets = {{"sides", 1, {{5, 1}, {5, 4}, {5, 3}, {5, 2}}}};
+  const auto parts = orientShells(mesh, foldAngle);
+  ASSERT_EQ(parts.size(), 1u);
+  EXPECT_EQ(parts[0].turned, 1);
+  EXPECT_EQ(allNodes(mesh), allNodes(right));
+  const int sides[] = {0, 2, 3, 4};
+  for (int s = 0; s < 4; ++s) EXPECT_EQ(mesh.sideSets[0].sides[s].side, sides[s]);
+}
+
 // Triangles, alone and with quadrilaterals: their own number of edges.
 TEST(ShellOrientation, Triangles) {
   Mesh mesh = plate({4, 2}, Topology::Shell3);

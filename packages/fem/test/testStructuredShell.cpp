@@ -421,6 +421,6 @@ TEST(StructuredShell, BadNumbersThrow) {
     shellPlateMesh(p);
     FAIL();
   } catch (const std::invalid_argument& e) {
-    EXPECT_STREQ(e.what(), "shell plate: cells must be SHELL3, SHELL4, SHELL8 or SHELL9, got WEDGE6");
+    EXPECT_STREQ(e.what(), "shell plate: cells must be SHELL3, SHELL4, SHELL6, SHELL8 or SHELL9, got WEDGE6");
   }
 }

@@ -43,8 +43,8 @@ Case shell(int n, Shear shear) {
   fem::FeModel model = shellModel(grid, material, {}, shear);
   clamp(model, grid, grid.lineI(0));
   addShellEdgeForce(grid.elements(), grid.side(1), {0, 0, -force / width}, model.load);
-  constexpr const char* names[] = {"shell ", "assumed ", "SHELL4 ", "SHELL3 "};
-  const int tip = grid.lineI(2 * n)[nodesOf(shear) == 8 ? 1 : 0];
+  constexpr const char* names[] = {"shell ", "assumed ", "SHELL4 ", "SHELL3 ", "SHELL6 "};
+  const int tip = grid.lineI(2 * n)[nodesOf(shear) > 4 ? 1 : 0];
   return {names[static_cast<int>(shear)] + std::to_string(n),
           std::make_unique<fem::FeProblem>(std::move(model)), 3 * tip + 2};
 }
@@ -97,7 +97,7 @@ int main(int argc, char** argv) {
   Tpetra::ScopeGuard scope(&argc, &argv);
   std::printf("%-10s %7s %9s %12s %12s %12s %12s %10s\n", "elements", "dofs", "error", "tangent ms",
               "orders ms", "tangent us/d", "orders us/d", "path s");
-  for (Shear shear : {Shear::compatible, Shear::assumed, Shear::mitc4, Shear::mitc3})
+  for (Shear shear : {Shear::compatible, Shear::assumed, Shear::mitc4, Shear::mitc3, Shear::mitc6})
     for (int n : {4, 8, 16, 32, 64}) measure(shell(n, shear));
   measure(shell(128, Shear::mitc4));
   for (int n : {20, 40, 80, 160}) measure(hex20(n));

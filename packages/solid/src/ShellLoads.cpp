@@ -61,7 +61,7 @@ void addAt(const ShellElements& elements, int e, const double* N, double zeta, c
 /// Nodes of an edge within the element: start, end, and the middle where it has one.
 std::vector<int> nodesOf(const ShellElements& elements, const ShellEdge& edge) {
   std::vector<int> nodes{edge.edge, (edge.edge + 1) % elements.corners()};
-  if (elements.nodesPerElement == 8) nodes.push_back(4 + edge.edge);
+  if (elements.hasMiddles()) nodes.push_back(elements.corners() + edge.edge);
   return nodes;
 }
 
@@ -69,7 +69,7 @@ std::vector<int> nodesOf(const ShellElements& elements, const ShellEdge& edge) {
 struct EdgeShape {
   std::array<double, 3> N, dN;
   EdgeShape(const ShellElements& elements, double s) : N{(1 - s) / 2, (1 + s) / 2, 0}, dN{-0.5, 0.5, 0} {
-    if (elements.nodesPerElement == 8) {
+    if (elements.hasMiddles()) {
       N = {s * (s - 1) / 2, s * (s + 1) / 2, 1 - s * s};
       dN = {s - 0.5, s + 0.5, -2 * s};
     }
@@ -99,7 +99,7 @@ fem::PointSet edgePoints(const ShellElements& elements, const std::vector<ShellE
   checkEdges(elements, edges);
   fem::PointSet p;
   p.numEntities = static_cast<int>(edges.size());
-  p.nodesPerEntity = elements.nodesPerElement == 8 ? 6 : 4;
+  p.nodesPerEntity = elements.hasMiddles() ? 6 : 4;
   p.pointsPerEntity = 3;
   p.shapeComponents = 3;
   for (const ShellEdge& edge : edges) {

@@ -1,5 +1,5 @@
-#include "atrapos/solid/ShellMetal.hpp"
 #include "atrapos/fem/PointLawOf.hpp"
+#include "atrapos/solid/ShellStages.hpp"
 
-ATRAPOS_POINT_LAW(atrapos::solid::ShellMetal<false>)
-ATRAPOS_POINT_LAW(atrapos::solid::ShellMetal<true>)
+ATRAPOS_POINT_LAW(atrapos::solid::ShellMetalStage<false>)
+ATRAPOS_POINT_LAW(atrapos::solid::ShellMetalStage<true>)

@@ -25,17 +25,17 @@ fem::EnhancedPoints makeShellPoints(const ShellElements& elements, const ShellCu
                                     const std::function<void(const ShellPlace&, fem::EnhancedPoints&)>& add) {
   const int N = elements.nodesPerElement;
   const std::size_t count = elements.count(), corners = count * N;
-  if ((N != 8 && N != 4 && N != 3) || elements.nodes.size() != 2 * corners ||
+  if ((N != 8 && N != 6 && N != 4 && N != 3) || elements.nodes.size() != 2 * corners ||
       elements.midsurface.size() != 3 * corners || elements.directors.size() != 3 * corners ||
       (!elements.directorScale.empty() && elements.directorScale.size() != corners))
     throw std::logic_error(
-        "shellPoints: 8, 4 or 3 nodes, each with its director, position and director at rest, are needed");
+        "shellPoints: 8, 6, 4 or 3 nodes, each with its director, position and director at rest, are needed");
   const PlanePoints plane(cubature.inPlane, N);
   const GaussRule through = gaussRule(cubature.throughThickness);
   const fem::Tabulation& t = plane.table;
 
   fem::EnhancedPoints result;
-  result.numParameters = N == 3 ? 3 : 4;
+  result.numParameters = isTriangle(N) ? 3 : 4;
   fem::PointSet& p = result.points;
   p.numEntities = static_cast<int>(count);
   p.nodesPerEntity = 2 * N;
@@ -48,7 +48,7 @@ fem::EnhancedPoints makeShellPoints(const ShellElements& elements, const ShellCu
     for (double zeta : through.x) {
       const double xi = plane.xi[2 * q], eta = plane.xi[2 * q + 1];
       result.modes.insert(result.modes.end(), {zeta, zeta * xi, zeta * eta});
-      if (N != 3) result.modes.push_back(zeta * xi * eta);
+      if (!isTriangle(N)) result.modes.push_back(zeta * xi * eta);
     }
   for (std::size_t e = 0; e < count; ++e) {
     const double *R = elements.R(static_cast<int>(e)), *D = elements.D(static_cast<int>(e));

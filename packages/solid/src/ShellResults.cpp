@@ -73,9 +73,11 @@ std::vector<double> surfaceStress(const fem::PointValues& stress, const ShellCub
 
 std::vector<double> shellPointsToNodes(const ShellCubature& cubature, int nodes) {
   constexpr double xi[8] = {-1, 1, 1, -1, 0, 1, 0, -1}, eta[8] = {-1, -1, 1, 1, -1, 0, 1, 0};
-  if (nodes == 3) {  // each point lies two thirds of the way from the middle to its corner
-    std::vector<double> linear(9, -1.0 / 3);
+  if (isTriangle(nodes)) {  // each point lies two thirds of the way from the middle to its corner
+    std::vector<double> linear(3 * static_cast<std::size_t>(nodes), -1.0 / 3);
     for (int a = 0; a < 3; ++a) linear[4 * static_cast<std::size_t>(a)] = 5.0 / 3;
+    for (int a = 3; a < nodes; ++a)  // between two corners
+      for (int q = 0; q < 3; ++q) linear[3 * a + q] = q == (a + 2) % 3 ? -1.0 / 3 : 2.0 / 3;
     return linear;
   }
   const detail::GaussRule line = detail::gaussRule(cubature.inPlane);

@@ -37,16 +37,25 @@ GaussRule gaussRule(int points) {
 }
 
 fem::Face faceOf(int nodes) {
-  return nodes == 3 ? fem::Face::Tri3 : nodes == 4 ? fem::Face::Quad4 : fem::Face::Quad8;
+  switch (nodes) {
+    case 3:
+      return fem::Face::Tri3;
+    case 4:
+      return fem::Face::Quad4;
+    case 6:
+      return fem::Face::Tri6;
+    default:
+      return fem::Face::Quad8;
+  }
 }
 
 PlanePoints::PlanePoints(int perDirection, int nodes) {
-  if (nodes == 3) {
+  if (isTriangle(nodes)) {
     if (perDirection != 2)
       throw std::invalid_argument("shell cubature: triangles have three points in the plane");
     xi = {1.0 / 6, 1.0 / 6, 2.0 / 3, 1.0 / 6, 1.0 / 6, 2.0 / 3};
     weights.assign(3, 1.0 / 6);
-    table = fem::tabulateFaceAt(fem::Face::Tri3, xi);
+    table = fem::tabulateFaceAt(faceOf(nodes), xi);
     return;
   }
   const GaussRule line = gaussRule(perDirection);

@@ -22,7 +22,7 @@ inline Vec3 unit(const Vec3& a) {
   return {a[0] / size, a[1] / size, a[2] / size};
 }
 
-/// The surface of an element of 8, 4 or 3 nodes.
+/// The surface of an element of 8, 6, 4 or 3 nodes.
 fem::Face faceOf(int nodes);
 
 /// The shape functions of all nodes at a point, and the derivatives of one's by xi and eta.
@@ -46,7 +46,7 @@ struct PlanePoints {
   std::vector<double> xi, weights;  ///< [point][2], [point]
   fem::Tabulation table;
 
-  /// nodes: of the element, 8, 4 or 3. Throws std::invalid_argument where a triangle is to have others.
+  /// nodes: of the element, 8, 6, 4 or 3. Throws std::invalid_argument where a triangle is to have others.
   PlanePoints(int perDirection, int nodes);
   int count() const { return static_cast<int>(weights.size()); }
 };

@@ -24,19 +24,21 @@ std::vector<int> ShellGrid::lineJ(int j) const {
 }
 
 ShellElements ShellGrid::elements() const {
-  constexpr int di[8] = {0, 2, 2, 0, 1, 2, 1, 0}, dj[8] = {0, 0, 2, 2, 0, 1, 2, 1};
+  constexpr int di[9] = {0, 2, 2, 0, 1, 2, 1, 0, 1}, dj[9] = {0, 0, 2, 2, 0, 1, 2, 1, 1};
   ShellElements result;
   result.nodesPerElement = nodesPerElement;
-  // Triangles of a square by its corners, for either diagonal.
-  constexpr int triangles[2][2][3] = {{{0, 1, 2}, {0, 2, 3}}, {{0, 1, 3}, {1, 2, 3}}};
+  // Triangles of a square by its nodes, for either diagonal.
+  constexpr int triangles[2][2][6] = {{{0, 1, 2, 4, 5, 8}, {0, 2, 3, 8, 6, 7}},
+                                      {{0, 1, 3, 4, 8, 7}, {1, 2, 3, 5, 6, 8}}};
   std::vector<std::vector<int>> cells;
   for (int ej = 0; ej < nv; ++ej)
     for (int ei = 0; ei < nu; ++ei) {
       const auto at = [&](int a) { return node(2 * ei + di[a], 2 * ej + dj[a]); };
-      if (nodesPerElement == 3) {
-        for (const auto& corners : triangles[(ei + ej) % 2]) {
+      if (isTriangle(nodesPerElement)) {
+        for (const auto& nodes : triangles[(ei + ej) % 2]) {
           cells.push_back({});
-          for (int a = 0; a < 3; ++a) cells.back().push_back(at(corners[(a + turn) % 3]));
+          for (int a = 0; a < nodesPerElement; ++a)
+            cells.back().push_back(at(nodes[a / 3 * 3 + (a + turn) % 3]));
         }
         continue;
       }
@@ -64,7 +66,8 @@ ShellGrid shellGrid(int nu, int nv, double thickness, const Surface& surface, co
   grid.nodesPerElement = nodesPerElement;
   for (int j = 0; j <= 2 * nv; ++j)
     for (int i = 0; i <= 2 * nu; ++i) {
-      const bool exists = nodesPerElement == 8 ? i % 2 == 0 || j % 2 == 0 : i % 2 == 0 && j % 2 == 0;
+      const int odd = i % 2 + j % 2;
+      const bool exists = odd <= (nodesPerElement == 6 ? 2 : nodesPerElement == 8 ? 1 : 0);
       grid.lattice.push_back(exists ? grid.numNodes() : -1);
       if (!exists) continue;
       const auto [s, t] = distortion(i / (2.0 * nu), j / (2.0 * nv));
@@ -80,7 +83,7 @@ std::vector<ShellEdge> ShellGrid::side(int number) const {
   const int count = number % 2 == 0 ? nu : nv;
   for (int k = 0; k < count; ++k) {
     const int i = number == 1 ? nu - 1 : number == 3 ? 0 : k, j = number == 2 ? nv - 1 : number == 0 ? 0 : k;
-    if (nodesPerElement == 3) {  // triangle of the square and its edge, by diagonal and side
+    if (isTriangle(nodesPerElement)) {  // triangle of the square and its edge, by diagonal and side
       constexpr int places[2][4][2] = {{{0, 0}, {0, 1}, {1, 1}, {1, 2}}, {{0, 0}, {1, 0}, {1, 1}, {0, 2}}};
       const auto& place = places[(i + j) % 2][number];
       edges.push_back({2 * (j * nu + i) + place[0], (place[1] + 3 - turn) % 3});
@@ -103,8 +106,8 @@ ShellGrid shaken(ShellGrid grid, double amount, unsigned seed) {
     for (int i = 0; i <= 2 * grid.nu; ++i) {
       const int n = grid.node(i, j);
       if (n < 0 || (i % 2 == 0 && j % 2 == 0)) continue;
-      const int a = i % 2 ? grid.node(i - 1, j) : grid.node(i, j - 1);
-      const int b = i % 2 ? grid.node(i + 1, j) : grid.node(i, j + 1);
+      const int di = i % 2, rising = (i / 2 + j / 2) % 2 == 0 ? 1 : -1, dj = j % 2 * (di == 1 ? rising : 1);
+      const int a = grid.node(i - di, j - dj), b = grid.node(i + di, j + dj);
       for (int c = 0; c < 3; ++c) grid.x[n][c] = 0.5 * (grid.x[a][c] + grid.x[b][c]);
     }
   return grid;

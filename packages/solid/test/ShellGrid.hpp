@@ -19,9 +19,9 @@ using Surface = std::function<SurfacePoint(double s, double t)>;
 /// A map from [0, 1]^2 to parameters: distorts a grid within its surface.
 using Distortion = std::function<std::array<double, 2>(double s, double t)>;
 
-/// nu x nv elements of eight or four nodes on a mid-surface, or as many squares of two triangles, with
-/// diagonals in turn. Nodes have indices (i, j), 0 <= i <= 2 nu, 0 <= j <= 2 nv, on the lattice of half
-/// elements; both odd, with four or three nodes one of them: no node.
+/// nu x nv elements of eight or four nodes on a mid-surface, or as many squares of two triangles of six or
+/// three, with diagonals in turn. Nodes have indices (i, j), 0 <= i <= 2 nu, 0 <= j <= 2 nv, on the lattice
+/// of half elements; with eight nodes none has both odd, with four or three none has one odd.
 struct ShellGrid {
   int nu = 0, nv = 0, nodesPerElement = 8;
   std::vector<int> lattice;  ///< [j][i] node, -1 where there is none

@@ -5,6 +5,7 @@
 
 #include "atrapos/fem/EnhancedTerm.hpp"
 #include "atrapos/linear/MakeTangentSolver.hpp"
+#include "atrapos/solid/ShellTerms.hpp"
 
 namespace atrapos::solid::test {
 
@@ -14,6 +15,10 @@ std::unique_ptr<fem::Term> shellTerm(const ShellGrid& grid, const SaintVenantKir
   if (shear == Shear::mitc3)
     return fem::enhancedTerm(fem::pointLaw(Mitc3Law<SaintVenantKirchhoff>{material}),
                              mitc3Points(grid.elements(), poisson, cubature));
+  if (shear == Shear::mitc6)
+    return fem::enhancedTerm(
+        sixNodeShellLaw(fem::pointLaw(ShellMaterialStage<SaintVenantKirchhoff>{material})),
+        mitc6Points(grid.elements(), cubature));
   if (shear == Shear::mitc4)
     return fem::enhancedTerm(fem::pointLaw(Mitc4Law<SaintVenantKirchhoff>{material}),
                              mitc4Points(grid.elements(), poisson, cubature));

@@ -12,11 +12,13 @@ namespace atrapos::solid::test {
 
 using fem::test::Numbers;
 
-/// The paper's element, the one with assumed transverse shear strains, those of four and three nodes.
-enum class Shear { compatible, assumed, mitc4, mitc3 };
+/// The paper's element, the one with assumed transverse shear strains, those of four, three and six nodes.
+enum class Shear { compatible, assumed, mitc4, mitc3, mitc6 };
 
 /// Nodes of such an element.
-inline int nodesOf(Shear shear) { return shear == Shear::mitc3 ? 3 : shear == Shear::mitc4 ? 4 : 8; }
+inline int nodesOf(Shear shear) {
+  return shear == Shear::mitc3 ? 3 : shear == Shear::mitc4 ? 4 : shear == Shear::mitc6 ? 6 : 8;
+}
 
 /// A distortion that is none.
 inline std::array<double, 2> undistorted(double s, double t) { return {s, t}; }

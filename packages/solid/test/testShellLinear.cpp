@@ -339,6 +339,34 @@ TEST(ThreeNodes, Benchmarks) {
   EXPECT_NEAR(cook(32, three), 23.96, 0.02 * 23.96);  // constant strains in the plane
 }
 
+// Six nodes, squares of two triangles. Bounds: the errors measured (docs/shells.md), half as much again.
+TEST(SixNodes, Benchmarks) {
+  const Shear six = Shear::mitc6;
+  EXPECT_NEAR(scordelisLo(8, six), 0.3014, 0.006 * 0.3014);
+  EXPECT_NEAR(scordelisLo(16, six), 0.3014, 0.001 * 0.3014);
+  EXPECT_NEAR(pinchedCylinder(8, six), 1.8248e-5, 0.07 * 1.8248e-5);
+  EXPECT_NEAR(pinchedCylinder(16, six), 1.8248e-5, 0.03 * 1.8248e-5);
+  EXPECT_NEAR(hemisphere(16, {}, six), 0.0935, 0.008 * 0.0935);
+  EXPECT_NEAR(cook(8, six), 23.96, 0.008 * 23.96);
+  EXPECT_NEAR(cook(16, six), 23.96, 0.003 * 23.96);
+  EXPECT_NEAR(morley(16, 0.01, 1, six), 4.2415e-4, 0.008 * 4.2415e-4);
+}
+
+// Thin plates do not lock, also where corners are off by up to a fifth of the elements' size; where shear
+// counts the element is soft (docs/theory/shell_triangles.md).
+TEST(SixNodes, ClampedPlate) {
+  for (double t : {1e-3, 1e-4, 1e-5}) {
+    EXPECT_NEAR(clampedPlateError(4, t, Shear::mitc6), 0, 0.045) << t;
+    EXPECT_NEAR(clampedPlateError(8, t, Shear::mitc6), 0, 0.007) << t;
+    EXPECT_NEAR(clampedPlateError(16, t, Shear::mitc6), 0, 0.0016) << t;
+  }
+  for (double t : {1e-3, 1e-4}) {
+    EXPECT_NEAR(clampedPlateError(8, t, Shear::mitc6, 0.2), 0, 0.013) << t;
+    EXPECT_NEAR(clampedPlateError(16, t, Shear::mitc6, 0.2), 0, 0.0016) << t;
+  }
+  EXPECT_LT(clampedPlateError(16, 1e-2, Shear::mitc6), 0.008);
+}
+
 // No locking whatever the thickness, and order 2; also where corners are off by up to a fifth of the
 // elements' size.
 TEST(ThreeNodes, ClampedPlate) {

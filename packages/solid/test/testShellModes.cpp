@@ -109,18 +109,18 @@ TEST(ShellModes, AssumedShear) {
   }
 }
 
-// Three nodes: no others either.
-TEST(ShellModes, ThreeNodes) {
-  for (double nu : {0.0, 0.3}) {
-    const auto count = [&](const ShellGrid& grid) {
-      return zeros(eigenvalues(grid, reduced, nu, Shear::mitc3));
-    };
-    EXPECT_EQ(count(flatGrid(1, 1, 0.1, 3)), rigid);
-    EXPECT_EQ(count(skewQuadrilateral(3)), rigid);
-    EXPECT_EQ(count(arc(1, 3)), rigid);
-    EXPECT_EQ(count(flatGrid(3, 3, 0.01, 3)), rigid);
-    EXPECT_EQ(count(shaken(flatGrid(2, 2, 0.1, 3), 0.2)), rigid);
-  }
+// Triangles of three and six nodes: no others either.
+TEST(ShellModes, Triangles) {
+  for (double nu : {0.0, 0.3})
+    for (Shear shear : {Shear::mitc3, Shear::mitc6}) {
+      const int nodes = nodesOf(shear);
+      const auto count = [&](const ShellGrid& grid) { return zeros(eigenvalues(grid, reduced, nu, shear)); };
+      EXPECT_EQ(count(flatGrid(1, 1, 0.1, nodes)), rigid);
+      EXPECT_EQ(count(skewQuadrilateral(nodes)), rigid);
+      EXPECT_EQ(count(arc(1, nodes)), rigid);
+      EXPECT_EQ(count(flatGrid(3, 3, 0.01, nodes)), rigid);
+      EXPECT_EQ(count(shaken(flatGrid(2, 2, 0.1, nodes), 0.2)), rigid);
+    }
 }
 
 // Four nodes: one element alone has no others either.

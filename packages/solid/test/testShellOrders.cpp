@@ -6,6 +6,7 @@
 #include "ShellChecks.hpp"
 #include "atrapos/fem/EnhancedTerm.hpp"
 #include "atrapos/fem/PointLawOf.hpp"
+#include "atrapos/solid/ShellTerms.hpp"
 #include "support/Meshes.hpp"
 
 using namespace atrapos;
@@ -71,6 +72,10 @@ fem::FeModel curvedModel(const Material& material, int nodes = 8) {
   if (nodes == 3)
     model.terms.push_back(
         fem::enhancedTerm(fem::pointLaw(Mitc3Law<Material>{material}), mitc3Points(grid.elements(), 0.3)));
+  else if (nodes == 6)
+    model.terms.push_back(
+        fem::enhancedTerm(sixNodeShellLaw(fem::pointLaw(ShellMaterialStage<Material>{material})),
+                          mitc6Points(grid.elements())));
   else if (nodes == 4)
     model.terms.push_back(
         fem::enhancedTerm(fem::pointLaw(Mitc4Law<Material>{material}), mitc4Points(grid.elements(), 0.3)));
@@ -139,6 +144,8 @@ TEST(AssumedShearOrders, TangentAndOrders) {
 
 TEST(Mitc3Orders, TangentAndOrders) { expectTangentAndOrders(curvedModel(UnsymmetricMaterial{}, 3)); }
 
+TEST(Mitc6Orders, TangentAndOrders) { expectTangentAndOrders(curvedModel(UnsymmetricMaterial{}, 6)); }
+
 TEST(Mitc4Orders, TangentAndOrders) { expectTangentAndOrders(curvedModel(UnsymmetricMaterial{}, 4)); }
 
 // The tangent of a material with an energy is symmetric on any quadrilaterals, warped ones too, and
@@ -158,6 +165,7 @@ void expectSymmetry(Shear shear) {
 }
 TEST(Mitc4Orders, TangentIsSymmetric) { expectSymmetry(Shear::mitc4); }
 TEST(Mitc3Orders, TangentIsSymmetric) { expectSymmetry(Shear::mitc3); }
+TEST(Mitc6Orders, TangentIsSymmetric) { expectSymmetry(Shear::mitc6); }
 
 // The enhanced parameters depend on the state alone: the same bits after any other state.
 TYPED_TEST(ShellOrders, ResidualHasNoMemory) {

@@ -148,7 +148,7 @@ void expectHomogeneousState(Shear shear) {
   double expected[6];
   material.observe(A.data(), nullptr, expected);
   const auto seen = problem.term(0).observe(fem::field(*vectorOf(problem, u)), 0);
-  const std::size_t points = shear == Shear::mitc3 ? 18 * 6 : 9 * 8;
+  const std::size_t points = isTriangle(nodesOf(shear)) ? 18 * 6 : 9 * 8;
   ASSERT_EQ(seen.values.size(), points * 6);
   double worst = 0;
   for (std::size_t i = 0; i < seen.values.size(); ++i)
@@ -160,11 +160,12 @@ TEST(ShellPatch, HomogeneousStateOnQuadrilaterals) { expectHomogeneousState(Shea
 TEST(ShellPatch, HomogeneousStateWithAssumedShear) { expectHomogeneousState(Shear::assumed); }
 TEST(ShellPatch, HomogeneousStateWithFourNodes) { expectHomogeneousState(Shear::mitc4); }
 TEST(ShellPatch, HomogeneousStateWithThreeNodes) { expectHomogeneousState(Shear::mitc3); }
+TEST(ShellPatch, HomogeneousStateWithSixNodes) { expectHomogeneousState(Shear::mitc6); }
 
 // Constant bending and twist: exact on parallelograms.
 TEST(ShellPatch, BendingAndTwistOnParallelograms) {
   // Linear solutions on a thin mesh: rounding times (1/thickness)^2 times a few nodes.
-  for (Shear shear : {Shear::compatible, Shear::assumed, Shear::mitc4, Shear::mitc3}) {
+  for (Shear shear : {Shear::compatible, Shear::assumed, Shear::mitc4, Shear::mitc3, Shear::mitc6}) {
     const ShellGrid grid = parallelograms(shear);
     EXPECT_LT(patchError(grid, bent(grid, {1, 0, 0}), shear), 1e-11);
     EXPECT_LT(patchError(grid, bent(grid, {0, 1, 0}), shear), 1e-11);
@@ -197,12 +198,14 @@ TEST(ShellPatch, BendingOfFourNodesOnQuadrilaterals) {
     EXPECT_LT(patchError(grid, bent(grid, k), Shear::mitc4), 1e-11);
 }
 
-// Three nodes: the same on any triangles, whichever corners come first.
-TEST(ShellPatch, BendingOfThreeNodesOnTriangles) {
-  ShellGrid grid = quadrilaterals(Shear::mitc3);
-  for (grid.turn = 0; grid.turn < 3; ++grid.turn)
-    for (const Vec3& k : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}})
-      EXPECT_LT(patchError(grid, bent(grid, k), Shear::mitc3), 1e-11);  // rounding times (1/t)^2
+// Three and six nodes: the same on any triangles, whichever corners come first.
+TEST(ShellPatch, BendingOnTriangles) {
+  for (Shear shear : {Shear::mitc3, Shear::mitc6}) {
+    ShellGrid grid = quadrilaterals(shear);
+    for (grid.turn = 0; grid.turn < 3; ++grid.turn)
+      for (const Vec3& k : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}})
+        EXPECT_LT(patchError(grid, bent(grid, k), shear), 1e-11);  // rounding times (1/t)^2
+  }
 }
 
 ShellElements some(const ShellElements& all, const std::vector<int>& which) {
@@ -237,16 +240,19 @@ TEST(ShellPatch, MixedThreeAndFourNodes) {
 
 // The forces of any state do not depend on which corners come first.
 TEST(ShellPatch, TrianglesHaveNoFirstCorner) {
-  ShellGrid grid = shaken(shellGrid(3, 3, thickness, flat(1, 1), undistorted, 3), 0.08);
-  const Numbers u = randomNumbers(6 * grid.numNodes(), 0.01, 5);
-  const auto forces = [&](int turn) {
-    grid.turn = turn;
-    fem::FeProblem problem(shellModel(grid, material, {}, Shear::mitc3));
-    return residual(problem, u, 0).r;
-  };
-  const Numbers first = forces(0);
-  EXPECT_GT(largest(first), 1e-3);
-  for (int turn : {1, 2}) EXPECT_LT(largest(sum(forces(turn), -1, first)) / largest(first), 1e-12);
+  for (Shear shear : {Shear::mitc3, Shear::mitc6}) {
+    // Cylinders: edges of six nodes are curved.
+    ShellGrid grid = shellGrid(3, 3, thickness, cylinder(1, 0, 1, 0, 1), undistorted, nodesOf(shear));
+    const Numbers u = randomNumbers(6 * grid.numNodes(), 0.01, 5);
+    const auto forces = [&](int turn) {
+      grid.turn = turn;
+      fem::FeProblem problem(shellModel(grid, material, {}, shear));
+      return residual(problem, u, 0).r;
+    };
+    const Numbers first = forces(0);
+    EXPECT_GT(largest(first), 1e-3);
+    for (int turn : {1, 2}) EXPECT_LT(largest(sum(forces(turn), -1, first)) / largest(first), 1e-12);
+  }
 }
 
 // Energy of constant bending = that of the plate, D ((kx + ky)^2 - 2 (1 - nu)(kx ky - kxy^2))/2 per area,
@@ -264,7 +270,7 @@ TEST(ShellPatch, PlateStiffness) {
 
 // Rotations of any angle cost nothing, on curved and distorted elements.
 TEST(ShellPatch, FiniteRotationCostsNoForce) {
-  for (Shear shear : {Shear::compatible, Shear::assumed, Shear::mitc4, Shear::mitc3}) {
+  for (Shear shear : {Shear::compatible, Shear::assumed, Shear::mitc4, Shear::mitc3, Shear::mitc6}) {
     for (const ShellGrid& grid : {quadrilaterals(shear), shellGrid(2, 2, thickness, cylinder(1, 0, 1, 0, 1),
                                                                    undistorted, nodesOf(shear))}) {
       fem::FeProblem problem(shellModel(grid, material, {}, shear));

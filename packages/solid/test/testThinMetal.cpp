@@ -9,13 +9,13 @@
 
 #include "MetalPath.hpp"
 #include "ShellModel.hpp"
+#include "WholeMetal.hpp"
 #include "atrapos/fem/LawTerm.hpp"
 #include "atrapos/fem/ReferenceCell.hpp"
 #include "atrapos/fem/StructuredPlane.hpp"
 #include "atrapos/solid/PlaneBody.hpp"
-#include "atrapos/solid/ShellMetal.hpp"
 #include "atrapos/solid/ShellResults.hpp"
-#include "atrapos/solid/TiedShellMetal.hpp"
+#include "atrapos/solid/ShellTerms.hpp"
 #include "atrapos/solid/VonMises.hpp"
 #include "support/Meshes.hpp"
 #include "support/Vectors.hpp"
@@ -77,7 +77,7 @@ TEST(ThinMetal, PlaneStressIsTheLawInSpaceFreeAcross) {
 
 // In a shell the axes are the point's own: turned ones, with the variables in them, give the same stress.
 TEST(ThinMetal, ShellLawInAnyAxes) {
-  const ShellMetal<true> shell{hardening};
+  const WholeMetal<PlainShell> shell{hardening};
   const VonMises<true, true> plane{hardening};
   const InPlane at(1);
   const auto p = derivatives(plane, at.H, at.data);
@@ -85,7 +85,7 @@ TEST(ThinMetal, ShellLawInAnyAxes) {
   const double a = 0.4, c = std::cos(a), s = std::sin(a);
   const double R[9] = {0.36, 0.48, -0.8, -0.8, 0.6, 0, 0.48, 0.64, 0.6};
   const double T[9] = {c, -s, 0, s, c, 0, 0, 0, 1};
-  double data[ShellMetal<true>::numData] = {1};
+  double data[WholeMetal<PlainShell>::numData] = {1};
   double H[9];
   for (int i = 0; i < 3; ++i)
     for (int k = 0; k < 3; ++k) {
@@ -117,11 +117,18 @@ TEST(ThinMetal, ShellLawInAnyAxes) {
     }
   for (int i = 0; i < 9; ++i)
     for (int j = 0; j < i; ++j) EXPECT_NEAR(q[i].dx(j), q[j].dx(i), 1e-11 * ::E);
-  double shown[7], expected[7];
-  shell.observe(H, data, shown);
+  constexpr int lanes = fem::kLanes;
+  const auto law = shellMetalLaw(hardening, ShellStrains::compatible, 8);
+  Numbers inLanes(9 * lanes), dataInLanes(std::size(data) * lanes), shown(7 * lanes),
+      memory(law->historyDoubles(0));
+  for (std::size_t i = 0; i < inLanes.size(); ++i) inLanes[i] = H[i / lanes];
+  for (std::size_t i = 0; i < dataInLanes.size(); ++i) dataInLanes[i] = data[i / lanes];
+  law->observe({1, 1, dataInLanes.data(), memory.data()}, inLanes.data(), shown.data());
+  double expected[7];
   plane.observe(at.H, at.data, expected);
-  EXPECT_NEAR(shown[0] + shown[1] + shown[2], expected[0] + expected[1] + expected[2], 1e-11 * yield);
-  EXPECT_EQ(shown[6], expected[6]);
+  EXPECT_NEAR(shown[0] + shown[lanes] + shown[2 * lanes], expected[0] + expected[1] + expected[2],
+              1e-11 * yield);
+  EXPECT_EQ(shown[6 * lanes], expected[6]);
 }
 
 namespace {
@@ -148,21 +155,9 @@ fem::FeProblem square(const Metal& m) {
 /// The term of a metal in a shell.
 std::unique_ptr<fem::Term> metalTerm(const ShellGrid& grid, const Metal& m, int layers, Shear shear) {
   const ShellCubature cubature{2, layers};
-  if (shear == Shear::mitc3) {
-    const auto at = mitc3MetalPoints(grid.elements(), nu, cubature, Mitc3Metal<true>::numData);
-    return fem::lawTerm(fem::pointLaw(Mitc3Metal<true>{m}), at.points, at.data);
-  }
-  if (shear == Shear::mitc4) {
-    const auto at = mitc4MetalPoints(grid.elements(), nu, cubature, Mitc4Metal<true>::numData);
-    return fem::lawTerm(fem::pointLaw(Mitc4Metal<true>{m}), at.points, at.data);
-  }
-  const bool assumed = shear == Shear::assumed;
-  const auto at = assumed
-                      ? assumedShearMetalPoints(grid.elements(), cubature, AssumedShearMetal<true>::numData)
-                      : shellMetalPoints(grid.elements(), cubature, ShellMetal<true>::numData);
-  return fem::lawTerm(
-      assumed ? fem::pointLaw(AssumedShearMetal<true>{m}) : fem::pointLaw(ShellMetal<true>{m}), at.points,
-      at.data);
+  return shellMetalTerm(m, grid.elements(),
+                        shear == Shear::assumed ? ShellStrains::assumedShear : ShellStrains::compatible,
+                        cubature);
 }
 
 /// S_xx and E_xx of the closed form at the point's gamma, along a path of stretch 1 + lambda.
@@ -197,7 +192,7 @@ TEST(ThinMetal, BarsAreUniaxial) {
     EXPECT_EQ(out.outcome.events, 1);  // all points at once
     expectBar(problem, out.steps, {m});
   }
-  for (const Shear shear : {Shear::compatible, Shear::assumed, Shear::mitc4, Shear::mitc3}) {
+  for (const Shear shear : {Shear::compatible, Shear::assumed, Shear::mitc4, Shear::mitc3, Shear::mitc6}) {
     const ShellGrid grid = shellGrid(2, 1, 0.1, flat(1, 1), undistorted, nodesOf(shear));
     fem::FeModel model;
     model.dofs = fem::DofMap::displacements(2 * grid.numNodes());

@@ -146,23 +146,26 @@ TEST(Gmsh, SurfacesArePlaneBodiesOrShells) {
   EXPECT_NEAR(area, 2, 1e-12);
 }
 
-TEST(Gmsh, TrianglesAreShellsOfThreeNodes) {
-  const Folder folder;
-  const std::string file = folder / "plate.msh";
-  draw({"Tri3", 4.1, 1, false, false, false, fem::Topology::Shell3}, 2, file);
-  const fem::Mesh mesh = readGmsh(file, Surfaces::shells).mesh;
-  ASSERT_EQ(mesh.blocks.size(), 1u);
-  EXPECT_EQ(mesh.blocks[0].topology, fem::Topology::Shell3);
-  EXPECT_EQ(mesh.blocks[0].nodes.size(), 3u * 8);
-  ASSERT_EQ(mesh.sideSets.size(), 1u);
-  ASSERT_EQ(mesh.sideSets[0].sides.size(), 2u);
-  for (const fem::Side& side : mesh.sideSets[0].sides) {
-    const auto local = fem::sideNodes(fem::Topology::Shell3, side.side);
-    ASSERT_EQ(local.size(), 2u);
-    for (const int n : local) {  // the foot is y = 0
-      const int node =
-          mesh.blocks[0].nodes[3 * static_cast<std::size_t>(side.element) + static_cast<std::size_t>(n)];
-      EXPECT_EQ(mesh.coordinates[3 * static_cast<std::size_t>(node) + 1], 0);
+TEST(Gmsh, TrianglesAreShellsOfThreeOrSixNodes) {
+  for (const fem::Topology cell : {fem::Topology::Shell3, fem::Topology::Shell6}) {
+    const std::size_t N = static_cast<std::size_t>(fem::nodesPerElement(cell));
+    const Folder folder;
+    const std::string file = folder / "plate.msh";
+    draw({"Tri", 4.1, N == 3 ? 1 : 2, false, false, false, cell}, 2, file);
+    const fem::Mesh mesh = readGmsh(file, Surfaces::shells).mesh;
+    ASSERT_EQ(mesh.blocks.size(), 1u);
+    EXPECT_EQ(mesh.blocks[0].topology, cell);
+    EXPECT_EQ(mesh.blocks[0].nodes.size(), N * 8);
+    ASSERT_EQ(mesh.sideSets.size(), 1u);
+    ASSERT_EQ(mesh.sideSets[0].sides.size(), 2u);
+    for (const fem::Side& side : mesh.sideSets[0].sides) {
+      const auto local = fem::sideNodes(cell, side.side);
+      ASSERT_EQ(local.size(), N == 3 ? 2u : 3u);
+      for (const int n : local) {  // the foot is y = 0
+        const int node =
+            mesh.blocks[0].nodes[N * static_cast<std::size_t>(side.element) + static_cast<std::size_t>(n)];
+        EXPECT_EQ(mesh.coordinates[3 * static_cast<std::size_t>(node) + 1], 0);
+      }
     }
   }
 }

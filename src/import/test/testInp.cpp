@@ -31,6 +31,7 @@ std::vector<std::array<double, 3>> corners(Topology cell) {
     case Topology::Tet10:
       return {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     case Topology::Shell3:
+    case Topology::Shell6:
     case Topology::Tri3:
     case Topology::Tri6:
       return {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
@@ -73,6 +74,7 @@ const std::vector<Element>& elements() {
       {"CAX3", Topology::Tri3, {}, kTriFaces},
       {"CPS6", Topology::Tri6, {{1, 2}, {2, 3}, {3, 1}}, kTriFaces},
       {"S3", Topology::Shell3, {}, {}},
+      {"S6", Topology::Shell6, {{1, 2}, {2, 3}, {3, 1}}, {}},
       {"S8R", Topology::Shell8, {{1, 2}, {2, 3}, {3, 4}, {4, 1}}, {}}};
   return all;
 }

@@ -31,8 +31,8 @@ struct ForeignMesh {
 /// names.
 ForeignMesh readForeignMesh(const std::string& file);
 
-/// Writes a mesh as an Exodus II file (NetCDF 64-bit offset; shells as TRISHELL3, SHELL4, SHELL8, SHELL9),
-/// whole or not at all: a file with that name is replaced only once the new one is complete.
+/// Writes a mesh as an Exodus II file (NetCDF 64-bit offset; shells as TRISHELL3, TRISHELL6, SHELL4, SHELL8,
+/// SHELL9), whole or not at all: a file with that name is replaced only once the new one is complete.
 ///
 /// Throws Error where the file cannot be written or the mesh not be held by it: ids that are negative, of
 /// nodes and elements 0 too, not unique or over 2^31 - 1; a title over 80 characters; a name over 255; lists

@@ -23,6 +23,7 @@ enum class Topology {
   Wedge15,
   Shell3,
   Shell4,
+  Shell6,
   Shell8,
   Shell9,
   Quad4,
@@ -100,8 +101,8 @@ int shellCorners(Topology topology);
 /// Number of nodes of a cell.
 int nodesPerElement(Topology topology);
 
-/// The name of a cell type, Exodus' but for SHELL3 (TRISHELL3): SHELL3, HEX8, HEX20, HEX27, TET4, TET10,
-/// WEDGE6, WEDGE15, SHELL4, SHELL8, SHELL9, QUAD4, QUAD8, QUAD9, TRI3, TRI6.
+/// The name of a cell type, Exodus' but for SHELL3 and SHELL6 (TRISHELL3, TRISHELL6): SHELL3, HEX8, HEX20,
+/// HEX27, TET4, TET10, WEDGE6, WEDGE15, SHELL4, SHELL6, SHELL8, SHELL9, QUAD4, QUAD8, QUAD9, TRI3, TRI6.
 const char* topologyName(Topology topology);
 
 /// Position of the block, node set or side set with this name or (decimal) id; -1 where there is none.

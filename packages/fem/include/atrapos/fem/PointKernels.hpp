@@ -180,7 +180,7 @@ struct PointPasses {
           if constexpr (IsStage<Law>::value || V > 0)
             if (out.last != nullptr) store(y, O, out.last + q * O * kLanes + s);
         }
-        if constexpr (V > 0)
+        if constexpr (IsStage<Law>::value || V > 0)
           if (out.current == nullptr) continue;
         auto context = series(shape, points, q, s, order, order.k);
         if constexpr (IsStage<Law>::value) {

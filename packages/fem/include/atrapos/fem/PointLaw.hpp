@@ -92,7 +92,7 @@ class PointLaw {
   };
   /// The same for a law that stands behind others (stagedLaw), whose inputs of order k are known in part.
   /// Only laws that are made for it (`static constexpr bool stage = true`) take `current`; these and laws
-  /// with internal variables give `last` and do without an order k.
+  /// with internal variables give `last` and do without an order k. A stage may have internal variables.
   virtual void advance(const PointBatch& points, const SeriesOrder& order, In in, Out out) const = 0;
 
   /// The internal variables at `to`, [point][variable][lane], of those that the data hold at `from`: along

@@ -47,6 +47,7 @@ struct Tabulation {
 /// | Wedge15 | 3 x 3     | reduced in the triangle, but of full rank (6 points would not be) |
 /// | Shell4  | 2 x 2     | of the middle surface; the points through the thickness are the element's |
 /// | Shell3  | 3         | the same |
+/// | Shell6  | 3         | the same, of full rank |
 /// | Shell8  | 2 x 2     | the same, reduced |
 /// | Shell9  | 3 x 3     | the same, full |
 /// | Quad4   | 2 x 2     | full |

@@ -8,9 +8,9 @@
 namespace atrapos::fem {
 
 /// The bodies of shells as a mesh of solids, for pictures and for comparison with solids: SHELL3 becomes
-/// WEDGE6, SHELL4 HEX8, SHELL8 HEX20 and SHELL9 HEX27, each with exactly the shape X = R + zeta D of the
-/// shell. Blocks, sets and ids are those of the mesh, and so are its nodes, which stand on the middle
-/// surface; the sides of sets become those of the solids. Elements of different thickness at a common
+/// WEDGE6, SHELL4 HEX8, SHELL6 WEDGE15, SHELL8 HEX20 and SHELL9 HEX27, each with exactly the shape X = R +
+/// zeta D of the shell. Blocks, sets and ids are those of the mesh, and so are its nodes, which stand on the
+/// middle surface; the sides of sets become those of the solids. Elements of different thickness at a common
 /// director have its mean thickness there.
 struct ShellBody {
   Mesh mesh;

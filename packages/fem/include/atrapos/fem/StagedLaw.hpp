@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -16,7 +17,9 @@ struct LawStage {
   std::vector<int> data;          ///< [datum] the whole law's; -1: zero
 };
 
-/// A law made of others, one behind the other: y = f(x), out = g(x, y).
+/// A law made of others, one behind the other: y = f(x), out = g(x, y). One of them may have internal
+/// variables, and events; its state is then the first datum of the whole, and its variables are the last data
+/// and outputs.
 struct StagedPlan {
   int inputs = 0, data = 0;
   std::vector<LawStage> stages;
@@ -28,6 +31,10 @@ struct StagedPlan {
     double absent = 0;  ///< shown where the law does not exist
   };
   std::vector<Shown> observed;
+  /// What is shown instead where it takes more than wires: names, and their values from a point's wires and
+  /// data.
+  std::vector<std::string> names;
+  std::function<void(const double* wires, const double* data, double* values)> show;
   int existence = -1;  ///< the datum that is negative where there is nothing to act on; -1: none
 };
 

@@ -3,6 +3,7 @@
 #include "atrapos/fem/PointLaw.hpp"
 #include "atrapos/solid/AssumedShearLaw.hpp"
 #include "atrapos/solid/ShellLaw.hpp"
+#include "atrapos/solid/ShellStages.hpp"
 #include "atrapos/solid/TiedShellLaw.hpp"
 
 /// A material of solids is a law of the displacement gradient (taylor/Law.hpp: H to the first Piola-Kirchhoff
@@ -15,11 +16,13 @@
   ATRAPOS_DECLARE_POINT_LAW(atrapos::solid::ShellLaw<M>)        \
   ATRAPOS_DECLARE_POINT_LAW(atrapos::solid::AssumedShearLaw<M>) \
   ATRAPOS_DECLARE_POINT_LAW(atrapos::solid::Mitc4Law<M>)        \
-  ATRAPOS_DECLARE_POINT_LAW(atrapos::solid::Mitc3Law<M>)
+  ATRAPOS_DECLARE_POINT_LAW(atrapos::solid::Mitc3Law<M>)        \
+  ATRAPOS_DECLARE_POINT_LAW(atrapos::solid::ShellMaterialStage<M>)
 
 #define ATRAPOS_MATERIAL(M)                             \
   ATRAPOS_POINT_LAW(M)                                  \
   ATRAPOS_POINT_LAW(atrapos::solid::ShellLaw<M>)        \
   ATRAPOS_POINT_LAW(atrapos::solid::AssumedShearLaw<M>) \
   ATRAPOS_POINT_LAW(atrapos::solid::Mitc4Law<M>)        \
-  ATRAPOS_POINT_LAW(atrapos::solid::Mitc3Law<M>)
+  ATRAPOS_POINT_LAW(atrapos::solid::Mitc3Law<M>)        \
+  ATRAPOS_POINT_LAW(atrapos::solid::ShellMaterialStage<M>)

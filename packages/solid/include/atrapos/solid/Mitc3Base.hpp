@@ -137,9 +137,11 @@ struct Mitc3 {
   template <class P>
   using LinearForces = detail::Mitc3LinearForces<P>;
 
-  /// The director of one component.
-  KOKKOS_INLINE_FUNCTION static double director(const Place<double>& at, const double* v) {
-    return at.first() * v[8] + at.xi() * v[9] + at.eta() * v[10];
+  /// g_1, g_2 and the director at the point, of one component.
+  KOKKOS_INLINE_FUNCTION static void base(const Place<double>& at, const double* v, double* g) {
+    g[0] = v[0];
+    g[1] = v[1];
+    g[2] = at.first() * v[8] + at.xi() * v[9] + at.eta() * v[10];
   }
 };
 

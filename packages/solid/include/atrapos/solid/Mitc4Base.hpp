@@ -157,11 +157,12 @@ struct Mitc4 {
   template <class P>
   using LinearForces = detail::Mitc4LinearForces<P>;
 
-  /// The director of one component.
-  KOKKOS_INLINE_FUNCTION static double director(const Place<double>& at, const double* v) {
-    double d = 0;
-    for (int a = 0; a < 4; ++a) d += detail::mitc4Shape(at, a) * v[6 + a];
-    return d;
+  /// g_1, g_2 and the director at the point, of one component.
+  KOKKOS_INLINE_FUNCTION static void base(const Place<double>& at, const double* v, double* g) {
+    g[0] = v[0];
+    g[1] = v[1];
+    g[2] = 0;
+    for (int a = 0; a < 4; ++a) g[2] += detail::mitc4Shape(at, a) * v[6 + a];
   }
 };
 

@@ -6,11 +6,14 @@
 
 namespace atrapos::solid {
 
-/// Shell elements of eight, four or three nodes as FeProblem sees them: every node of the mid-surface has a
-/// node for its displacement v and one for the displacement w of its director, x = X + v + zeta w.
+/// Whether a shell element of so many nodes is one.
+constexpr bool isTriangle(int nodesPerElement) { return nodesPerElement == 3 || nodesPerElement == 6; }
+
+/// Shell elements of eight, six, four or three nodes as FeProblem sees them: every node of the mid-surface
+/// has a node for its displacement v and one for the displacement w of its director, x = X + v + zeta w.
 ///
-/// Nodes in Exodus' order of SHELL8, SHELL4 and TRISHELL3: corners, then the middles of the edges 1-2, 2-3,
-/// 3-4, 4-1.
+/// Nodes in Exodus' order of SHELL8, SHELL4, TRISHELL6 and TRISHELL3: corners, then the middles of the edges
+/// 1-2, 2-3, 3-4, 4-1.
 struct ShellElements {
   std::vector<int> nodes;          ///< [element][2 N]: N nodes of v, then those of w
   std::vector<double> midsurface;  ///< [element][N][3] R, length
@@ -19,9 +22,10 @@ struct ShellElements {
   /// [element][N] the element's own director over that of the node, whose displacement is w: elements of
   /// different thickness may share a director. Empty: 1 everywhere.
   std::vector<double> directorScale;
-  int nodesPerElement = 8;  ///< N, 8, 4 or 3
+  int nodesPerElement = 8;  ///< N, 8, 6, 4 or 3
 
-  int corners() const { return nodesPerElement == 3 ? 3 : 4; }
+  int corners() const { return isTriangle(nodesPerElement) ? 3 : 4; }
+  bool hasMiddles() const { return nodesPerElement > corners(); }
   int count() const { return static_cast<int>(nodes.size()) / (2 * nodesPerElement); }
   double scale(int element, int a) const {
     return directorScale.empty() ? 1.0 : directorScale[at(element) + a];
@@ -44,7 +48,7 @@ struct ShellCubature {
 
 /// Points in the plane of an element of so many nodes.
 inline int pointsInPlane(const ShellCubature& cubature, int nodesPerElement) {
-  return nodesPerElement == 3 ? 3 : cubature.inPlane * cubature.inPlane;
+  return isTriangle(nodesPerElement) ? 3 : cubature.inPlane * cubature.inPlane;
 }
 
 /// For fem::enhancedTerm with the law ShellLaw<Material>: gradients of N_a and zeta N_a with respect to X = R
@@ -71,22 +75,7 @@ fem::EnhancedPoints mitc4Points(const ShellElements& elements, double poissonRat
 fem::EnhancedPoints mitc3Points(const ShellElements& elements, double poissonRatio,
                                 const ShellCubature& cubature = {});
 
-/// Points of a law that remembers and has no enhanced strain, for fem::lawTerm, with its data at the start,
-/// [entity][point][datum].
-struct ShellMetalPoints {
-  fem::PointSet points;
-  std::vector<double> data;
-};
-
-/// For ShellMetal, AssumedShearMetal, Mitc4Metal and Mitc3Metal with this many data: no point yields and
-/// variables are zero. The axes are the same for each point of a column through the thickness: the normal of
-/// the mid-surface, and along it the axis of space that is farthest from it, projected.
-ShellMetalPoints shellMetalPoints(const ShellElements& elements, const ShellCubature& cubature, int numData);
-ShellMetalPoints assumedShearMetalPoints(const ShellElements& elements, const ShellCubature& cubature,
-                                         int numData);
-ShellMetalPoints mitc4MetalPoints(const ShellElements& elements, double poissonRatio,
-                                  const ShellCubature& cubature, int numData);
-ShellMetalPoints mitc3MetalPoints(const ShellElements& elements, double poissonRatio,
-                                  const ShellCubature& cubature, int numData);
+/// The same for elements of six nodes, three points in the plane.
+fem::EnhancedPoints mitc6Points(const ShellElements& elements, const ShellCubature& cubature = {});
 
 }  // namespace atrapos::solid

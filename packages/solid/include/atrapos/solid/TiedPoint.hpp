@@ -91,7 +91,7 @@ struct TiedHalveSquares {
   }
 };
 
-/// v_i x A^i, by rows, of the vectors (x + zeta d)_,xi, (x + zeta d)_,eta, d at a point: with the changes of
+/// g_i x A^i, by rows, of the vectors (x + zeta d)_,xi, (x + zeta d)_,eta, d at a point: with the changes of
 /// the element's vectors the displacement gradient, with the vectors the deformation gradient.
 template <class Element>
 KOKKOS_INLINE_FUNCTION void tiedGradient(const double* vectors, const double* place, const double* A,
@@ -100,9 +100,10 @@ KOKKOS_INLINE_FUNCTION void tiedGradient(const double* vectors, const double* pl
   for (int i = 0; i < 3; ++i) {
     double v[Element::spread];
     typename Element::template Spread<double>{at}(vectors + Element::vectors * i, v);
-    const double d = Element::director(at, v);
+    double g[3];
+    Element::base(at, v, g);
     for (int k = 0; k < 3; ++k)
-      gradient[3 * i + k] = v[0] * A[3 * k] + v[1] * A[3 * k + 1] + d * A[3 * k + 2];
+      gradient[3 * i + k] = g[0] * A[3 * k] + g[1] * A[3 * k + 1] + g[2] * A[3 * k + 2];
   }
 }
 

@@ -10,7 +10,7 @@
 #if defined(__clang__)
 #define ATRAPOS_UNROLL _Pragma("unroll")
 #elif defined(__GNUC__)
-#define ATRAPOS_UNROLL _Pragma("GCC unroll 16")
+#define ATRAPOS_UNROLL _Pragma("GCC unroll 64")
 #else
 #define ATRAPOS_UNROLL
 #endif

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <memory>
+
+#include "atrapos/fem/Term.hpp"
+#include "atrapos/solid/Metal.hpp"
+#include "atrapos/solid/ShellPoints.hpp"
+#include "atrapos/solid/ShellStages.hpp"
+
+/// Shells whose laws are made of stages.
+namespace atrapos::solid {
+
+/// How strains of eight nodes are made: of the displacements, or with assumed transverse shear.
+enum class ShellStrains { compatible, assumedShear };
+
+/// A material of solids, as ShellMaterialStage<Material>, in shells of six nodes. Inputs: changes of the
+/// element's vectors (Mitc6Base.hpp), e; data: those of TiedShell<Mitc6> in Cartesian axes, g. For
+/// fem::enhancedTerm at mitc6Points.
+std::unique_ptr<fem::PointLaw> sixNodeShellLaw(std::unique_ptr<fem::PointLaw> material);
+
+/// A metal in shells of this many nodes; kinematic hardening where it has a modulus. Inputs: those of the
+/// Kinematics (ShellKinematics.hpp); outputs: forces, the event function, variables; data: 1 where the point
+/// yields, else 0, the Kinematics' in axes of which 3 is the normal at rest, variables. strains: of eight
+/// nodes; those of others are tied.
+std::unique_ptr<fem::PointLaw> shellMetalLaw(const Metal& metal, ShellStrains strains, int nodesPerElement);
+
+/// The term of that law, where no point yields and variables are zero. The axes are the same for each point
+/// of a column through the thickness: the normal of the mid-surface, and along it the axis of space that is
+/// farthest from it, projected.
+std::unique_ptr<fem::Term> shellMetalTerm(const Metal& metal, const ShellElements& elements,
+                                          ShellStrains strains, const ShellCubature& cubature = {});
+
+}  // namespace atrapos::solid

@@ -1,0 +1,200 @@
+#include "atrapos/solid/ShellTerms.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <numeric>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "ShellSurface.hpp"
+#include "atrapos/fem/LawTerm.hpp"
+#include "atrapos/fem/StagedLaw.hpp"
+
+namespace atrapos::solid {
+
+using detail::cross;
+using detail::unit;
+using detail::Vec3;
+
+namespace {
+
+/// What a Kinematics gives to a law in stages.
+struct ShellParts {
+  std::unique_ptr<fem::PointLaw> strain, forces;
+  int inputs = 0, data = 0;
+  void (*gradient)(const double* x, const double* data, double* F) = nullptr;
+};
+
+template <class Kinematics>
+ShellParts partsOf() {
+  return {fem::pointLaw(ShellStrainStage<Kinematics>{}), fem::pointLaw(ShellForceStage<Kinematics>{}),
+          Kinematics::numInputs, Kinematics::numData, &Kinematics::gradient};
+}
+
+std::vector<int> range(int first, int count) {
+  std::vector<int> numbers(static_cast<std::size_t>(count));
+  std::iota(numbers.begin(), numbers.end(), first);
+  return numbers;
+}
+
+std::vector<int> joined(std::vector<int> a, const std::vector<int>& b) {
+  a.insert(a.end(), b.begin(), b.end());
+  return a;
+}
+
+/// F S F^T / volume, S and what it becomes in the order xx yy zz xy yz zx.
+void pushForward(const double* S, const double* F, double volume, double* sigma) {
+  for (int i = 0; i < 3; ++i)
+    for (int j = i; j < 3; ++j) {
+      double sum = 0;
+      for (int k = 0; k < 3; ++k)
+        for (int l = 0; l < 3; ++l) sum += F[3 * i + k] * S[taylor::symmetricIndex(k, l)] * F[3 * j + l];
+      sigma[taylor::symmetricIndex(i, j)] = sum / volume;
+    }
+}
+
+double determinant(const double* F) {
+  return F[0] * (F[4] * F[8] - F[5] * F[7]) - F[1] * (F[3] * F[8] - F[5] * F[6]) +
+         F[2] * (F[3] * F[7] - F[4] * F[6]);
+}
+
+/// Inputs x and e; data: the Kinematics', g. Cauchy stress is shown without the enhanced part in F.
+std::unique_ptr<fem::PointLaw> enhancedLaw(ShellParts parts, std::unique_ptr<fem::PointLaw> material) {
+  const int n = parts.inputs, strain = n + 1, stress = strain + 6;
+  const std::vector<int> x = range(0, n), data = range(0, parts.data);
+  fem::StagedPlan plan;
+  plan.inputs = n + 1;
+  plan.data = parts.data + 3;
+  plan.symmetric = material->shape().symmetric;
+  plan.stages.push_back({std::move(parts.strain), x, data});
+  plan.stages.push_back({std::move(material), joined(range(strain, 6), {n}), range(parts.data, 3)});
+  plan.stages.push_back({std::move(parts.forces), joined(x, range(stress, 6)), data});
+  plan.outputs = joined(range(stress + 7, n), {stress + 6});
+  plan.names = {"stress_xx", "stress_yy", "stress_zz", "stress_xy", "stress_yz", "stress_zx"};
+  plan.show = [=, gradient = parts.gradient](const double* wires, const double* at, double* shown) {
+    double F[9];
+    gradient(wires, at, F);
+    pushForward(wires + stress, F, determinant(F), shown);
+  };
+  return fem::stagedLaw(std::move(plan));
+}
+
+/// Inputs x; data: whether the point yields, the Kinematics', variables. Cauchy stress is shown without that
+/// of the director, whose stretch in F is not that of the metal.
+std::unique_ptr<fem::PointLaw> metalLaw(ShellParts parts, const Metal& metal) {
+  auto material = metal.kinematicModulus > 0 ? fem::pointLaw(ShellMetalStage<true>{metal})
+                                             : fem::pointLaw(ShellMetalStage<false>{metal});
+  const fem::LawShape shape = material->shape();
+  const int n = parts.inputs, V = shape.variables, strain = n, stress = strain + 6, event = stress + 6;
+  const std::vector<int> x = range(0, n), data = range(1, parts.data);
+  fem::StagedPlan plan;
+  plan.inputs = n;
+  plan.data = 1 + parts.data + V;
+  plan.symmetric = true;
+  plan.stages.push_back({std::move(parts.strain), x, data});
+  plan.stages.push_back({std::move(material), range(strain, 6), joined({0}, range(1 + parts.data, V))});
+  plan.stages.push_back({std::move(parts.forces), joined(x, range(stress, 6)), data});
+  plan.outputs = joined(range(stress + shape.outputs, n), range(event, 1 + V));
+  plan.names = Metal::observedNames();
+  plan.show = [=, gradient = parts.gradient](const double* wires, const double* at, double* shown) {
+    double F[9], S[6];
+    gradient(wires, at + 1, F);
+    std::copy_n(wires + stress, 6, S);
+    S[2] = 0;
+    const double* E = wires + strain;
+    const double across = detail::FlowRule<false, true>{metal}.across(E, wires + event + 1);
+    const double volume = std::sqrt((1 + 2 * across) / (1 + 2 * E[2])) * determinant(F);
+    pushForward(S, F, volume, shown);
+    shown[6] = wires[event + 1];
+  };
+  return fem::stagedLaw(std::move(plan));
+}
+
+/// Axes of which the third is along `normal`.
+std::array<Vec3, 3> axesOf(const double* normal) {
+  const Vec3 n = unit({normal[0], normal[1], normal[2]});
+  int farthest = 0;
+  for (int i = 1; i < 3; ++i)
+    if (std::abs(n[i]) < std::abs(n[farthest]) - 1e-6) farthest = i;  // the first of those that tie
+  Vec3 along{0, 0, 0};
+  along[farthest] = 1;
+  const Vec3 second = unit(cross(n, along));
+  return {cross(second, n), second, n};
+}
+
+/// The data of metalLaw from those of the enhanced element at a point, whose last are the contravariant base
+/// [component][i], if there is one, and g.
+void metalData(const double* from, int before, bool plain, double* to) {
+  const auto axes = axesOf(from + before - 3);
+  if (plain) {
+    for (int i = 0; i < 3; ++i)
+      for (int k = 0; k < 3; ++k) to[3 * i + k] = axes[k][i];
+    return;
+  }
+  const int base = before - 12;
+  std::copy_n(from, base, to);
+  for (int k = 0; k < 3; ++k)
+    for (int i = 0; i < 3; ++i)
+      to[base + 3 * k + i] =
+          axes[k][0] * from[base + i] + axes[k][1] * from[base + 3 + i] + axes[k][2] * from[base + 6 + i];
+}
+
+bool isPlain(ShellStrains strains, int nodesPerElement) {
+  return nodesPerElement == 8 && strains == ShellStrains::compatible;
+}
+
+/// Those of the enhanced element, whose weights and maps serve a metal too.
+fem::EnhancedPoints pointsOf(const Metal& metal, const ShellElements& elements, ShellStrains strains,
+                             const ShellCubature& cubature) {
+  const double poisson = metal.lambda / (2 * (metal.lambda + metal.mu));
+  switch (elements.nodesPerElement) {
+    case 3:
+      return mitc3Points(elements, poisson, cubature);
+    case 4:
+      return mitc4Points(elements, poisson, cubature);
+    case 6:
+      return mitc6Points(elements, cubature);
+    default:
+      return isPlain(strains, elements.nodesPerElement) ? shellPoints(elements, cubature)
+                                                        : assumedShearPoints(elements, cubature);
+  }
+}
+
+}  // namespace
+
+std::unique_ptr<fem::PointLaw> sixNodeShellLaw(std::unique_ptr<fem::PointLaw> material) {
+  return enhancedLaw(partsOf<TiedShell<Mitc6>>(), std::move(material));
+}
+
+std::unique_ptr<fem::PointLaw> shellMetalLaw(const Metal& metal, ShellStrains strains, int nodesPerElement) {
+  switch (nodesPerElement) {
+    case 3:
+      return metalLaw(partsOf<TiedShell<Mitc3>>(), metal);
+    case 4:
+      return metalLaw(partsOf<TiedShell<Mitc4>>(), metal);
+    case 6:
+      return metalLaw(partsOf<TiedShell<Mitc6>>(), metal);
+    default:
+      return metalLaw(
+          isPlain(strains, nodesPerElement) ? partsOf<PlainShell>() : partsOf<AssumedShearShell>(), metal);
+  }
+}
+
+std::unique_ptr<fem::Term> shellMetalTerm(const Metal& metal, const ShellElements& elements,
+                                          ShellStrains strains, const ShellCubature& cubature) {
+  auto law = shellMetalLaw(metal, strains, elements.nodesPerElement);
+  const fem::EnhancedPoints enhanced = pointsOf(metal, elements, strains, cubature);
+  const auto numData = static_cast<std::size_t>(law->shape().data);
+  const std::size_t count = enhanced.points.numPoints(), before = enhanced.data.size() / count;
+  std::vector<double> data(count * numData);
+  for (std::size_t p = 0; p < count; ++p)
+    metalData(&enhanced.data[p * before], static_cast<int>(before),
+              isPlain(strains, elements.nodesPerElement), &data[p * numData] + 1);
+  return fem::lawTerm(std::move(law), enhanced.points, data);
+}
+
+}  // namespace atrapos::solid
