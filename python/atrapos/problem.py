@@ -2,7 +2,7 @@
 import numpy as np
 
 from . import _atrapos
-from .sparsity import Sparsity
+from .sparsity import Sparsity, is_sparse
 from .taylor import Taylor
 
 
@@ -107,7 +107,7 @@ def follow(residual, u, load_factor=0.0, *, stop=None, steps=1000, direction=1, 
         raise ValueError(f"u is a vector of at least one number, not of shape {u.shape}")
     if sparsity is None and tangent is not None:
         first = tangent(u, float(load_factor))
-        sparsity = first if hasattr(first, "tocsr") else None
+        sparsity = first if is_sparse(first) else None
     places = Sparsity(u.size, sparsity)
     options = _atrapos.FollowOptions()
     options.stops = [] if stop is None else [float(s) for s in np.atleast_1d(stop)]

@@ -2,7 +2,7 @@
 import numpy as np
 
 
-def _is_sparse(matrix):
+def is_sparse(matrix):
     return hasattr(matrix, "tocsr")
 
 
@@ -12,7 +12,7 @@ class Sparsity:
     def __init__(self, size, places=None):
         if places is None:
             row, column = (x.ravel() for x in np.indices((size, size)))
-        elif _is_sparse(places):
+        elif is_sparse(places):
             own = places.tocoo()
             row, column = own.row, own.col
         else:
@@ -44,7 +44,7 @@ class Sparsity:
 
     def values(self, matrix):
         """Those of a matrix at the places, in their order; ValueError where it has others."""
-        if _is_sparse(matrix):
+        if is_sparse(matrix):
             csr = matrix.tocsr()
             values = np.asarray(csr[self.row, self.columns], dtype=float).ravel()
             there = csr.count_nonzero()

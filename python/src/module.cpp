@@ -165,10 +165,7 @@ class PathTables {
   }
   py::dict end(const path::Branch& branch) {
     const path::Outcome& outcome = branch.outcome;
-    const bool followed = branch.end == path::BranchEnd::path;
-    told_["reached_stop"] = !followed || outcome.reason == path::EndReason::stopReached ||
-                            outcome.reason == path::EndReason::stepLimit ||
-                            outcome.reason == path::EndReason::pathClosed;
+    told_["reached_stop"] = path::atStop(branch);
     told_["text"] = outcome.text.empty() ? path::toString(branch.end) : outcome.text;
     told_["factorizations"] = outcome.factorizations;
     told_["solves"] = outcome.solves;

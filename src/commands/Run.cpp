@@ -92,12 +92,6 @@ void requireRoom(PathCase& pathCase) {
                              path.order, inBytes(needed), inBytes(room)));
 }
 
-bool atStop(const path::Branch& branch) {
-  return branch.end != path::BranchEnd::path || branch.outcome.reason == path::EndReason::stopReached ||
-         branch.outcome.reason == path::EndReason::stepLimit ||
-         branch.outcome.reason == path::EndReason::pathClosed;
-}
-
 /// The page of what has been found; a line where there is none. What stands in the tables counts, not the
 /// page.
 std::string report(const std::string& folder) {
@@ -132,7 +126,7 @@ RunResult resultOf(const deck::Deck& deck, const path::BranchDiagram& diagram) {
   result.reachedStop = true;
   result.text = stages.empty() ? named(0) : named(diagram.branches.size() - 1);
   for (std::size_t b = 0; b < diagram.branches.size(); ++b) {
-    if (atStop(diagram.branches[b])) continue;
+    if (path::atStop(diagram.branches[b])) continue;
     result.reachedStop = false;
     result.text = named(b);
     break;

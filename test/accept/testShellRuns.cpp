@@ -149,8 +149,7 @@ fem::Mesh mixedTube() {
   return mesh;
 }
 
-// Six nodes: the tube of SHELL8, on as many squares, with and without a material that yields (far above these
-// stresses).
+// Six nodes: the tube of SHELL8, on as many squares.
 TEST(ShellRuns, TubeOfSixNodesUnderPressure) {
   const std::string deck = edited(kTube, "divisions: [8, 1]", "divisions: [8, 1], cell: SHELL6");
   const Ring ring(deck), eight(kTube);

@@ -29,6 +29,11 @@ const char* toString(BranchEnd end) {
   return "unknown";
 }
 
+bool atStop(const Branch& branch) {
+  return branch.end != BranchEnd::path || branch.outcome.reason == EndReason::stopReached ||
+         branch.outcome.reason == EndReason::stepLimit || branch.outcome.reason == EndReason::pathClosed;
+}
+
 namespace {
 
 Augmented augmented(const PathTangent& t, double sense = 1) {

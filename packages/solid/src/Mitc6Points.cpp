@@ -3,6 +3,7 @@
 
 #include "ShellPlaces.hpp"
 #include "atrapos/solid/Mitc6Base.hpp"
+#include "atrapos/taylor/SmallLu.hpp"
 
 namespace atrapos::solid {
 namespace {
@@ -17,45 +18,22 @@ std::array<Row, 2> shearField(double xi, double eta) {
   return {{{1, xi, eta, 0, 0, 0, eta * xi, eta * eta}, {0, 0, 0, 1, xi, eta, -xi * xi, -xi * eta}}};
 }
 
-/// Of that field's coefficients what is tied: its part along the edges at their Gauss points, and both at the
-/// centre, in the order of Mitc6's products.
-std::array<Row, 8> tiedShear() {
+/// The field's coefficients by what is tied, [coefficient][tied] by rows: its part along the edges at their
+/// Gauss points, and both components at the centre, in the order of Mitc6's products.
+std::array<double, 64> coefficientsOfTied() {
   constexpr double third = 1.0 / 3;
   constexpr double points[8][2] = {{near, 0},   {far, 0},    {0, near},      {0, far},
                                    {far, near}, {near, far}, {third, third}, {third, third}};
   constexpr double along[8][2] = {{1, 0}, {1, 0}, {0, 1}, {0, 1}, {-1, 1}, {-1, 1}, {1, 0}, {0, 1}};
-  std::array<Row, 8> tied{};
+  std::array<double, 64> tied{}, coefficients{};
   for (int m = 0; m < 8; ++m) {
     const auto field = shearField(points[m][0], points[m][1]);
-    for (int n = 0; n < 8; ++n) tied[m][n] = along[m][0] * field[0][n] + along[m][1] * field[1][n];
+    for (int n = 0; n < 8; ++n) tied[8 * m + n] = along[m][0] * field[0][n] + along[m][1] * field[1][n];
   }
-  return tied;
-}
-
-/// Gauss and Jordan, with rows exchanged.
-std::array<Row, 8> inverse(std::array<Row, 8> a) {
-  std::array<Row, 8> result{};
-  for (int i = 0; i < 8; ++i) result[i][i] = 1;
-  for (int column = 0; column < 8; ++column) {
-    int pivot = column;
-    for (int i = column + 1; i < 8; ++i)
-      if (std::abs(a[i][column]) > std::abs(a[pivot][column])) pivot = i;
-    std::swap(a[pivot], a[column]);
-    std::swap(result[pivot], result[column]);
-    const double scale = 1 / a[column][column];
-    for (int j = 0; j < 8; ++j) {
-      a[column][j] *= scale;
-      result[column][j] *= scale;
-    }
-    for (int i = 0; i < 8; ++i) {
-      const double factor = a[i][column];
-      for (int j = 0; j < 8 && i != column; ++j) {
-        a[i][j] -= factor * a[column][j];
-        result[i][j] -= factor * result[column][j];
-      }
-    }
-  }
-  return result;
+  taylor::detail::SmallLu<8> lu;
+  lu.factor(tied.data());
+  lu.invert(coefficients.data());
+  return coefficients;
 }
 
 /// Parts of the values at the two Gauss points of an edge and at its third point in a linear function; along:
@@ -67,7 +45,7 @@ std::array<double, 3> edgeParts(double along, double inwards) {
 
 /// The numbers of Mitc6Place.
 void addMitc6Place(const double* xi, double zeta, std::vector<double>& data) {
-  static const std::array<Row, 8> coefficients = inverse(tiedShear());
+  static const std::array<double, 64> coefficients = coefficientsOfTied();
   data.insert(data.end(), {xi[0], xi[1], zeta});
   // The third point lies straight inwards of the first one in (xi, eta).
   const double first = 1 - xi[0] - xi[1];
@@ -76,7 +54,7 @@ void addMitc6Place(const double* xi, double zeta, std::vector<double>& data) {
   for (const Row& field : shearField(xi[0], xi[1]))
     for (int m = 0; m < 8; ++m) {
       double part = 0;
-      for (int n = 0; n < 8; ++n) part += field[n] * coefficients[n][m];
+      for (int n = 0; n < 8; ++n) part += field[n] * coefficients[8 * n + m];
       data.push_back(part);
     }
 }

@@ -9,24 +9,24 @@
 
 namespace atrapos::solid::test {
 
-std::unique_ptr<fem::Term> shellTerm(const ShellGrid& grid, const SaintVenantKirchhoff& material,
+std::unique_ptr<fem::Term> shellTerm(const ShellElements& elements, const SaintVenantKirchhoff& material,
                                      const ShellCubature& cubature, Shear shear) {
   const double poisson = material.lambda / (2 * (material.lambda + material.mu));
   if (shear == Shear::mitc3)
     return fem::enhancedTerm(fem::pointLaw(Mitc3Law<SaintVenantKirchhoff>{material}),
-                             mitc3Points(grid.elements(), poisson, cubature));
+                             mitc3Points(elements, poisson, cubature));
   if (shear == Shear::mitc6)
     return fem::enhancedTerm(
         sixNodeShellLaw(fem::pointLaw(ShellMaterialStage<SaintVenantKirchhoff>{material})),
-        mitc6Points(grid.elements(), cubature));
+        mitc6Points(elements, cubature));
   if (shear == Shear::mitc4)
     return fem::enhancedTerm(fem::pointLaw(Mitc4Law<SaintVenantKirchhoff>{material}),
-                             mitc4Points(grid.elements(), poisson, cubature));
+                             mitc4Points(elements, poisson, cubature));
   if (shear == Shear::assumed)
     return fem::enhancedTerm(fem::pointLaw(AssumedShearLaw<SaintVenantKirchhoff>{material}),
-                             assumedShearPoints(grid.elements(), cubature));
+                             assumedShearPoints(elements, cubature));
   return fem::enhancedTerm(fem::pointLaw(ShellLaw<SaintVenantKirchhoff>{material}),
-                           shellPoints(grid.elements(), cubature));
+                           shellPoints(elements, cubature));
 }
 
 Numbers linearSolution(fem::FeProblem& problem) {

@@ -23,7 +23,7 @@ inline int nodesOf(Shear shear) {
 /// A distortion that is none.
 inline std::array<double, 2> undistorted(double s, double t) { return {s, t}; }
 
-std::unique_ptr<fem::Term> shellTerm(const ShellGrid& grid, const SaintVenantKirchhoff& material,
+std::unique_ptr<fem::Term> shellTerm(const ShellElements& elements, const SaintVenantKirchhoff& material,
                                      const ShellCubature& cubature = {}, Shear shear = Shear::compatible);
 
 /// Saint Venant-Kirchhoff shell without supports and loads.
@@ -31,7 +31,7 @@ inline fem::FeModel shellModel(const ShellGrid& grid, const SaintVenantKirchhoff
                                const ShellCubature& cubature = {}, Shear shear = Shear::compatible) {
   fem::FeModel model;
   model.dofs = fem::DofMap::displacements(2 * grid.numNodes());
-  model.terms.push_back(shellTerm(grid, material, cubature, shear));
+  model.terms.push_back(shellTerm(grid.elements(), material, cubature, shear));
   model.constantLoad.assign(model.dofs.numDofs(), 0.0);
   model.load.assign(model.dofs.numDofs(), 0.0);
   return model;

@@ -38,7 +38,7 @@ struct RigidEnd {
       : grid(shellGrid(n, 1, thickness, flat(10, 1))),
         model(modelOf(grid)),
         body(model, {10, 0.5, 0}, 1.0, E * thickness) {
-    model.terms.push_back(shellTerm(grid, SaintVenantKirchhoff::fromYoung(E, nu)));
+    model.terms.push_back(shellTerm(grid.elements(), SaintVenantKirchhoff::fromYoung(E, nu)));
     model.constantLoad.assign(model.dofs.numDofs(), 0.0);
     model.load.assign(model.dofs.numDofs(), 0.0);
     clamp(model, grid, grid.lineI(0));
@@ -207,7 +207,7 @@ struct HalfAndHalf {
     const int shift = 2 * grid.numNodes();  // first node of the solid
     model.dofs = fem::DofMap::displacements(shift + solid.numNodes());
     const auto material = SaintVenantKirchhoff::fromYoung(E, nu);
-    model.terms.push_back(shellTerm(grid, material));
+    model.terms.push_back(shellTerm(grid.elements(), material));
     // Full cubature: a row one cell wide and thick has hourglass modes with less.
     fem::PointSet points = fem::volumePoints(solid, solid.blocks[0], fem::tabulate(fem::Topology::Hex20, 5));
     for (int& n : points.nodes) n += shift;

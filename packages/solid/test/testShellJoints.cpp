@@ -9,7 +9,6 @@
 #include "atrapos/fem/EnhancedTerm.hpp"
 #include "atrapos/fem/RigidBody.hpp"
 #include "atrapos/fem/ShellJoints.hpp"
-#include "atrapos/solid/ShellTerms.hpp"
 #include "support/Meshes.hpp"
 #include "support/Profile.hpp"
 
@@ -44,22 +43,13 @@ struct Walls {
     shells = fem::shellGeometry(mesh, sections);
     model.dofs = fem::DofMap::displacements(shells.numNodes());
     const auto law = SaintVenantKirchhoff::fromYoung(E, nu);
+    const Shear shear = cell == fem::Topology::Shell3   ? Shear::mitc3
+                        : cell == fem::Topology::Shell6 ? Shear::mitc6
+                                                        : Shear::compatible;
     for (std::size_t w = 0; w < walls.size(); ++w)
-      model.terms.push_back(termOf(law, elements(static_cast<int>(w))));
+      model.terms.push_back(shellTerm(elements(static_cast<int>(w)), law, {}, shear));
     model.constantLoad.assign(model.dofs.numDofs(), 0.0);
     model.load.assign(model.dofs.numDofs(), 0.0);
-  }
-  static std::unique_ptr<fem::Term> termOf(const SaintVenantKirchhoff& law, const ShellElements& elements) {
-    using Law = SaintVenantKirchhoff;
-    switch (elements.nodesPerElement) {
-      case 3:
-        return fem::enhancedTerm(fem::pointLaw(Mitc3Law<Law>{law}), mitc3Points(elements, 0));
-      case 6:
-        return fem::enhancedTerm(sixNodeShellLaw(fem::pointLaw(ShellMaterialStage<Law>{law})),
-                                 mitc6Points(elements));
-      default:
-        return fem::enhancedTerm(fem::pointLaw(ShellLaw<Law>{law}), shellPoints(elements));
-    }
   }
   ShellElements elements(int wall) const {
     const fem::ShellBlock& b = shells.blocks[wall];

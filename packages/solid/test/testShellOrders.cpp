@@ -230,7 +230,7 @@ TEST(ShellOrdersFailure, AStateOutsideTheLawsDomainIsNamed) {
   fem::FeModel model;
   const ShellGrid grid = curvedGrid();
   model.dofs = fem::DofMap::displacements(2 * grid.numNodes());
-  model.terms.push_back(shellTerm(grid, material));
+  model.terms.push_back(shellTerm(grid.elements(), material));
   fem::FeProblem problem(std::move(model));
   const Numbers u = randomNumbers(3 * 2 * grid.numNodes(), 0.01, 1);
   const auto r = residual(problem, u, 0);

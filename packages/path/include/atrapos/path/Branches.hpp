@@ -33,6 +33,10 @@ struct Branch {
   Outcome outcome;
 };
 
+/// Whether a branch has come as far as it was to: its path to its stop, or the branch to another end than its
+/// path's.
+bool atStop(const Branch& branch);
+
 /// A bifurcation point, found once whatever the number of branches that pass it.
 struct BranchPoint {
   CriticalPoint point;

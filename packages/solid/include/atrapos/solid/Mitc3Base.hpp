@@ -12,15 +12,13 @@ namespace atrapos::solid {
 
 /// What a law of a three-node shell keeps of a point.
 template <class P>
-struct Mitc3Place {
+struct Mitc3Place : TiedPlace<P> {
   /// [0..2] xi, eta, zeta; [3..5], [6..8] parts of the three edges' products, twice their shear strains, in 2
   /// E_13 and 2 E_23.
   static constexpr int numData = 9;
-  const P* data;
-  KOKKOS_FORCEINLINE_FUNCTION P xi() const { return data[0]; }
-  KOKKOS_FORCEINLINE_FUNCTION P eta() const { return data[1]; }
-  KOKKOS_FORCEINLINE_FUNCTION P zeta() const { return data[2]; }
-  KOKKOS_FORCEINLINE_FUNCTION P first() const { return 1.0 - data[0] - data[1]; }  ///< of the first corner
+  KOKKOS_FORCEINLINE_FUNCTION P first() const {
+    return 1.0 - this->xi() - this->eta();
+  }  ///< of the first corner
 };
 
 namespace detail {

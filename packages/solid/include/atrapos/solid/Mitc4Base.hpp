@@ -13,14 +13,10 @@ namespace atrapos::solid {
 
 /// What a law of a four-node shell keeps of a point.
 template <class P>
-struct Mitc4Place {
+struct Mitc4Place : TiedPlace<P> {
   /// [0..2] xi, eta, zeta; [3], [4] parts of m along a and b at rest, which no hourglass is; [5..7], [8..10]
   /// what a.h and b.h do to E_11, E_22, E_12.
   static constexpr int numData = 11;
-  const P* data;
-  KOKKOS_FORCEINLINE_FUNCTION P xi() const { return data[0]; }
-  KOKKOS_FORCEINLINE_FUNCTION P eta() const { return data[1]; }
-  KOKKOS_FORCEINLINE_FUNCTION P zeta() const { return data[2]; }
 };
 
 namespace detail {

@@ -19,15 +19,11 @@ constexpr double near = 0.21132486540518711775, far = 1 - near, inside = far - n
 
 /// What a law of a six-node shell keeps of a point.
 template <class P>
-struct Mitc6Place {
+struct Mitc6Place : TiedPlace<P> {
   /// [0..2] xi, eta, zeta; [3..5], [6..8], [9..11] parts of the three tied strains along edge 1-2, 1-3, 2-3
   /// in the strain along that direction here; [12..19], [20..27] parts of the tied products of shear in 2
   /// E_13 and 2 E_23.
   static constexpr int numData = 28;
-  const P* data;
-  KOKKOS_FORCEINLINE_FUNCTION P xi() const { return data[0]; }
-  KOKKOS_FORCEINLINE_FUNCTION P eta() const { return data[1]; }
-  KOKKOS_FORCEINLINE_FUNCTION P zeta() const { return data[2]; }
 };
 
 namespace detail {

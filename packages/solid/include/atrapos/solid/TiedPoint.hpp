@@ -8,11 +8,21 @@
 ///     vectors     how many vectors it has, linear in the unknowns
 ///     spread      how many vectors a point makes of them
 ///     pairs       whose products are all its strains, [product][2]; equal ones count half
-///     Place<P>    what a point keeps of itself, `numData` numbers at `data`
+///     Place<P>    what a point keeps of itself, a TiedPlace of `numData` numbers
 ///
 /// and in Spread, Gather, Strain, Weights, LinearForces how these hang together. Sums over Cartesian
 /// components are made one component at a time: more would not stay in registers.
 namespace atrapos::solid {
+
+/// Where a point is, and what stands behind it.
+template <class P>
+struct TiedPlace {
+  const P* data;  ///< [0..2] xi, eta, zeta
+  KOKKOS_FORCEINLINE_FUNCTION P xi() const { return data[0]; }
+  KOKKOS_FORCEINLINE_FUNCTION P eta() const { return data[1]; }
+  KOKKOS_FORCEINLINE_FUNCTION P zeta() const { return data[2]; }
+};
+
 namespace detail {
 
 template <class Element>
