@@ -61,4 +61,5 @@ def main():
     figure.savefig(HERE / "rubber.png", dpi=110)
 
 
-main()
+if __name__ == "__main__":
+    main()

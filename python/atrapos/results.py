@@ -10,7 +10,7 @@ from . import _atrapos
 # Exodus' cells that meshio knows under other names; nodes come in the same order.
 _MESHIO = {"HEX8": "hexahedron", "HEX20": "hexahedron20", "HEX27": "hexahedron27", "TET4": "tetra", "TET10": "tetra10",
            "WEDGE6": "wedge", "WEDGE15": "wedge15", "QUAD4": "quad", "QUAD8": "quad8", "QUAD9": "quad9",
-           "TRISHELL3": "triangle", "SHELL3": "triangle", "TRISHELL6": "triangle6", "SHELL6": "triangle6", "SHELL4": "quad", "SHELL8": "quad8", "SHELL9": "quad9", "TRI3": "triangle", "TRI6": "triangle6"}
+           "BAR2": "line", "BAR3": "line3", "TRISHELL3": "triangle", "SHELL3": "triangle", "TRISHELL6": "triangle6", "SHELL6": "triangle6", "SHELL4": "quad", "SHELL8": "quad8", "SHELL9": "quad9", "TRI3": "triangle", "TRI6": "triangle6"}
 # Of HEX20 and WEDGE15 Exodus has the edges between bottom and top before those of the top.
 _ORDER = {"HEX20": [*range(12), *range(16, 20), *range(12, 16)],
           "WEDGE15": [*range(9), *range(12, 15), *range(9, 12)]}

@@ -27,18 +27,25 @@ struct Builder {
   fem::Mesh operator()(const fem::RectangleOptions& o) const { return fem::rectangleMesh(o); }
   fem::Mesh operator()(const fem::AnnulusOptions& o) const { return fem::annulusMesh(o); }
   fem::Mesh operator()(const fem::QuadrilateralOptions& o) const { return fem::quadrilateralMesh(o); }
+  fem::Mesh operator()(const fem::TrussOptions& o) const { return fem::trussMesh(o); }
+};
+
+struct CountElements {
+  template <class Options>
+  double operator()(const Options& options) const {
+    double product = 1;
+    for (const int n : options.divisions) product *= n;
+    return product;
+  }
+  double operator()(const fem::TrussOptions& options) const {
+    return static_cast<double>(options.bars.size());
+  }
 };
 
 /// Before memory is taken for it: nodes and elements with their copies for the file, at most 1 kB an element
 /// (HEX27).
 void requireRoom(const deck::Deck& deck) {
-  const double elements = std::visit(
-      [](const auto& options) {
-        double product = 1;
-        for (const int n : options.divisions) product *= n;
-        return product;
-      },
-      *deck.mesh.generate);
+  const double elements = std::visit(CountElements{}, *deck.mesh.generate);
   constexpr double most = 1e8, bytesEach = 1000;
   if (elements > most)
     deck::failAt(deck, "mesh/generate/divisions",

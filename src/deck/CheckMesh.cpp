@@ -77,11 +77,10 @@ class MeshCheck {
           fail(path, fmt::format("block '{}' already has the material '{}'", name, previous->second));
         }
         if (std::holds_alternative<VonMises>(material.law)) plastic(material, found);
-        if ((!material.expansion.empty() || material.dielectric) &&
-            fem::isShell(mesh_.blocks[static_cast<std::size_t>(found)].topology)) {
+        if ((!material.expansion.empty() || material.dielectric) && isThin(found)) {
           const std::string key = material.dielectric ? "dielectric" : "expansion";
           fail("materials/" + material.name + "/" + key,
-               fmt::format("block '{}' has shells; {} is for solids and plane bodies", name, key));
+               fmt::format("block '{}' has {}; {} is for solids and plane bodies", name, kindOf(found), key));
         }
       }
     }
@@ -95,8 +94,9 @@ class MeshCheck {
       for (const auto& name : entry.blocks) {
         const int found = block(path, name);
         used.insert(found);
-        if (fem::isShell(mesh_.blocks[static_cast<std::size_t>(found)].topology)) {
-          fail(path, fmt::format("block '{}' has shells; balances are for solids and plane cells", name));
+        if (isThin(found)) {
+          fail(path, fmt::format("block '{}' has {}; balances are for solids and plane cells", name,
+                                 kindOf(found)));
         }
         if (const auto* flow = std::get_if<FluidFlow>(&entry.law)) {
           fluid(entry.name, *flow, found);
@@ -131,10 +131,52 @@ class MeshCheck {
         if (!fem::isShell(b.topology)) {
           fail(path, fmt::format("block '{}' has {}, no shells", name, fem::topologyName(b.topology)));
         }
+        if (b.membrane) {
+          fail(path, fmt::format("block '{}' has membranes, which are no shells", name));
+        }
         const auto [previous, isNew] = sectionOf.emplace(found, section.name);
         if (!isNew) {
           fail(path, fmt::format("block '{}' already has the section '{}'", name, previous->second));
         }
+      }
+    }
+  }
+
+  /// Membranes are surfaces in space, and bars lines, which all have an entry.
+  void thinSections() const {
+    std::set<int> thin;
+    const auto check = [&](const std::vector<ThinSection>& sections, const char* key, const char* needed,
+                           bool (*fits)(fem::Topology)) {
+      for (const auto& section : sections) {
+        const std::string path = fmt::format("{}/{}/blocks", key, section.name);
+        for (const auto& name : section.blocks) {
+          const int found = block(path, name);
+          const fem::Topology topology = mesh_.blocks[static_cast<std::size_t>(found)].topology;
+          if (!fits(topology)) {
+            fail(path, fmt::format("block '{}' has {}, no {}", name, fem::topologyName(topology), needed));
+          }
+          if (!thin.insert(found).second) {
+            fail(path, fmt::format("block '{}' has an entry already", name));
+          }
+          for (const auto& material : deck_.materials) {
+            if (section.prestress != 0 && std::holds_alternative<VonMises>(material.law) &&
+                std::any_of(material.blocks.begin(), material.blocks.end(), [&](const std::string& other) {
+                  return fem::findBlock(mesh_, other) == found;
+                })) {
+              fail(fmt::format("{}/{}/prestress", key, section.name),
+                   "is not for von_mises, whose yield stress would not see it");
+            }
+          }
+        }
+      }
+    };
+    check(deck_.membranes, "membranes", "surfaces in space (SHELL3, SHELL4, SHELL6, SHELL8, SHELL9)",
+          [](fem::Topology t) { return fem::isShell(t); });
+    check(deck_.bars, "bars", "bars (BAR2, BAR3)", [](fem::Topology t) { return fem::isBar(t); });
+    for (std::size_t b = 0; b < mesh_.blocks.size(); ++b) {
+      if (fem::isBar(mesh_.blocks[b].topology) && thin.count(static_cast<int>(b)) == 0) {
+        fail("bars", fmt::format("block '{}' has bars without an entry, which says their area",
+                                 labels(mesh_.blocks)[b]));
       }
     }
   }
@@ -185,16 +227,16 @@ class MeshCheck {
   void faces(const std::string& path, const std::string& set, ShellPlace place) const {
     sides(path + "/set", set);
     for (const fem::Side& side : sideSet(set).sides) {
-      const bool shell = fem::isShell(topologyOf(side));
-      if (shell && side.side > 1) {
+      const bool shell = fem::isShell(blockOf(side));
+      if (fem::isShell(blockOf(side).topology) && side.side > 1) {
         fail(path + "/set",
              fmt::format(
                  "the side set '{}' has edges of shells; expected faces (edges take loads of type edge)",
                  set));
       }
       if (!shell && place != ShellPlace::Middle) {
-        fail(path + "/at",
-             fmt::format("the side set '{}' has faces of solids; top and bottom are for shells", set));
+        fail(path + "/at", fmt::format("the side set '{}' has faces of {}; top and bottom are for shells",
+                                       set, blockOf(side).membrane ? "membranes" : "solids"));
       }
     }
   }
@@ -202,7 +244,7 @@ class MeshCheck {
   void edges(const std::string& path, const std::string& set) const {
     sides(path, set);
     for (const fem::Side& side : sideSet(set).sides) {
-      if (!fem::isShell(topologyOf(side)) || side.side < 2) {
+      if (!fem::isShell(blockOf(side).topology) || side.side < 2) {
         fail(path, fmt::format("side {} of element {} in the side set '{}' is no edge of a shell",
                                side.side + 1, mesh_.elementNumber(side.element), set));
       }
@@ -261,6 +303,13 @@ class MeshCheck {
       faces(path, surface->set, surface->at);
     } else if (const auto* edge = std::get_if<EdgeLoad>(&load.load)) {
       edges(path + "/set", edge->set);
+      const bool dead = edge->kind == EdgeLoad::Kind::Total || edge->kind == EdgeLoad::Kind::Force;
+      for (const fem::Side& side : sideSet(edge->set).sides) {
+        if (!dead && blockOf(side).membrane) {
+          fail(path, fmt::format("block '{}' has membranes, whose edges take dead forces alone",
+                                 blockOf(side).name));
+        }
+      }
     } else if (const auto* inflow = std::get_if<InflowLoad>(&load.load)) {
       sides(path + "/set", inflow->set);
     } else if (const auto* own = std::get_if<PluginLoad>(&load.load)) {
@@ -276,11 +325,11 @@ class MeshCheck {
  private:
   /// What a material that yields does not serve so far.
   void plastic(const Material& material, int block) const {
-    const bool shell = fem::isShell(mesh_.blocks[static_cast<std::size_t>(block)].topology);
-    const bool thin = shell || (deck_.plane && deck_.plane->kind == Plane::Kind::Stress);
+    const bool thin = isThin(block) || (deck_.plane && deck_.plane->kind == Plane::Kind::Stress);
     if (thin && std::get<VonMises>(material.law).strains == VonMises::Strains::Finite) {
       fail("materials/" + material.name + "/strains",
-           "finite strains are for solids, plane strain and axisymmetry; shells and plane stress take small");
+           "finite strains are for solids, plane strain and axisymmetry; shells, membranes, bars and plane "
+           "stress take small");
     }
     if (!deck_.path.series()) {
       fail("materials/" + material.name + "/law",
@@ -314,8 +363,18 @@ class MeshCheck {
     return mesh_.sideSets[static_cast<std::size_t>(fem::findSideSet(mesh_, name))];
   }
 
-  fem::Topology topologyOf(const fem::Side& side) const {
-    return mesh_.blocks[static_cast<std::size_t>(fem::addressOf(mesh_, side.element).block)].topology;
+  const fem::Block& blockOf(const fem::Side& side) const {
+    return mesh_.blocks[static_cast<std::size_t>(fem::addressOf(mesh_, side.element).block)];
+  }
+
+  /// Whether a block's cells are no bodies themselves: shells, membranes, bars; and their name.
+  bool isThin(int block) const {
+    const fem::Topology topology = mesh_.blocks[static_cast<std::size_t>(block)].topology;
+    return fem::isShell(topology) || fem::isBar(topology);
+  }
+  const char* kindOf(int block) const {
+    const fem::Block& b = mesh_.blocks[static_cast<std::size_t>(block)];
+    return fem::isBar(b.topology) ? "bars" : b.membrane ? "membranes" : "shells";
   }
 
   bool hasShells(const std::string& set) const {
@@ -325,7 +384,7 @@ class MeshCheck {
     std::vector<char> onShell(static_cast<std::size_t>(mesh_.numNodes()), 0);
     for (const fem::Block& block : mesh_.blocks) {
       for (const int node : block.nodes) {
-        onShell[static_cast<std::size_t>(node)] |= fem::isShell(block.topology) ? 1 : 0;
+        onShell[static_cast<std::size_t>(node)] |= fem::isShell(block) ? 1 : 0;
       }
     }
     return std::any_of(nodes.begin(), nodes.end(),
@@ -346,6 +405,7 @@ void checkAgainstMesh(const Deck& deck, const fem::Mesh& mesh) {
   const MeshCheck check(deck, mesh);
   check.plane();
   check.materials();
+  check.thinSections();
   check.sections();
   check.joints();
   for (const auto& support : deck.supports) {

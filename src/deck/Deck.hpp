@@ -12,6 +12,7 @@
 #include "atrapos/fem/StructuredMesh.hpp"
 #include "atrapos/fem/StructuredPlane.hpp"
 #include "atrapos/fem/StructuredShell.hpp"
+#include "atrapos/fem/TrussMesh.hpp"
 #include "atrapos/path/BranchOptions.hpp"
 #include "atrapos/path/Options.hpp"
 
@@ -34,7 +35,7 @@ using Vector3 = std::array<double, 3>;
 using Generate = std::variant<fem::BoxOptions, fem::StripOptions, fem::CylinderPanelOptions,
                               fem::SpherePanelOptions, fem::ShellPlateOptions, fem::ShellCylinderOptions,
                               fem::ShellAnnulusOptions, fem::ShellSphereOptions, fem::RectangleOptions,
-                              fem::AnnulusOptions, fem::QuadrilateralOptions>;
+                              fem::AnnulusOptions, fem::QuadrilateralOptions, fem::TrussOptions>;
 
 struct MeshInput {
   std::string file;         ///< as written in the deck
@@ -188,6 +189,14 @@ struct Shells {
   Shear shear = Shear::Compatible;  ///< of blocks without an entry, and of entries without their own
   std::vector<ShellSection> sections;
   int metalPoints = 5;  ///< through the thickness where the material yields, 2 to 10
+};
+
+/// Blocks of membranes or of bars, which resist stretching alone.
+struct ThinSection {
+  std::string name;
+  std::vector<std::string> blocks;  ///< names or ids
+  double size = 0;                  ///< of membranes the thickness, of bars the area; > 0
+  double prestress = 0;             ///< at rest, a pressure
 };
 
 /// Where in the thickness of shells something acts; middle for all others.
@@ -645,6 +654,7 @@ struct Deck {
   std::vector<ScalarField> fields;  ///< those of which the deck says where they begin
   std::optional<Plane> plane;
   Shells shells;
+  std::vector<ThinSection> membranes, bars;
   std::vector<Support> supports;
   std::vector<Coupling> couplings;
   std::vector<Load> loads;

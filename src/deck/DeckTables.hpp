@@ -20,6 +20,8 @@ const Table<Plane>& planeTable();
 Field<Deck> planeField();
 const Table<ShellSection>& shellSectionTable();
 const Table<ShellJoint>& shellJointTable();
+const Table<ThinSection>& membraneTable();
+const Table<ThinSection>& barTable();
 /// What names of fields and constants are like; follows "cannot be the name of a ...".
 constexpr const char* freeNames =
     "expected letters, digits and _, no digit in front, and none of lambda, x, y, z, pi and the functions";
@@ -53,6 +55,7 @@ const Table<Output>& outputTable();
 /// Keys of output in both kinds of decks.
 Table<Output> pathRowKeys();
 const Table<MeshInput>& meshTable();
+const Table<fem::TrussOptions>& trussTable();
 const Table<Deck>& deckTable();
 const Table<ModelProblem>& modelTable();
 /// The keys of decks with a model problem.

@@ -410,11 +410,26 @@ std::vector<std::array<double, 3>> Value::rowsOf3() const {
 }
 
 std::vector<int> Value::integers(std::size_t size, const Check& check) const {
-  const auto list = all(smallNumber, fmt::format("a list of {} whole numbers", size), size);
+  const std::string expected =
+      size == any ? "a list of whole numbers" : fmt::format("a list of {} whole numbers", size);
+  const auto list = all(smallNumber, expected, size);
   if (!std::all_of(list.begin(), list.end(), [&](int i) { return check.holds(i); })) {
     fail(fmt::format("each number must be {}, got {}", check.words, shown()));
   }
   return list;
+}
+
+std::vector<int> Value::integers(const Check& check) const { return integers(any, check); }
+
+std::vector<Value> Value::list(const std::string& expected) const {
+  std::vector<Value> values;
+  for (const YamlTree& item : items()) {
+    values.push_back(Value(item, *this));
+  }
+  if (values.empty()) {
+    fail(fmt::format("expected {}, got {}", expected, shown()));
+  }
+  return values;
 }
 
 std::vector<std::string> Value::texts() const {

@@ -59,6 +59,10 @@ class Value {
   /// Rows of three numbers, at least one; a list of three numbers is one row.
   std::vector<std::array<double, 3>> rowsOf3() const;
   std::vector<int> integers(std::size_t size, const Check& check) const;
+  /// One or more.
+  std::vector<int> integers(const Check& check) const;
+  /// The items of a list, at least one; `expected` says what it is to be a list of.
+  std::vector<Value> list(const std::string& expected) const;
   /// One or more texts.
   std::vector<std::string> texts() const;
   /// One or more different names or ids.

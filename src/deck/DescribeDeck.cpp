@@ -107,6 +107,8 @@ void describeKeys(std::ostream& out) {
   printKeys("shells/", shellsTable(), out);
   printKeys("shells/sections/NAME/", shellSectionTable(), out);
   printKeys("shells/joints/NAME/", shellJointTable(), out);
+  printKeys("membranes/NAME/", membraneTable(), out);
+  printKeys("bars/NAME/", barTable(), out);
   printKeys("supports/NAME/", supportTable(), out);
   printKeys("couplings/NAME/", couplingTable(), out);
   printKeys("loads/NAME/", loadVariants(), out);

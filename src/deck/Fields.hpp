@@ -124,6 +124,16 @@ std::string yamlList(const List& list) {
   return text.empty() ? "" : text + "]";
 }
 
+/// Of lists.
+template <class Rows>
+std::string yamlRows(const Rows& rows) {
+  std::string text;
+  for (const auto& row : rows) {
+    text += (text.empty() ? "[" : ", ") + yamlList(row);
+  }
+  return text.empty() ? "" : text + "]";
+}
+
 // ------------------------------------------------------------------------------- the kinds of fields
 
 enum class Need { Optional, Required };

@@ -401,6 +401,7 @@ const Variants<GenerateInput, Generate>& generateVariants() {
     using Quadrilateral = fem::QuadrilateralOptions;
     v.alternatives.push_back(alternative<Generate, Quadrilateral>(
         "quadrilateral", withCells<Quadrilateral>({corners()}, "the first edge, the second", planeCells())));
+    v.alternatives.push_back(alternative<Generate, fem::TrussOptions>("truss", trussTable()));
     return v;
   }();
   return variants;

@@ -36,11 +36,7 @@ Field<S> rows3(std::string key, Need need, std::vector<Vector3> S::*member, std:
           std::move(meaning),
           [=](const Value& v, S& s) { s.*member = v.rowsOf3(); },
           [=](const S& s) {
-            std::string text;
-            for (const Vector3& row : s.*member) {
-              text += (text.empty() ? "[" : ", ") + yamlList(row);
-            }
-            return text.empty() ? Node{} : Node{text + "]", {}};
+            return Node{yamlRows(s.*member), {}};
           }};
 }
 

@@ -27,6 +27,8 @@ class DeckMaker {
   std::string operator()() {
     addMaterials();
     if (mesh_.mesh.dimension == 2) addPlane();
+    addThin(Family::membrane, "thickness", membranes_);
+    addThin(Family::bar, "area", bars_);
     addSupports();
     addForces();
     addPressures();
@@ -63,6 +65,22 @@ class DeckMaker {
       std::vector<std::string> names;
       for (const int b : blocks) names.push_back(mesh_.mesh.blocks[static_cast<std::size_t>(b)].name);
       materials_.add(name, fmt::format("{}, blocks: {}", inpLaw(model_, name), listOf(names)));
+    }
+  }
+
+  /// The blocks of membranes or bars, an entry for each thickness or area.
+  void addThin(Family family, const char* key, DeckEntries& entries) {
+    std::map<double, std::set<int>> blocksOf;
+    for (std::size_t e = 0; e < model_.elements.size(); ++e) {
+      if (model_.elements[e].type->family != family) continue;
+      const InpSection& section = *sectionOf(static_cast<int>(e));  // addMaterials has seen it
+      if (!(section.thickness > 0)) section.place.fail(fmt::format("has no {}, which a deck needs", key));
+      blocksOf[section.thickness].insert(mesh_.blockAt[e]);
+    }
+    for (const auto& [size, blocks] : blocksOf) {
+      std::vector<std::string> names;
+      for (const int b : blocks) names.push_back(mesh_.mesh.blocks[static_cast<std::size_t>(b)].name);
+      entries.add(names.front(), fmt::format("blocks: {}, {}: {}", listOf(names), key, size));
     }
   }
 
@@ -260,8 +278,10 @@ class DeckMaker {
     const std::string title =
         model_.title.empty() ? std::filesystem::path(*model_.file).stem().string() : model_.title;
     std::string result = fmt::format("title: {}\n", deck::yaml(deck::plainLine(deck::beginOf(title, 200))));
-    result += "materials:\n" + materials_.text(2) + plane_ + "supports:\n" + supports_.text(2) + "loads:\n" +
-              loads_.text(2);
+    result += "materials:\n" + materials_.text(2) + plane_;
+    if (membranes_.size() > 0) result += "membranes:\n" + membranes_.text(2);
+    if (bars_.size() > 0) result += "bars:\n" + bars_.text(2);
+    result += "supports:\n" + supports_.text(2) + "loads:\n" + loads_.text(2);
     if (loads_.size() == 0) result.erase(result.size() - 7);  // driven by supports
     result += path_;
     if (monitors_.size() > 0) result += "output:\n  monitors:\n" + monitors_.text(4);
@@ -273,7 +293,7 @@ class DeckMaker {
   InpMesh& mesh_;
   std::set<std::string> told_;
   bool loaded_ = false;  ///< something depends on the load factor
-  DeckEntries materials_, supports_, loads_, monitors_;
+  DeckEntries materials_, membranes_, bars_, supports_, loads_, monitors_;
   std::string plane_, path_;
 };
 

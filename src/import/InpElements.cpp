@@ -14,6 +14,8 @@ constexpr const char* kBoxPoints = "HEX20 has 2 x 2 x 2 points of integration, a
 constexpr const char* kQuadPoints = "QUAD8 has 2 x 2 points of integration";
 constexpr const char* kOnePoint = "QUAD4 has 2 x 2 points of integration, not one";
 constexpr const char* kIncompatible = "QUAD4 has no incompatible modes: it locks in bending";
+constexpr const char* kSurfacePoints = "SHELL8 has 2 x 2 points of integration";
+constexpr const char* kOnePointOfSurface = "SHELL4 has 2 x 2 points of integration, not one";
 constexpr const char* kShell3 = "SHELL3 has assumed strains of its own (MITC3+)";
 constexpr const char* kShell4 = "SHELL4 has assumed strains of its own (MITC4)";
 constexpr const char* kShell4R = "SHELL4 has 2 x 2 points and assumed strains (MITC4), not one point";
@@ -42,6 +44,13 @@ const std::vector<InpElementType>& types() {
       {"STRI65", 6, Family::shell, Topology::Shell6, kShell6},
       {"S8", 8, Family::shell, Topology::Shell8, kShell8},
       {"S8R", 8, Family::shell, Topology::Shell8, ""},
+      {"M3D3", 3, Family::membrane, Topology::Shell3, ""},
+      {"M3D4", 4, Family::membrane, Topology::Shell4, ""},
+      {"M3D4R", 4, Family::membrane, Topology::Shell4, kOnePointOfSurface},
+      {"M3D6", 6, Family::membrane, Topology::Shell6, ""},
+      {"M3D8", 8, Family::membrane, Topology::Shell8, kSurfacePoints},
+      {"M3D8R", 8, Family::membrane, Topology::Shell8, ""},
+      {"T3D2", 2, Family::bar, Topology::Bar2, ""},
       {"CPS3", 3, Family::planeStress, Topology::Tri3, ""},
       {"CPS4", 4, Family::planeStress, Topology::Quad4, ""},
       {"CPS4I", 4, Family::planeStress, Topology::Quad4, kIncompatible},
@@ -108,7 +117,7 @@ const std::vector<int>& inpNodeOrder(fem::Topology topology) {
 
 int inpSide(fem::Topology topology, int face) {
   static const std::vector<int> hex{4, 5, 0, 1, 2, 3}, tet{3, 0, 1, 2}, wedge{3, 4, 0, 1, 2},
-      quad{0, 1, 2, 3}, tri{0, 1, 2}, shell{1, 0, 2, 3, 4, 5}, triShell{1, 0, 2, 3, 4};
+      quad{0, 1, 2, 3}, tri{0, 1, 2}, none{}, shell{1, 0, 2, 3, 4, 5}, triShell{1, 0, 2, 3, 4};
   const auto of = [&]() -> const std::vector<int>& {
     switch (topology) {
       case Topology::Hex8:
@@ -132,6 +141,9 @@ int inpSide(fem::Topology topology, int face) {
       case Topology::Quad8:
       case Topology::Quad9:
         return quad;
+      case Topology::Bar2:
+      case Topology::Bar3:
+        return none;
       case Topology::Tri3:
       case Topology::Tri6:
         break;

@@ -8,7 +8,7 @@
 namespace atrapos::importer {
 
 /// What bodies elements stand for.
-enum class Family { solid, shell, planeStress, planeStrain, axisymmetric };
+enum class Family { solid, shell, membrane, bar, planeStress, planeStrain, axisymmetric };
 
 /// An element type of Abaqus and CalculiX, and the cell that takes its place.
 struct InpElementType {

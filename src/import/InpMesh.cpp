@@ -15,7 +15,7 @@ namespace atrapos::importer {
 namespace {
 
 /// What elements of a block have in common.
-using BlockKey = std::tuple<int, int, fem::Topology, std::uint64_t>;  // section, set, cell, cuts
+using BlockKey = std::tuple<int, int, fem::Topology, Family, std::uint64_t>;  // section, set, cell, ..., cuts
 
 std::string sectionName(const InpModel& model, int section, int set) {
   if (section >= 0) return model.sections[static_cast<std::size_t>(section)].set;
@@ -26,7 +26,7 @@ std::string sectionName(const InpModel& model, int section, int set) {
 void requireOneFamily(const InpModel& model) {
   const InpElementType* first = model.elements.front().type;
   const auto plane = [](const InpElementType& type) {
-    return type.family == Family::solid || type.family == Family::shell ? Family::solid : type.family;
+    return fem::isPlane(type.topology) ? type.family : Family::solid;
   };
   for (std::size_t e = 0; e < model.elements.size(); ++e)
     if (const InpElementType* type = model.elements[e].type; plane(*type) != plane(*first))
@@ -82,8 +82,9 @@ void InpMesh::takeElements(InpModel& model, const std::vector<std::vector<int>>&
   for (std::size_t e = 0; e < model.elements.size(); ++e) {
     const InpElement& element = model.elements[e];
     const int set = element.section >= 0 ? -1 : element.set;
-    const auto [at, isNew] =
-        blockOf.emplace(BlockKey{element.section, set, element.type->topology, within[e]}, members.size());
+    const auto [at, isNew] = blockOf.emplace(
+        BlockKey{element.section, set, element.type->topology, element.type->family, within[e]},
+        members.size());
     if (isNew) {
       fem::Block& block = mesh.blocks.emplace_back();
       const std::string name = sectionName(model, element.section, set);
@@ -104,7 +105,7 @@ void InpMesh::takeElements(InpModel& model, const std::vector<std::vector<int>>&
     const InpElement& first = model.elements[static_cast<std::size_t>(members[b].front())];
     const double thickness =
         first.section >= 0 ? model.sections[static_cast<std::size_t>(first.section)].thickness : 0;
-    if (fem::isShell(block.topology) && thickness > 0) {
+    if (first.type->family == Family::shell && thickness > 0) {
       block.attributeNames = {"THICKNESS"};
       block.attributes.assign(members[b].size(), thickness);
     }

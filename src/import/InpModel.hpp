@@ -58,7 +58,7 @@ struct InpSection {
   InpPlace place;
   std::string keyword;  ///< "SOLIDSECTION", "SHELLSECTION"
   std::string set, material;
-  double thickness = 0;  ///< 0: none given
+  double thickness = 0;  ///< of bars the area; 0: none given
 };
 
 struct InpMaterial {

@@ -263,7 +263,7 @@ class ModelReader {
     if (read.count(k) > 0) return;
     if (k == "HEADING") return readTitle(card);
     if (k == "SURFACE") return readSurface(card);
-    if (k == "SOLIDSECTION" || k == "SHELLSECTION") return readSection(card);
+    if (k == "SOLIDSECTION" || k == "SHELLSECTION" || k == "MEMBRANESECTION") return readSection(card);
     if (k == "BOUNDARY") return model_.boundaries.push_back(&card);
     if (k == "MATERIAL") {
       material_ = &model_.materials[nameOf(card, "NAME")];
@@ -355,8 +355,8 @@ class ModelReader {
         model_.remark(card.place, fmt::format("*{}: {} is left out", card.keyword, more));
     InpLine line;
     if (!card.has("COMPOSITE") && InpLines(card).next(line)) {
-      section.thickness = inpNumber(line.at(0), line.place, "thickness");
-      if (section.thickness < 0) line.place.fail("the thickness is negative");
+      section.thickness = inpNumber(line.at(0), line.place, "thickness or area");
+      if (section.thickness < 0) line.place.fail("the thickness or area is negative");
     }
     model_.sections.push_back(std::move(section));
   }

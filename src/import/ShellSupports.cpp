@@ -35,7 +35,7 @@ int axisOf(const InpModel& model, const InpElement& element) {
 
 ShellSupports::ShellSupports(const InpModel& model) {
   for (const InpElement& element : model.elements) {
-    if (!fem::isShell(element.type->topology)) continue;
+    if (element.type->family != Family::shell) continue;
     const int axis = axisOf(model, element);
     for (int n = 0; n < element.type->nodes; ++n) {
       const auto [at, isNew] =

@@ -67,7 +67,7 @@ std::vector<int> sortedCorners(const FaceOf& face) {
   return corners;
 }
 
-/// Two solid cells that share a face hide it; shells and plane cells hide nothing.
+/// Two solid cells that share a face hide it; shells and plane cells hide nothing, and bars have none.
 std::vector<FaceOf> outerFaces(const fem::Mesh& mesh) {
   std::vector<FaceOf> surfaces, sides;
   std::map<std::vector<int>, int> count;
@@ -75,7 +75,7 @@ std::vector<FaceOf> outerFaces(const fem::Mesh& mesh) {
   for (const fem::Block& block : mesh.blocks) {
     const std::size_t numNodes = fem::nodesPerElement(block.topology);
     const auto local = facesOf(block.topology);
-    const bool isSolid = !fem::isShell(block.topology) && !fem::isPlane(block.topology);
+    const bool isSolid = fem::isSolid(block.topology);
     for (std::size_t first = 0; first < block.nodes.size(); first += numNodes, ++element)
       for (const auto& nodes : local) {
         FaceOf face{element, {}};
@@ -102,19 +102,28 @@ Surface surfaceOf(const fem::Mesh& mesh) {
     return static_cast<std::uint32_t>(numbers[node]);
   };
   std::set<std::pair<std::uint32_t, std::uint32_t>> edges;
+  const auto addEdge = [&](int from, int to) {
+    const auto a = number(from), b = number(to);
+    if (!edges.insert(std::minmax(a, b)).second) return;
+    surface.edges.push_back(a);
+    surface.edges.push_back(b);
+  };
   for (const FaceOf& face : outerFaces(mesh)) {
     const Drawn& how = drawn(face.nodes.size());
     for (const auto& triangle : how.triangles) {
       for (const int local : triangle) surface.triangles.push_back(number(face.nodes[local]));
       surface.triangleElements.push_back(static_cast<std::uint32_t>(face.element));
     }
-    for (std::size_t i = 0; i < how.rim.size(); ++i) {
-      const auto a = number(face.nodes[how.rim[i]]),
-                 b = number(face.nodes[how.rim[(i + 1) % how.rim.size()]]);
-      if (edges.insert(std::minmax(a, b)).second) {
-        surface.edges.push_back(a);
-        surface.edges.push_back(b);
-      }
+    for (std::size_t i = 0; i < how.rim.size(); ++i)
+      addEdge(face.nodes[how.rim[i]], face.nodes[how.rim[(i + 1) % how.rim.size()]]);
+  }
+  for (const fem::Block& block : mesh.blocks) {
+    if (!fem::isBar(block.topology)) continue;
+    const std::size_t numNodes = fem::nodesPerElement(block.topology);
+    for (std::size_t first = 0; first < block.nodes.size(); first += numNodes) {
+      const int *nodes = &block.nodes[first], middle = nodes[numNodes - 1];  // of two nodes the end
+      addEdge(nodes[0], middle);
+      addEdge(middle, nodes[1]);
     }
   }
   return surface;

@@ -248,7 +248,7 @@ BodySize ModelMaker::bodySize() const {
   int element = 0;  // counted over all blocks
   for (const fem::Block& block : mesh_.blocks) {
     const int count = static_cast<int>(block.nodes.size()) / fem::nodesPerElement(block.topology);
-    if (fem::isShell(block.topology)) {
+    if (fem::isShell(block)) {
       const int b = static_cast<int>(&block - mesh_.blocks.data());
       const auto& directors = shells_.geometry.find(b)->directors;
       double halves = 0;
@@ -261,7 +261,11 @@ BodySize ModelMaker::bodySize() const {
       continue;
     }
     element += count;
-    const auto points = materialPoints(block, fem::tabulate(block.topology));
+    const auto section = thin_.find(static_cast<int>(&block - mesh_.blocks.data()));
+    const auto points =
+        section != thin_.end()
+            ? solid::thinPoints(mesh_, block, solid::thinTabulation(block.topology), section->second).points
+            : materialPoints(block, fem::tabulate(block.topology));
     volume += std::accumulate(points.weights.begin(), points.weights.end(), 0.0);
   }
   double extent[3] = {high[0] - low[0], high[1] - low[1], high[2] - low[2]};

@@ -74,7 +74,7 @@ ModelMaker::SolidSide ModelMaker::solidNodesAt(const deck::Coupling& coupling, i
   const double near = 1e-3;
   std::map<int, double> onDirector;  // node of a solid -> zeta
   for (const fem::Block& block : mesh_.blocks) {
-    if (fem::isShell(block.topology)) continue;
+    if (!fem::isSolid(block.topology)) continue;
     for (int n : block.nodes) {
       const double* Y = &mesh_.coordinates[3 * static_cast<std::size_t>(n)];
       const double d[3] = {Y[0] - X[0], Y[1] - X[1], Y[2] - X[2]};

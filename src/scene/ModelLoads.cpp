@@ -15,6 +15,7 @@ struct DeadLoads {
   const fem::Mesh& mesh;
   const SceneShells& shells;
   const std::optional<solid::PlaneSection>& plane;
+  const std::map<int, solid::ThinSection>& thin;
   std::vector<double>& force;
 
   const fem::SideSet& sides(const std::string& set) const {
@@ -65,6 +66,8 @@ struct DeadLoads {
             {solid::planeValuePoints(mesh, mesh.blocks[block],
                                      fem::tabulate(mesh.blocks[block].topology, fem::loadDegree), *plane)},
             load.force, force);
+      else if (const auto section = thin.find(block); section != thin.end())
+        solid::addThinBodyForce(mesh, mesh.blocks[block], section->second, load.force, force);
       else if (i >= 0)
         solid::addShellBodyForce(shells.elements[i], load.force, force);
       else
@@ -82,7 +85,7 @@ void ModelMaker::addLoads() {
     if (followers::isFollower(load)) continue;
     std::vector<double>& force = load.constant ? constant : growing;
     try {
-      std::visit(DeadLoads{mesh_, shells_, plane_, force}, load.load);
+      std::visit(DeadLoads{mesh_, shells_, plane_, thin_, force}, load.load);
     } catch (const std::runtime_error& e) {
       fail("loads/" + load.name, e.what());
     }

@@ -131,7 +131,11 @@ void ModelMaker::addMaterials() {
       std::optional<physics::Expansion> expansion;
       if (!material.expansion.empty()) expansion = expansionOf(material, b);
       try {
-        if (fem::isShell(block.topology)) {
+        if (thin_.count(b) > 0) {
+          made_.bodies[b] = addThin(material, b);
+          continue;
+        }
+        if (fem::isShell(block)) {
           made_.bodies[b] = addShell(material, shells_.find(b));
           continue;
         }
@@ -173,6 +177,18 @@ BodyBlock ModelMaker::addShell(const deck::Material& material, int shells) {
   body.toNodes = solid::shellPointsToNodes({}, shells_.elements[shells].nodesPerElement);
   made_.model.terms.push_back(registry::shellTerm(material, shells_.elements[shells],
                                                   shells_.cubature[shells], shells_.shear[shells]));
+  return body;
+}
+
+BodyBlock ModelMaker::addThin(const deck::Material& material, int b) {
+  const fem::Block& block = mesh_.blocks[b];
+  const auto cell = solid::thinTabulation(block.topology);
+  BodyBlock body;
+  body.term = static_cast<int>(made_.model.terms.size());
+  body.toNodes = fem::extrapolation(block.topology, cell);
+  const solid::ThinSection& section = thin_.at(b);
+  made_.model.terms.push_back(registry::thinTerm(material, fem::isBar(block.topology),
+                                                 solid::thinPoints(mesh_, block, cell, section), section));
   return body;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -11,6 +12,7 @@
 #include "scene/DeckTool.hpp"
 #include "scene/SceneModel.hpp"
 #include "scene/Shells.hpp"
+#include "scene/ThinSections.hpp"
 
 namespace atrapos {
 
@@ -34,7 +36,8 @@ class ModelMaker {
         givenRanks_(input.ranks),
         shells_(input.shells),
         plane_(input.plane),
-        tools_(input.tools) {}
+        tools_(input.tools),
+        thin_(thinSections(input.deck, input.mesh)) {}
 
   /// Once; the tools must live as long as what is made.
   SceneModel make();
@@ -45,6 +48,7 @@ class ModelMaker {
   std::vector<int> nodesOfBlocks(const std::vector<int>& blocks) const;  ///< ascending
   void addMaterials();
   BodyBlock addShell(const deck::Material& material, int shells);
+  BodyBlock addThin(const deck::Material& material, int block);
   fem::PointSet materialPoints(const fem::Block& block, const fem::Tabulation& cell) const;
   void giveRanks();
   void addSupports();
@@ -109,6 +113,7 @@ class ModelMaker {
   const SceneShells& shells_;
   const std::optional<solid::PlaneSection>& plane_;
   const SceneTools& tools_;
+  const std::map<int, solid::ThinSection> thin_;  ///< by block
   SceneModel made_;
 };
 

@@ -179,6 +179,15 @@ std::unique_ptr<fem::Term> shells(const Entry& entry, const solid::ShellElements
                            solid::shellPoints(elements, cubature));
 }
 
+std::unique_ptr<fem::PointLaw> thin(const deck::VonMises& entry, bool bars) {
+  return bars ? solid::barLaw(metal(entry)) : solid::membraneLaw(metal(entry));
+}
+template <class Entry>
+std::unique_ptr<fem::PointLaw> thin(const Entry& entry, bool bars) {
+  auto material = fem::pointLaw(solid::ShellMaterialStage<decltype(law(entry))>{law(entry)});
+  return bars ? solid::barLaw(std::move(material)) : solid::membraneLaw(std::move(material));
+}
+
 }  // namespace
 
 std::unique_ptr<fem::Term> materialTerm(const deck::Material& material, const fem::PointSet& points,
@@ -229,6 +238,12 @@ std::unique_ptr<fem::Term> shellTerm(const deck::Material& material, const solid
         return shells(entry, elements, cubature, shear);
       },
       material.law);
+}
+
+std::unique_ptr<fem::Term> thinTerm(const deck::Material& material, bool bars,
+                                    const solid::ThinPoints& points, const solid::ThinSection& section) {
+  return solid::thinTerm(std::visit([&](const auto& entry) { return thin(entry, bars); }, material.law),
+                         points, section);
 }
 
 }  // namespace atrapos::registry

@@ -8,6 +8,7 @@
 #include "atrapos/physics/Expansion.hpp"
 #include "atrapos/solid/PlaneBody.hpp"
 #include "atrapos/solid/ShellPoints.hpp"
+#include "atrapos/solid/ThinBody.hpp"
 #include "deck/Deck.hpp"
 
 /// The materials that decks can name. A new one is one struct in its package and one line in Registry.cpp.
@@ -35,5 +36,9 @@ std::unique_ptr<fem::Term> mixedTerm(const deck::Material& material, const fem::
 /// (solid::shellPoints).
 std::unique_ptr<fem::Term> shellTerm(const deck::Material& material, const solid::ShellElements& elements,
                                      const solid::ShellCubature& cubature, deck::Shear shear);
+
+/// The term of a material in membranes, or in bars.
+std::unique_ptr<fem::Term> thinTerm(const deck::Material& material, bool bars,
+                                    const solid::ThinPoints& points, const solid::ThinSection& section);
 
 }  // namespace atrapos::registry

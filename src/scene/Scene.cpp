@@ -6,6 +6,7 @@
 
 #include "plugin/Plugins.hpp"
 #include "scene/ModelMaker.hpp"
+#include "scene/ThinSections.hpp"
 
 namespace atrapos {
 namespace {
@@ -28,6 +29,7 @@ solid::PlaneSection planeSection(const deck::Plane& plane) {
 Scene::Scene(const deck::Deck& deck, DeckMesh mesh)
     : deck_(deck), mesh_(std::move(mesh.mesh)), givenRanks_(std::move(mesh.ranks)) {
   plugins::require(deck_);
+  markMembranes(deck_, mesh_);
   deck::checkAgainstMesh(deck_, mesh_);
   shells_ = sceneShells(deck_, mesh_);
   if (mesh_.dimension == 2) plane_ = deck_.plane ? planeSection(*deck_.plane) : solid::PlaneSection{};

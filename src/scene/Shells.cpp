@@ -17,7 +17,7 @@ namespace {
 std::vector<fem::ShellSection> sectionsOf(const deck::Deck& deck, const fem::Mesh& mesh) {
   std::vector<fem::ShellSection> sections;
   for (int b = 0; b < static_cast<int>(mesh.blocks.size()); ++b)
-    if (fem::isShell(mesh.blocks[b].topology)) sections.push_back({b, std::nullopt});
+    if (fem::isShell(mesh.blocks[b])) sections.push_back({b, std::nullopt});
   for (const deck::ShellSection& section : deck.shells.sections)
     for (const std::string& name : section.blocks)
       for (fem::ShellSection& s : sections)
@@ -69,7 +69,8 @@ std::vector<fem::PrescribedDirector> directorsInSymmetry(const deck::Deck& deck,
                                                          const fem::ShellGeometry& geometry) {
   std::set<int> facetNodes;
   for (const fem::Block& block : mesh.blocks)
-    if (isFacet(block.topology)) facetNodes.insert(block.nodes.begin(), block.nodes.end());
+    if (isFacet(block.topology) && fem::isShell(block))
+      facetNodes.insert(block.nodes.begin(), block.nodes.end());
   if (facetNodes.empty()) return {};
   const double largest =
       std::sin(deck.shells.foldAngle * M_PI / 180);  // beyond it the surface meets itself in a fold
@@ -114,7 +115,7 @@ int SceneShells::find(int block) const {
 
 SceneShells sceneShells(const deck::Deck& deck, fem::Mesh& mesh) {
   for (const fem::Block& block : mesh.blocks)
-    if (block.topology == fem::Topology::Shell9)
+    if (block.topology == fem::Topology::Shell9 && fem::isShell(block))
       deck::failAt(
           deck, "mesh/file",
           fmt::format("block '{}' has SHELL9; accepted are SHELL8, SHELL6, SHELL4 and SHELL3", block.name));

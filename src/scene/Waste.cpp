@@ -12,8 +12,6 @@
 namespace atrapos {
 namespace {
 
-bool isSolid(fem::Topology topology) { return !fem::isShell(topology) && !fem::isPlane(topology); }
-
 std::string thinBody(const fem::Mesh& mesh, const fem::Block& block) {
   constexpr double thin = 20;  // what shells leave out is a thousandth of the bending then, (t/L)^2
   auto sides = extentsOf(mesh, block).body;
@@ -46,7 +44,7 @@ bool standsStillAlong(const deck::Deck& deck, const fem::Mesh& mesh, int axis) {
   const auto [low, high] = rangeAlong(mesh, axis);
   const double near = 1e-9 * (high - low);  // rounding
   for (const fem::Block& block : mesh.blocks)
-    if (!isSolid(block.topology) || extentsOf(mesh, block).cell[axis] < high - low - near) return false;
+    if (!fem::isSolid(block.topology) || extentsOf(mesh, block).cell[axis] < high - low - near) return false;
   const auto held = heldAlong(deck, mesh, axis);
   for (int n = 0; n < mesh.numNodes(); ++n)
     if ((place(n) - low <= near || high - place(n) <= near) && held.count(n) == 0) return false;
@@ -86,7 +84,7 @@ std::vector<std::string> waste(const Scene& scene) {
           "xyz"[axis]));
   if (lines.empty())
     for (const fem::Block& block : mesh.blocks)
-      if (isSolid(block.topology))
+      if (fem::isSolid(block.topology))
         if (std::string line = thinBody(mesh, block); !line.empty()) lines.push_back(std::move(line));
   for (const ContactPoints& contact : scene.contacts())
     if (std::string line = sidesAway(contact, deck, mesh); !line.empty()) lines.push_back(std::move(line));

@@ -521,7 +521,7 @@ TEST(BadDeck, places) {
   expectLine(", radius: 50", "", ":16:3: tools/roll/radius: is missing; expected a number, positive");
   expectLine("path:", "ä: 1\npath:",
              ":19:1: ä: is not a key here; allowed are title, mesh, plugins, constants, materials, "
-             "physics, fields, plane, shells, supports, "
+             "physics, fields, plane, shells, membranes, bars, supports, "
              "couplings, loads, "
              "tools, contact, path, solver, output");
   expectLine("{tool: roll", "{tool: # ä\n    'rol'",

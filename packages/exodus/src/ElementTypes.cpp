@@ -36,6 +36,9 @@ std::optional<fem::Topology> topologyOf(const std::string& elementType, int node
   } else if (dimensions == 2 && begins("TRI")) {
     if (nodesPerElement == 3) return Topology::Tri3;
     if (nodesPerElement == 6) return Topology::Tri6;
+  } else if (dimensions == 3 && (begins("BAR") || begins("TRUSS"))) {
+    if (nodesPerElement == 2) return Topology::Bar2;
+    if (nodesPerElement == 3) return Topology::Bar3;
   } else if (dimensions == 3 && (nodesPerElement == 3 || nodesPerElement == 6) &&
              (begins("TRI") || begins("SHELL"))) {
     return nodesPerElement == 3 ? Topology::Shell3 : Topology::Shell6;
@@ -67,7 +70,7 @@ int firstSide(const std::string& elementType, int dimensions) {
 const char* acceptedElementTypes(int dimensions) {
   if (dimensions == 2) return "QUAD with 4, 8 or 9 nodes, TRI with 3 or 6";
   return "HEX with 8, 20 or 27 nodes, TET with 4 or 10, WEDGE or PENTA with 6 or 15, SHELL or QUAD "
-         "with 4, 8 or 9, TRISHELL, TRI or SHELL with 3 or 6";
+         "with 4, 8 or 9, TRISHELL, TRI or SHELL with 3 or 6, BAR or TRUSS with 2 or 3";
 }
 
 int numSides(fem::Topology topology) {
@@ -94,6 +97,9 @@ int numSides(fem::Topology topology) {
     case Topology::Tri3:
     case Topology::Tri6:
       return 3;
+    case Topology::Bar2:
+    case Topology::Bar3:
+      return 0;
   }
   return 0;
 }

@@ -236,7 +236,7 @@ TEST(ExodusMesh, linesAndPointsBecomeNodeSets) {
   ASSERT_EQ(ex_close(id), 0);
 
   expectMessage(messageOf([&] { exodus::readMesh(file()); }),
-                "block 'edge' (id 3): element type 'BAR2' with 2 nodes");
+                "block '' (id 7): element type 'SPHERE' with 1 nodes");
   const exodus::ForeignMesh read = exodus::readForeignMesh(file());
   ASSERT_EQ(read.mesh.blocks.size(), 1u);
   EXPECT_EQ(read.mesh.blocks[0].id, 5);

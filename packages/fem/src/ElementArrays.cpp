@@ -49,7 +49,7 @@ ElementArrays::ElementArrays(const PointSet& p) : numEntities_(p.numEntities), Q
   addPart(p);
   for (const Interpolation& other : p.more) addPart(other);
   batches_ = makeBatches(kLanes, numEntities_, P_, entityNodes_);
-  if (p.shapeComponents == 1) {
+  if (p.shapeComponents == 1 && p.ofPlaces) {
     // X, of as many coordinates as the field has components.
     std::vector<double> X;
     for (std::size_t point = 0; point < p.positions.size() / 3; ++point)

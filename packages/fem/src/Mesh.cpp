@@ -30,6 +30,10 @@ bool isShell(Topology topology) {
          topology == Topology::Shell8 || topology == Topology::Shell9;
 }
 
+bool isShell(const Block& block) { return isShell(block.topology) && !block.membrane; }
+
+bool isBar(Topology topology) { return topology == Topology::Bar2 || topology == Topology::Bar3; }
+
 int shellCorners(Topology topology) {
   return topology == Topology::Shell3 || topology == Topology::Shell6 ? 3 : 4;
 }
@@ -39,8 +43,13 @@ bool isPlane(Topology topology) {
          topology == Topology::Tri3 || topology == Topology::Tri6;
 }
 
+bool isSolid(Topology topology) { return !isShell(topology) && !isPlane(topology) && !isBar(topology); }
+
 int nodesPerElement(Topology topology) {
   switch (topology) {
+    case Topology::Bar2:
+      return 2;
+    case Topology::Bar3:
     case Topology::Shell3:
     case Topology::Tri3:
       return 3;
@@ -76,6 +85,10 @@ int nodesPerElement(Topology topology) {
 
 const char* topologyName(Topology topology) {
   switch (topology) {
+    case Topology::Bar2:
+      return "BAR2";
+    case Topology::Bar3:
+      return "BAR3";
     case Topology::Hex8:
       return "HEX8";
     case Topology::Hex20:

@@ -35,8 +35,8 @@ void appendPosition(const Mesh& mesh, const int* nodes, const Tabulation& t, int
 }
 
 PointSet volume(const Mesh& mesh, const Block& block, const Tabulation& t, bool gradients) {
-  if (isShell(block.topology) || isPlane(block.topology))
-    throw std::runtime_error(fmt::format("block '{}': {} is a surface and has no volume points", block.name,
+  if (!isSolid(block.topology))
+    throw std::runtime_error(fmt::format("block '{}': {} is no solid and has no volume points", block.name,
                                          topologyName(block.topology)));
   PointSet p;
   p.nodesPerEntity = t.numNodes;

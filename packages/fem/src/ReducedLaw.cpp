@@ -209,7 +209,9 @@ class ReducedLaw final : public PointLaw {
   }
 
   /// The inputs of the law, with those that are condensed. Newton's method from h = 0, so that the result is
-  /// a function of the inputs alone; a step that does not lower the output is halved.
+  /// a function of the inputs alone; a step that does not lower the output is halved. At the solution the
+  /// output grows with h; where it falls (rubber that resists changes of volume, stretched so far that its
+  /// stress falls with its volume) h + 1 is halved or grows by half.
   void solve(const PointBatch& points, const double* in, const Room& room) const {
     putInputs(points.numPoints, in, room.in);
     if (r_.condensed < 0) return;
@@ -227,7 +229,7 @@ class ReducedLaw final : public PointLaw {
         const int q = static_cast<int>(i / kLanes), lane = static_cast<int>(i % kLanes);
         if (lane >= points.lanes) continue;
         const double s = room.out[(q * full_.outputs + r_.condensed) * kLanes + lane];
-        if (n > 0 && !(std::abs(s) < best[i])) {
+        if (n > 0 && !(std::abs(s) < best[i] && h(i) > -1)) {
           // No better: at rounding it is done, else the step was too long.
           if (std::abs(step[i]) <= 4 * epsilon * (1 + std::abs(h(i)))) {
             h(i) -= step[i];
@@ -239,8 +241,17 @@ class ReducedLaw final : public PointLaw {
           all = false;
           continue;
         }
+        const double slope = room.at(q, r_.condensed, r_.condensed)[lane];
+        if (!(slope > 0)) {
+          // Beyond the largest output: back to where it grows.
+          best[i] = std::numeric_limits<double>::infinity();
+          step[i] = (s > 0 ? -0.5 : 0.5) * (1 + h(i));
+          h(i) += step[i];
+          all = false;
+          continue;
+        }
         best[i] = std::abs(s);
-        step[i] = -s / room.at(q, r_.condensed, r_.condensed)[lane];
+        step[i] = -s / slope;
         h(i) += step[i];
         all = all && std::abs(step[i]) <= epsilon * (1 + std::abs(h(i)));
       }

@@ -74,6 +74,10 @@ shards::CellTopology cellOf(Topology topology) {
     case Topology::Shell6:
     case Topology::Tri6:
       return shardsCell<shards::Triangle<6>>();
+    case Topology::Bar2:
+      return shardsCell<shards::Line<2>>();
+    case Topology::Bar3:
+      return shardsCell<shards::Line<3>>();
   }
   unknownShape();
 }
@@ -355,6 +359,10 @@ std::vector<int> defaultDegrees(Topology topology) {
     case Topology::Shell6:
     case Topology::Tri6:
       return {2};
+    case Topology::Bar2:
+      return {1};
+    case Topology::Bar3:
+      return {3};
   }
   unknownShape();
 }
@@ -373,6 +381,8 @@ Topology vertexCell(Topology topology) {
       return Topology::Quad4;
     case shards::Triangle<3>::key:
       return Topology::Tri3;
+    case shards::Line<2>::key:
+      return Topology::Bar2;
   }
   unknownShape();
 }
@@ -448,6 +458,7 @@ int numCorners(Face face) {
 }
 
 int numSides(Topology topology) {
+  if (isBar(topology)) return 0;
   const shards::CellTopology cell = cellWithSides(topology);
   if (isPlane(topology)) return static_cast<int>(cell.getSubcellCount(1));
   return static_cast<int>(cell.getSubcellCount(2) + (isShell(topology) ? cell.getSubcellCount(1) : 0));

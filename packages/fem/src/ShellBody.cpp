@@ -90,8 +90,8 @@ ShellBody shellBody(const Mesh& mesh, const ShellGeometry& shells) {
   }
   for (SideSet& set : body.mesh.sideSets)
     for (Side& side : set.sides)
-      if (const Topology cell = mesh.blocks[addressOf(mesh, side.element).block].topology; isShell(cell))
-        side.side = sideOf(cell, side.side);
+      if (const Block& block = mesh.blocks[addressOf(mesh, side.element).block]; isShell(block))
+        side.side = sideOf(block.topology, side.side);
   return body;
 }
 

@@ -26,7 +26,7 @@ Vec3 at(const std::vector<double>& vectors, std::size_t i) {
 std::vector<PointSet> shellFacePoints(const Mesh& mesh, const ShellGeometry& shells, const SideSet& set,
                                       double zeta, int degree) {
   for (const Side& side : set.sides)
-    if (!isShell(mesh.blocks[addressOf(mesh, side.element).block].topology) || side.side > 1)
+    if (!isShell(mesh.blocks[addressOf(mesh, side.element).block]) || side.side > 1)
       wrongSide(mesh, set, side, "face of a shell");
   return pointsOf(mesh, set, surfaceFaces(mesh, shells, set, zeta), degree);
 }

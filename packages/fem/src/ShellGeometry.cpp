@@ -85,14 +85,14 @@ class Builder {
     std::vector<int> count(mesh_.blocks.size(), 0);
     for (const ShellSection& section : sections_) {
       const Block& b = mesh_.blocks.at(section.block);
-      if (!isShell(b.topology))
+      if (!isShell(b))
         fail(fmt::format(
             "{}: has {}, no shells; a shell section is for SHELL3, SHELL4, SHELL6, SHELL8 or SHELL9",
             blockLabel(b), topologyName(b.topology)));
       if (++count[section.block] > 1) fail(fmt::format("{}: has two shell sections", blockLabel(b)));
     }
     for (std::size_t b = 0; b < mesh_.blocks.size(); ++b)
-      if (isShell(mesh_.blocks[b].topology) && count[b] == 0)
+      if (isShell(mesh_.blocks[b]) && count[b] == 0)
         fail(fmt::format("{}: its {} need a shell section with a thickness", blockLabel(mesh_.blocks[b]),
                          topologyName(mesh_.blocks[b].topology)));
   }

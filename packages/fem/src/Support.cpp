@@ -84,22 +84,30 @@ std::vector<FreeBody> freeBodies(const Mesh& mesh, const DofMap& dofs, const Sup
     size = std::max(size, high[i] - low[i]);
   }
 
-  std::map<int, std::array<double, 36>> gram;
-  for (const auto& body : bodies) gram[body.first].fill(0.0);
-  const auto hold = [&](int node, const std::array<double, 6>& row) {
-    const auto found = gram.find(root(node));
-    if (found == gram.end()) return;
+  using Gram = std::array<double, 36>;
+  std::map<int, Gram> gram, ofAll;  // of what is held, and of all displacements
+  for (const auto& body : bodies) {
+    gram[body.first].fill(0.0);
+    ofAll[body.first].fill(0.0);
+  }
+  const auto addTo = [&](std::map<int, Gram>& grams, int node, const std::array<double, 6>& row) {
+    const auto found = grams.find(root(node));
+    if (found == grams.end()) return;
     for (int i = 0; i < 6; ++i)
       for (int j = 0; j < 6; ++j) found->second[6 * j + i] += row[i] * row[j];
   };
+  const auto hold = [&](int node, const std::array<double, 6>& row) { addTo(gram, node, row); };
   for (int n = 0; n < numNodes; ++n) {
     const auto motions = rigidMotions(&mesh.coordinates[3 * n], centre, size);
-    for (int i = 0; moves(n) && i < mesh.dimension; ++i)
+    for (int i = 0; moves(n) && i < mesh.dimension; ++i) {
+      addTo(ofAll, n, motions[i]);
       if (supports.fixed(dofs.dof(field, n, i))) hold(n, motions[i]);
+    }
     if (mesh.dimension == 2)  // no motion leaves the plane
       for (const int motion : {2, 3, 4}) {
         std::array<double, 6> row{};
         row[motion] = 1;
+        addTo(ofAll, n, row);
         hold(n, row);
       }
   }
@@ -123,7 +131,8 @@ std::vector<FreeBody> freeBodies(const Mesh& mesh, const DofMap& dofs, const Sup
   }
   std::vector<FreeBody> result;
   for (const auto& [r, block] : bodies) {
-    const int motions = 6 - rank(gram[r]);
+    // Bars on one line do not feel a rotation about it.
+    const int motions = rank(ofAll[r]) - rank(gram[r]);
     if (motions > 0) result.push_back({block, motions});
   }
   return result;

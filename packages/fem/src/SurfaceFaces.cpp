@@ -33,7 +33,7 @@ std::vector<SurfaceFace> surfaceFaces(const Mesh& mesh, const ShellGeometry& she
       throw std::runtime_error(
           fmt::format("side set '{}': side {} of element {} is an edge, where a face is needed", set.name,
                       side.side + 1, mesh.elementNumber(side.element)));
-    if (zeta != 0 && !isShell(topology)) wrongSide(mesh, set, side, "face of a shell");
+    if (zeta != 0 && !isShell(mesh.blocks[b])) wrongSide(mesh, set, side, "face of a shell");
     const std::vector<int> local = sideNodes(topology, side.side);
     const std::size_t first = static_cast<std::size_t>(e) * nodesPerElement(topology);
     for (const int n : local) {

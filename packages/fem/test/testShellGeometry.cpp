@@ -466,7 +466,7 @@ TEST(ShellGeometry, SurfacesHaveNoVolumePoints) {
     volumePoints(mesh, mesh.blocks[0], tabulate(Topology::Shell8));
     FAIL();
   } catch (const std::runtime_error& e) {
-    EXPECT_STREQ(e.what(), "block 'shell': SHELL8 is a surface and has no volume points");
+    EXPECT_STREQ(e.what(), "block 'shell': SHELL8 is no solid and has no volume points");
   }
   try {
     facePoints(mesh, sideSet(mesh, "x_max"), 2);

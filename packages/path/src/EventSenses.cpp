@@ -41,9 +41,16 @@ bool rises(const std::vector<double>& c, double sense, double length, double noi
   return true;  // stays zero: nothing is violated
 }
 
-/// The length on which senses are looked at.
+/// The length on which senses are looked at. At a start no step says how long steps are, and a series that is
+/// a polynomial (bars that unload) reaches as far as one likes, where first derivatives are lost beside
+/// higher ones: there the nearest load factor that is a stop says it.
 double reachOf(const PathUnderWay& path, const Series& series) {
-  return std::min(series.radius(path.options.delta), path.options.maxStep);
+  double reach = std::min(series.radius(path.options.delta), path.options.maxStep.value_or(defaultMaxStep));
+  if (path.here.tangent) return reach;
+  for (const double lambda : path.stops.loadFactors)
+    if (const double a = std::abs((lambda - path.here.state.lambda) / series.lambdaCoefficient(1)); a > 0)
+      reach = std::min(reach, a);
+  return reach;
 }
 
 }  // namespace

@@ -29,9 +29,10 @@ void Options::validate() const {
   require(minCosine >= 0 && minCosine < 1, "minCosine", minCosine, "in [0, 1)");
   require(watchedModes >= 0, "watchedModes", watchedModes, ">= 0");
   require(hopfEigenvalues >= 0, "hopfEigenvalues", hopfEigenvalues, ">= 0");
-  require(positive(maxStep), "maxStep", maxStep, "positive and finite");
+  if (maxStep) require(positive(*maxStep), "maxStep", *maxStep, "positive and finite");
   require(positive(firstStep), "firstStep", firstStep, "positive and finite");
-  require(positive(minStep) && minStep < maxStep, "minStep", minStep, "positive and less than maxStep");
+  require(positive(minStep) && (!maxStep || minStep < *maxStep), "minStep", minStep,
+          "positive and less than maxStep");
   require(maxCutBacks >= 0, "maxCutBacks", maxCutBacks, ">= 0");
   require(maxSteps >= 0, "maxSteps", maxSteps, ">= 0");
 }

@@ -69,8 +69,11 @@ double PathUnderWay::correctAbove() const {
 }
 
 double PathUnderWay::longestLength() const {
-  if (!(here.relaxOver > 0 && here.residual > 0)) return options.maxStep;
-  return std::min(options.maxStep, here.relaxOver * (1 + 0.5 * bound() / here.residual));
+  constexpr double leastRate = 1e-9;
+  const double rate = here.tangent ? std::max(leastRate, std::abs(here.tangent->lambda)) : 1.0;
+  const double longest = options.maxStep.value_or(std::max(defaultMaxStep, 10 / rate));
+  if (!(here.relaxOver > 0 && here.residual > 0)) return longest;
+  return std::min(longest, here.relaxOver * (1 + 0.5 * bound() / here.residual));
 }
 
 }  // namespace atrapos::path

@@ -17,6 +17,9 @@ struct LastStep {
 };
 
 /// A path as it is followed: what the parts of Run have in common.
+/// Options::maxStep where nothing is said and lambda moves.
+constexpr double defaultMaxStep = 1e3;
+
 struct PathUnderWay {
   PathUnderWay(Calls& calls, const Options& options, const Stops& stops, const Start& start);
 

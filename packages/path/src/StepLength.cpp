@@ -32,7 +32,8 @@ bool goesNowhere(const PathUnderWay& path, const Series& series, const Trial& tr
   if (!series.standsStill() || trial.stop || !trial.events.empty()) return false;
   const double rate = series.lambdaCoefficient(1);
   const auto& stops = path.stops;
-  return trial.a >= rounded(path.options.maxStep) && !std::isfinite(stops.pathLength) &&
+  return trial.a >= rounded(path.options.maxStep.value_or(defaultMaxStep)) &&
+         !std::isfinite(stops.pathLength) &&
          std::none_of(stops.loadFactors.begin(), stops.loadFactors.end(),
                       [&](double stop) { return (stop - path.here.state.lambda) * rate > 0; });
 }
@@ -54,7 +55,7 @@ Trial acceptedTrial(const PathUnderWay& path, Series& series, StepReport& report
 double firstLength(const PathUnderWay& path, double radius) {
   const double last = path.here.lastLength;
   if (path.order == 1)  // no estimate, nothing to round
-    return last > 0 ? std::min(2 * last, path.options.maxStep) : path.options.firstStep;
+    return last > 0 ? std::min(2 * last, path.longestLength()) : path.options.firstStep;
   return rounded(std::min(radius, path.longestLength()));
 }
 

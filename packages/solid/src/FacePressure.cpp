@@ -51,7 +51,7 @@ std::vector<std::unique_ptr<fem::Term>> followerPressure(const fem::Mesh& mesh, 
   for (const fem::Side& side : set.sides) {
     const auto [b, e] = fem::addressOf(mesh, side.element);
     const fem::Block& block = mesh.blocks[b];
-    if (fem::isShell(block.topology))
+    if (fem::isShell(block))
       throw std::invalid_argument(
           fmt::format("side set '{}': element {} is a shell, whose pressures are those of its surfaces",
                       set.name, side.element + 1));

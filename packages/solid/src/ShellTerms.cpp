@@ -3,67 +3,30 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
-#include <numeric>
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "ShellSurface.hpp"
+#include "StagedMaterial.hpp"
 #include "atrapos/fem/LawTerm.hpp"
-#include "atrapos/fem/StagedLaw.hpp"
 
 namespace atrapos::solid {
 
 using detail::cross;
+using detail::joined;
+using detail::partsOf;
+using detail::pushForward;
+using detail::range;
+using detail::StagedParts;
 using detail::unit;
 using detail::Vec3;
 
 namespace {
 
-/// What a Kinematics gives to a law in stages.
-struct ShellParts {
-  std::unique_ptr<fem::PointLaw> strain, forces;
-  int inputs = 0, data = 0;
-  void (*gradient)(const double* x, const double* data, double* F) = nullptr;
-};
-
-template <class Kinematics>
-ShellParts partsOf() {
-  return {fem::pointLaw(ShellStrainStage<Kinematics>{}), fem::pointLaw(ShellForceStage<Kinematics>{}),
-          Kinematics::numInputs, Kinematics::numData, &Kinematics::gradient};
-}
-
-std::vector<int> range(int first, int count) {
-  std::vector<int> numbers(static_cast<std::size_t>(count));
-  std::iota(numbers.begin(), numbers.end(), first);
-  return numbers;
-}
-
-std::vector<int> joined(std::vector<int> a, const std::vector<int>& b) {
-  a.insert(a.end(), b.begin(), b.end());
-  return a;
-}
-
-/// F S F^T / volume, S and what it becomes in the order xx yy zz xy yz zx.
-void pushForward(const double* S, const double* F, double volume, double* sigma) {
-  for (int i = 0; i < 3; ++i)
-    for (int j = i; j < 3; ++j) {
-      double sum = 0;
-      for (int k = 0; k < 3; ++k)
-        for (int l = 0; l < 3; ++l) sum += F[3 * i + k] * S[taylor::symmetricIndex(k, l)] * F[3 * j + l];
-      sigma[taylor::symmetricIndex(i, j)] = sum / volume;
-    }
-}
-
-double determinant(const double* F) {
-  return F[0] * (F[4] * F[8] - F[5] * F[7]) - F[1] * (F[3] * F[8] - F[5] * F[6]) +
-         F[2] * (F[3] * F[7] - F[4] * F[6]);
-}
-
 /// Inputs x and e; data: the Kinematics', g. Cauchy stress is shown without the enhanced part in F.
-std::unique_ptr<fem::PointLaw> enhancedLaw(ShellParts parts, std::unique_ptr<fem::PointLaw> material) {
+std::unique_ptr<fem::PointLaw> enhancedLaw(StagedParts parts, std::unique_ptr<fem::PointLaw> material) {
   const int n = parts.inputs, strain = n + 1, stress = strain + 6;
   const std::vector<int> x = range(0, n), data = range(0, parts.data);
   fem::StagedPlan plan;
@@ -78,38 +41,7 @@ std::unique_ptr<fem::PointLaw> enhancedLaw(ShellParts parts, std::unique_ptr<fem
   plan.show = [=, gradient = parts.gradient](const double* wires, const double* at, double* shown) {
     double F[9];
     gradient(wires, at, F);
-    pushForward(wires + stress, F, determinant(F), shown);
-  };
-  return fem::stagedLaw(std::move(plan));
-}
-
-/// Inputs x; data: whether the point yields, the Kinematics', variables. Cauchy stress is shown without that
-/// of the director, whose stretch in F is not that of the metal.
-std::unique_ptr<fem::PointLaw> metalLaw(ShellParts parts, const Metal& metal) {
-  auto material = metal.kinematicModulus > 0 ? fem::pointLaw(ShellMetalStage<true>{metal})
-                                             : fem::pointLaw(ShellMetalStage<false>{metal});
-  const fem::LawShape shape = material->shape();
-  const int n = parts.inputs, V = shape.variables, strain = n, stress = strain + 6, event = stress + 6;
-  const std::vector<int> x = range(0, n), data = range(1, parts.data);
-  fem::StagedPlan plan;
-  plan.inputs = n;
-  plan.data = 1 + parts.data + V;
-  plan.symmetric = true;
-  plan.stages.push_back({std::move(parts.strain), x, data});
-  plan.stages.push_back({std::move(material), range(strain, 6), joined({0}, range(1 + parts.data, V))});
-  plan.stages.push_back({std::move(parts.forces), joined(x, range(stress, 6)), data});
-  plan.outputs = joined(range(stress + shape.outputs, n), range(event, 1 + V));
-  plan.names = Metal::observedNames();
-  plan.show = [=, gradient = parts.gradient](const double* wires, const double* at, double* shown) {
-    double F[9], S[6];
-    gradient(wires, at + 1, F);
-    std::copy_n(wires + stress, 6, S);
-    S[2] = 0;
-    const double* E = wires + strain;
-    const double across = detail::FlowRule<false, true>{metal}.across(E, wires + event + 1);
-    const double volume = std::sqrt((1 + 2 * across) / (1 + 2 * E[2])) * determinant(F);
-    pushForward(S, F, volume, shown);
-    shown[6] = wires[event + 1];
+    pushForward(wires + stress, F, detail::determinant(F), shown);
   };
   return fem::stagedLaw(std::move(plan));
 }
@@ -171,17 +103,19 @@ std::unique_ptr<fem::PointLaw> sixNodeShellLaw(std::unique_ptr<fem::PointLaw> ma
 }
 
 std::unique_ptr<fem::PointLaw> shellMetalLaw(const Metal& metal, ShellStrains strains, int nodesPerElement) {
-  switch (nodesPerElement) {
-    case 3:
-      return metalLaw(partsOf<TiedShell<Mitc3>>(), metal);
-    case 4:
-      return metalLaw(partsOf<TiedShell<Mitc4>>(), metal);
-    case 6:
-      return metalLaw(partsOf<TiedShell<Mitc6>>(), metal);
-    default:
-      return metalLaw(
-          isPlain(strains, nodesPerElement) ? partsOf<PlainShell>() : partsOf<AssumedShearShell>(), metal);
-  }
+  const auto parts = [&] {
+    switch (nodesPerElement) {
+      case 3:
+        return partsOf<TiedShell<Mitc3>>();
+      case 4:
+        return partsOf<TiedShell<Mitc4>>();
+      case 6:
+        return partsOf<TiedShell<Mitc6>>();
+      default:
+        return isPlain(strains, nodesPerElement) ? partsOf<PlainShell>() : partsOf<AssumedShearShell>();
+    }
+  };
+  return detail::metalLaw(parts(), detail::planeStressMetal(metal));
 }
 
 std::unique_ptr<fem::Term> shellMetalTerm(const Metal& metal, const ShellElements& elements,

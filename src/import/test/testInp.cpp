@@ -35,6 +35,8 @@ std::vector<std::array<double, 3>> corners(Topology cell) {
     case Topology::Tri3:
     case Topology::Tri6:
       return {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    case Topology::Bar2:
+      return {{-1, 0, 0}, {1, 0, 0}};
     default:
       return {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}};
   }
@@ -75,7 +77,10 @@ const std::vector<Element>& elements() {
       {"CPS6", Topology::Tri6, {{1, 2}, {2, 3}, {3, 1}}, kTriFaces},
       {"S3", Topology::Shell3, {}, {}},
       {"S6", Topology::Shell6, {{1, 2}, {2, 3}, {3, 1}}, {}},
-      {"S8R", Topology::Shell8, {{1, 2}, {2, 3}, {3, 4}, {4, 1}}, {}}};
+      {"S8R", Topology::Shell8, {{1, 2}, {2, 3}, {3, 4}, {4, 1}}, {}},
+      {"M3D6", Topology::Shell6, {{1, 2}, {2, 3}, {3, 1}}, {}},
+      {"M3D4R", Topology::Shell4, {}, {}},
+      {"T3D2", Topology::Bar2, {}, {}}};
   return all;
 }
 
@@ -289,6 +294,30 @@ TEST(Inp, DeckOfShells) {
   expectIn("x: 0, director_x: 0}");  // no turn about y and z: the director stays in the plane of symmetry
   expectIn("x: 0, y: 0, z: 0, director_y: 0}");  // none about x
   expectIn("load_factor: 2.5, displacement: {end: -7}");
+}
+
+TEST(Inp, DeckOfMembranesAndBars) {
+  const std::string text =
+      "*NODE\n1\n2,1\n3,1,1\n4,0,1\n5,.5,.5,-1\n*ELEMENT, TYPE=M3D4, ELSET=skin\n1, 1,2,3,4\n"
+      "*ELEMENT, TYPE=T3D2, ELSET=stays\n2, 1,5\n3, 2,5\n*ELEMENT, TYPE=T3D2, ELSET=thin\n4, 3,5\n"
+      "*MATERIAL, NAME=al\n*ELASTIC\n70000, .33\n*MEMBRANE SECTION, ELSET=skin, MATERIAL=al\n.1\n"
+      "*SOLID SECTION, ELSET=stays, MATERIAL=al\n20.\n*SOLID SECTION, ELSET=thin, MATERIAL=al\n";
+  const std::string step =
+      "*BOUNDARY\n5, 1, 3\n*STEP\n*STATIC\n*DLOAD\nskin, P, 2.\nstays, GRAV, 10., 0., 0., -1.\n*END STEP\n";
+  const std::string density = "*MATERIAL, NAME=al\n*DENSITY\n3.\n*ELASTIC\n";
+  const std::string whole = text + "5.\n" + step;
+  const Model model = readText(
+      std::string(whole).replace(whole.find("*MATERIAL, NAME=al\n*ELASTIC\n"), 28, density), Deck::yes);
+  const deck::Deck deck = deck::readDeckText("mesh: {file: m.exo}\n" + model.deck, "m.yaml");
+  ASSERT_EQ(deck.membranes.size(), 1u) << model.deck;
+  EXPECT_EQ(deck.membranes[0].blocks, std::vector<std::string>{"skin"});
+  EXPECT_EQ(deck.membranes[0].size, .1);
+  EXPECT_TRUE(model.mesh.blocks[0].attributes.empty());
+  ASSERT_EQ(deck.bars.size(), 2u) << model.deck;
+  EXPECT_EQ(deck.bars[0].size, 5);
+  EXPECT_EQ(deck.bars[1].size, 20);
+  EXPECT_NE(model.deck.find("force: [0, 0, -30]"), std::string::npos) << model.deck;
+  expectRefused(text + step, Deck::yes, ": has no area, which a deck needs");
 }
 
 TEST(Inp, Materials) {

@@ -11,7 +11,8 @@ namespace atrapos::exodus {
 /// Reads the mesh of an Exodus II file (NetCDF classic, 64-bit offset, or NetCDF-4).
 ///
 /// Element types are told by the beginning of their name (HEX, TET, WEDGE or PENTA, SHELL or QUAD; any case)
-/// and their node count; quadrilaterals are shells, and their attributes the thickness (fem::shellThickness).
+/// and their node count; quadrilaterals are shells, and their attributes the thickness (fem::shellThickness);
+/// BAR and TRUSS are bars.
 /// Ids, names, attributes and title are kept; sides become 0-based. Blocks without elements are left out.
 /// Node sets have their distribution factors where the file has some. Edge and face blocks, edge, face and
 /// element sets, and distribution factors of sides are not read, nor are results (see ResultReader).

@@ -13,6 +13,8 @@ namespace atrapos::fem {
 ///
 /// Plane cells (quadrilaterals and triangles) are the cross-sections of plane bodies, in the plane of x and
 /// y; their sides are their edges, counter-clockwise.
+///
+/// Bars are lines in space, without sides.
 enum class Topology {
   Hex8,
   Hex20,
@@ -30,14 +32,22 @@ enum class Topology {
   Quad8,
   Quad9,
   Tri3,
-  Tri6
+  Tri6,
+  Bar2,
+  Bar3
 };
 
 /// Whether a cell is a surface in space that stands for a body with a thickness.
 bool isShell(Topology topology);
 
+/// Whether a cell is a line in space that stands for a body with a cross-section.
+bool isBar(Topology topology);
+
 /// Whether a cell is the cross-section of a plane body.
 bool isPlane(Topology topology);
+
+/// Whether a cell is the body itself, in space.
+bool isSolid(Topology topology);
 
 /// Cells of one topology.
 struct Block {
@@ -47,7 +57,12 @@ struct Block {
   std::vector<int> nodes;  ///< [element][node], 0-based, Exodus node order
   std::vector<std::string> attributeNames;
   std::vector<double> attributes;  ///< [element][attribute]
+  /// Of surfaces in space that do not bend: their nodes have displacements alone, and no directors.
+  bool membrane = false;
 };
+
+/// Whether the cells of a block are shells, which bend.
+bool isShell(const Block& block);
 
 struct NodeSet {
   std::string name;
@@ -102,7 +117,8 @@ int shellCorners(Topology topology);
 int nodesPerElement(Topology topology);
 
 /// The name of a cell type, Exodus' but for SHELL3 and SHELL6 (TRISHELL3, TRISHELL6): SHELL3, HEX8, HEX20,
-/// HEX27, TET4, TET10, WEDGE6, WEDGE15, SHELL4, SHELL6, SHELL8, SHELL9, QUAD4, QUAD8, QUAD9, TRI3, TRI6.
+/// HEX27, TET4, TET10, WEDGE6, WEDGE15, SHELL4, SHELL6, SHELL8, SHELL9, QUAD4, QUAD8, QUAD9, TRI3, TRI6,
+/// BAR2, BAR3.
 const char* topologyName(Topology topology);
 
 /// Position of the block, node set or side set with this name or (decimal) id; -1 where there is none.

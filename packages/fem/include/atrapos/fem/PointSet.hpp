@@ -32,6 +32,9 @@ struct Interpolation {
 struct PointSet : Interpolation {
   int numEntities = 0;
   int pointsPerEntity = 0;
+  /// Whether one shape function a node is its value, so that inputs of displacements are places X + u; else
+  /// it is a derivative.
+  bool ofPlaces = true;
   /// [entity][point] cubature weight times Jacobian (volume, area; 1 at a node)
   std::vector<double> weights;
   std::vector<double> positions;  ///< [entity][point][3] in the reference configuration

@@ -13,8 +13,8 @@ struct Reduction {
   std::vector<int> inputs;   ///< [input of the law] that of the reduced law; -1: zero
   std::vector<int> outputs;  ///< [output of the reduced law] that of the law; -1: zero
   int numInputs = 0;         ///< of the reduced law
-  /// An input h of the law that is such that the output of the same number vanishes; -1: none. Its entry in
-  /// `inputs` is -1.
+  /// An input h of the law, a stretch less 1 and so above -1, that is such that the output of the same number
+  /// vanishes; -1: none. Its entry in `inputs` is -1.
   int condensed = -1;
 };
 

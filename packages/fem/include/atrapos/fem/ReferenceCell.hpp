@@ -26,7 +26,7 @@ int numCorners(Face face);
 struct Tabulation {
   int numNodes = 0;
   int numPoints = 0;
-  int dim = 0;  ///< of the reference domain: solids 3, shells, plane cells and faces 2, edges 1
+  int dim = 0;  ///< of the reference domain: solids 3, shells, plane cells and faces 2, edges and bars 1
   std::vector<double> points;     ///< [point][dim] reference coordinates
   std::vector<double> weights;    ///< [point], sum = volume (area) of the reference domain; empty where the
                                   ///< points are the caller's own
@@ -55,6 +55,8 @@ struct Tabulation {
 /// | Quad9   | 3 x 3     | full |
 /// | Tri3    | 1         | full: the strain is constant |
 /// | Tri6    | 3         | full: the strain is linear |
+/// | Bar2    | 1         | full: the strain is constant |
+/// | Bar3    | 2         | full: the strain is linear |
 ///
 /// A straight row of Hex20, one cell wide and one cell thick, keeps one such mode per cell even when clamped:
 /// use tabulate(Topology::Hex20, 5), 3 x 3 x 3 points, there. See docs/theory/elements.md. "Full" is meant
@@ -82,7 +84,7 @@ Tabulation tabulateFaceAt(Face face, const std::vector<double>& points);
 std::vector<double> referenceNodes(Topology topology);
 std::vector<double> referenceNodes(Face face);
 
-/// Number of sides of a cell.
+/// Number of sides of a cell; bars have none.
 int numSides(Topology topology);
 
 /// Shape of a side, 0 <= side < numSides; throws std::out_of_range for another number.

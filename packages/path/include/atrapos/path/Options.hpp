@@ -79,12 +79,15 @@ struct Options {
   /// eigenvalues are those of K, and pairs are counted only.
   int hopfEigenvalues = 0;
 
-  double maxStep = 1e3;     ///< longest step; bounds series that terminate
+  /// Longest step, which bounds series that terminate. None: 1e3, and no less than what changes lambda by 10:
+  /// the unknowns are weighed at the start, and where next to nothing moves there, as before a tool touches,
+  /// any motion is long later.
+  std::optional<double> maxStep;
   double firstStep = 1e-3;  ///< first trial step of order 1, which has no estimate; later trials double
   double minStep = 1e-10;   ///< a cut-back below this ends the path
   int maxCutBacks = 40;     ///< trials of shorter lengths of one series, >= 0: a force that begins unseen, as
-                         ///< that of a penalty law with a corner, lies any distance within its radius
-  int maxSteps = 1000;  ///< >= 0
+                            ///< that of a penalty law with a corner, lies any distance within its radius
+  int maxSteps = 1000;      ///< >= 0
 
   /// Throws std::invalid_argument with one line that names the knob, its value and what is accepted.
   void validate() const;

@@ -1,0 +1,113 @@
+// examples/thin/*.yaml and decks like them: membranes and trusses against closed forms, symmetry and
+// CalculiX.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "support/ExampleRun.hpp"
+
+namespace atrapos::test {
+namespace {
+
+/// A membrane of neo-Hookean rubber between straight edges, that does not stretch along them: an arc of a
+/// circle with one stretch l, whose force by unit of width is its pressure times the radius.
+struct Arc {
+  double shear = 0.4, bulk = 400, thickness = 0.5, prestress = 0.01, half = 50;
+
+  double pressure(double height) const {
+    const double angle = 2 * std::atan(height / half), l = angle / std::sin(angle);
+    const double lambda = bulk - 2 * shear / 3;
+    double t = 1 / l;  // across: no stress there
+    for (int i = 0; i < 50; ++i)
+      t -= (shear * (t * t - 1) + lambda * std::log(l * t)) / (2 * shear * t + lambda / t);
+    const double P = shear * (l - 1 / l) + lambda * std::log(l * t) / l;
+    return thickness * (P + prestress * l) * std::sin(angle) / half;
+  }
+};
+
+/// The largest relative error of the pressure along a path.
+double arcError(const std::string& divisions) {
+  // The series' own error is far below that of the mesh.
+  const ExampleRun run("thin/inflated.yaml", {{"divisions: [40, 1]", "divisions: [" + divisions + ", 1]"},
+                                              {"path:\n", "path:\n  accuracy: 1e-10\n  residual: 1e-10\n"}});
+  const auto load = run.column("load_factor"), height = run.column("height");
+  double worst = 0;
+  for (std::size_t i = 1; i < load.size(); ++i)
+    worst = std::max(worst, std::abs(0.01 * load[i] / Arc{}.pressure(height[i]) - 1));
+  EXPECT_NEAR(height.back(), 80, 1e-9);
+  return worst;
+}
+
+struct Point {
+  std::string kind;
+  double load, displacement;
+};
+std::vector<Point> pointsOf(const ExampleRun& run) {
+  std::vector<Point> points;
+  std::istringstream rows(readFile(run.folder.results("points.csv")));
+  std::string row;
+  std::getline(rows, row);
+  while (std::getline(rows, row)) {
+    std::vector<std::string> cells;
+    std::istringstream cellsOf(row);
+    for (std::string cell; std::getline(cellsOf, cell, ',');) cells.push_back(cell);
+    points.push_back({cells.at(4), std::stod(cells.at(3)), std::stod(cells.back())});
+  }
+  return points;
+}
+
+}  // namespace
+
+// Beyond the half circle, to a stretch of 2.3, with the order of quadratic cells in the energy.
+TEST(Membrane, BlownUpToAnArc) {
+  const double coarse = arcError("10"), fine = arcError("20");
+  EXPECT_LT(coarse, 5e-5);
+  EXPECT_NEAR(std::log2(coarse / fine), 4, 0.1);
+}
+
+// The force of both bars along z, S A z/L0 each, and its limits.
+TEST(Truss, TwoBarsSnapThrough) {
+  const ExampleRun run("thin/two_bars.yaml");
+  const double EA = 210e6 * 0.002, length = std::sqrt(104.0);
+  const auto load = run.column("load_factor"), sinking = run.column("sinking");
+  for (std::size_t i = 0; i < load.size(); ++i) {
+    const double z = 2 + sinking[i], strain = (z * z - 4) / (2 * length * length);
+    // The default bound of the residual, 1e-6 of the forces of the bars.
+    EXPECT_NEAR(1000 * load[i], -2 * EA * strain * z / length, 1e-6 * EA);
+  }
+  const auto points = pointsOf(run);
+  ASSERT_EQ(points.size(), 2u);
+  EXPECT_NEAR(points[0].displacement, -2 * (1 - 1 / std::sqrt(3.0)), 1e-5);
+  EXPECT_NEAR(points[1].displacement, -2 * (1 + 1 / std::sqrt(3.0)), 1e-5);
+}
+
+// The star turned inside out is the star pulled: what the path passes comes back mirrored.
+TEST(Truss, DomeAndItsMirrorImage) {
+  const ExampleRun run("thin/dome.yaml");
+  const double height = 8.216;
+  std::vector<Point> limits;
+  for (const Point& p : pointsOf(run))
+    if (p.kind == "maximum" || p.kind == "minimum") limits.push_back(p);
+  ASSERT_EQ(limits.size(), 7u);
+  EXPECT_NEAR(limits[0].load, 0.2962469, 1e-6);
+  for (const Point& p : limits) {
+    const auto mirrored = std::find_if(limits.begin(), limits.end(), [&](const Point& q) {
+      // Where a displacement's limit is, a load stands only to the root of the residual.
+      return std::abs(p.load + q.load) < 1e-4 &&
+             std::abs(p.displacement + q.displacement + 2 * height) < 1e-3;
+    });
+    EXPECT_TRUE(mirrored != limits.end() || &p == &limits[0]) << p.load;  // whose image lies beyond the stop
+  }
+}
+
+// CalculiX 2.20's T3D2 with NLGEOM: the apex under 200 N.
+TEST(Truss, DomeAsCalculix) {
+  const ExampleRun run("thin/dome.yaml", {{"displacement: {displacement: -15}", "load_factor: 0.2"}});
+  EXPECT_NEAR(run.column("displacement").back(), -0.3177794, 1e-6);
+}
+
+}  // namespace atrapos::test
