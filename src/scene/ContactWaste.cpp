@@ -63,7 +63,7 @@ std::string sidesAway(const ContactPoints& contact, const deck::Deck& deck, cons
   for (const fem::Side& side : set.sides) {
     const auto [b, e] = fem::addressOf(mesh, side.element);
     const fem::Block& block = mesh.blocks[b];
-    if (!fem::isSolid(block.topology)) continue;
+    if (fem::isShell(block.topology)) continue;
     ++all;
     away += isAway(sideOf(cornersOf(mesh, block, e, side.side)), *contact.atStart) ? 1 : 0;
   }

@@ -67,7 +67,10 @@ struct DeadLoads {
                                      fem::tabulate(mesh.blocks[block].topology, fem::loadDegree), *plane)},
             load.force, force);
       else if (const auto section = thin.find(block); section != thin.end())
-        solid::addThinBodyForce(mesh, mesh.blocks[block], section->second, load.force, force);
+        fem::addTraction({solid::thinValuePoints(mesh, mesh.blocks[block],
+                                                 fem::tabulate(mesh.blocks[block].topology, fem::loadDegree),
+                                                 section->second)},
+                         load.force, force);
       else if (i >= 0)
         solid::addShellBodyForce(shells.elements[i], load.force, force);
       else

@@ -17,6 +17,7 @@
 namespace atrapos::solid {
 
 using detail::cross;
+using detail::dot;
 using detail::joined;
 using detail::range;
 using detail::StagedParts;
@@ -40,7 +41,7 @@ ThinPlace placeAt(const fem::Mesh& mesh, const int* nodes, const fem::Tabulation
       p.x[i] += t.values[q * t.numNodes + n] * X;
       for (int d = 0; d < t.dim; ++d) p.tangents[d][i] += t.gradients[(q * t.numNodes + n) * t.dim + d] * X;
     }
-  const auto length = [](const Vec3& v) { return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); };
+  const auto length = [](const Vec3& v) { return std::sqrt(dot(v, v)); };
   if (t.dim == 1) {
     p.measure = length(p.tangents[0]);
     if (p.measure > 0) p.axes[0] = unit(p.tangents[0]);
@@ -57,37 +58,50 @@ ThinPlace placeAt(const fem::Mesh& mesh, const int* nodes, const fem::Tabulation
 
 /// dxi_d/dX_b along the axes, [d][b].
 std::array<double, 4> mapOf(const ThinPlace& p, int dim) {
-  const auto along = [&](int d, int b) {
-    return p.tangents[d][0] * p.axes[b][0] + p.tangents[d][1] * p.axes[b][1] +
-           p.tangents[d][2] * p.axes[b][2];
-  };
+  const auto along = [&](int d, int b) { return dot(p.tangents[d], p.axes[b]); };
   if (dim == 1) return {1 / along(0, 0), 0, 0, 0};
   const double g00 = along(0, 0), g01 = along(0, 1), g10 = along(1, 0), g11 = along(1, 1),
                det = g00 * g11 - g01 * g10;
   return {g11 / det, -g10 / det, -g01 / det, g00 / det};
 }
 
-void requireThin(const fem::Block& block) {
+/// A block's points, but for what each of them has.
+fem::PointSet emptyPoints(const fem::Block& block, const fem::Tabulation& cell) {
   if (!fem::isShell(block.topology) && !fem::isBar(block.topology))
     throw std::runtime_error(fmt::format("block '{}': {} is neither a surface nor a bar in space", block.name,
                                          fem::topologyName(block.topology)));
+  fem::PointSet p;
+  p.nodesPerEntity = cell.numNodes;
+  p.pointsPerEntity = cell.numPoints;
+  p.nodes = block.nodes;
+  p.numEntities = static_cast<int>(block.nodes.size()) / cell.numNodes;
+  return p;
 }
 
-ThinPlace soundPlace(const fem::Mesh& mesh, const fem::Block& block, const fem::Tabulation& t, int e, int q) {
-  const ThinPlace place = placeAt(mesh, &block.nodes[static_cast<std::size_t>(e) * t.numNodes], t, q);
-  if (!(place.measure > 0))
-    throw std::runtime_error(
-        fmt::format("block '{}', element {} (of the block) has no {} at a cubature point", block.name, e + 1,
-                    t.dim == 1 ? "length" : "area"));
-  return place;
+/// Appends weight and position of all points, and calls more(place, point of the cell).
+template <class More>
+void forEachPlace(const fem::Mesh& mesh, const fem::Block& block, const fem::Tabulation& cell,
+                  const ThinSection& section, fem::PointSet& p, const More& more) {
+  for (int e = 0; e < p.numEntities; ++e)
+    for (int q = 0; q < cell.numPoints; ++q) {
+      const ThinPlace place =
+          placeAt(mesh, &block.nodes[static_cast<std::size_t>(e) * cell.numNodes], cell, q);
+      if (!(place.measure > 0))
+        throw std::runtime_error(
+            fmt::format("block '{}', element {} (of the block) has no {} at a cubature point", block.name,
+                        e + 1, cell.dim == 1 ? "length" : "area"));
+      p.weights.push_back(cell.weights[q] * place.measure * section.size);
+      p.positions.insert(p.positions.end(), place.x.begin(), place.x.end());
+      more(place, q);
+    }
 }
 
 /// The material's strain across the body is such that there is no force. Inputs and data: the Kinematics',
-/// the last input being condensed.
-std::unique_ptr<fem::PointLaw> condensedLaw(StagedParts parts, std::unique_ptr<fem::PointLaw> material) {
+/// the last input being condensed, the last datum the stress at rest of the first `along` axes.
+std::unique_ptr<fem::PointLaw> condensedLaw(StagedParts parts, std::unique_ptr<fem::PointLaw> material,
+                                            int along) {
   const int n = parts.inputs, across = n - 1, strain = n, stress = strain + 6;
   const std::vector<int> x = range(0, n), data = range(0, parts.data);
-  const bool bar = parts.data == BarKinematics<true>::numData;
   fem::StagedPlan plan;
   plan.inputs = n;
   plan.data = parts.data;
@@ -102,8 +116,7 @@ std::unique_ptr<fem::PointLaw> condensedLaw(StagedParts parts, std::unique_ptr<f
     double F[9], S[6];
     gradient(wires, at, F);
     std::copy_n(wires + stress, 6, S);
-    S[0] += at[data.back()];
-    if (!bar) S[1] += at[data.back()];
+    for (int k = 0; k < along; ++k) S[k] += at[data.back()];
     detail::pushForward(S, F, detail::determinant(F), shown);
   };
   fem::Reduction reduction;
@@ -123,41 +136,43 @@ fem::Tabulation thinTabulation(fem::Topology topology) {
 
 ThinPoints thinPoints(const fem::Mesh& mesh, const fem::Block& block, const fem::Tabulation& cell,
                       const ThinSection& section) {
-  requireThin(block);
-  ThinPoints made;
+  ThinPoints made{emptyPoints(block, cell), {}};
   fem::PointSet& p = made.points;
-  p.nodesPerEntity = cell.numNodes;
-  p.pointsPerEntity = cell.numPoints;
   p.shapeComponents = cell.dim;
   p.ofPlaces = false;
-  p.nodes = block.nodes;
-  p.numEntities = static_cast<int>(block.nodes.size()) / cell.numNodes;
-  for (int e = 0; e < p.numEntities; ++e)
-    for (int q = 0; q < cell.numPoints; ++q) {
-      const ThinPlace place = soundPlace(mesh, block, cell, e, q);
-      p.weights.push_back(cell.weights[q] * place.measure * section.size);
-      p.positions.insert(p.positions.end(), place.x.begin(), place.x.end());
-      const auto map = mapOf(place, cell.dim);
-      for (int n = 0; n < cell.numNodes; ++n) {
-        const double* dN = &cell.gradients[(q * cell.numNodes + n) * cell.dim];
-        for (int b = 0; b < cell.dim; ++b) {
-          double sum = 0;
-          for (int d = 0; d < cell.dim; ++d) sum += dN[d] * map[2 * d + b];
-          p.shape.push_back(sum);
-        }
+  forEachPlace(mesh, block, cell, section, p, [&](const ThinPlace& place, int q) {
+    const auto map = mapOf(place, cell.dim);
+    for (int n = 0; n < cell.numNodes; ++n) {
+      const double* dN = &cell.gradients[(q * cell.numNodes + n) * cell.dim];
+      for (int b = 0; b < cell.dim; ++b) {
+        double sum = 0;
+        for (int d = 0; d < cell.dim; ++d) sum += dN[d] * map[2 * d + b];
+        p.shape.push_back(sum);
       }
-      for (int i = 0; i < 3; ++i)
-        for (int b = 0; b < cell.dim; ++b) made.axes.push_back(place.axes[b][i]);
     }
+    for (int i = 0; i < 3; ++i)
+      for (int b = 0; b < cell.dim; ++b) made.axes.push_back(place.axes[b][i]);
+  });
   return made;
 }
 
+fem::PointSet thinValuePoints(const fem::Mesh& mesh, const fem::Block& block, const fem::Tabulation& cell,
+                              const ThinSection& section) {
+  fem::PointSet p = emptyPoints(block, cell);
+  p.shapeComponents = 1;
+  forEachPlace(mesh, block, cell, section, p, [&](const ThinPlace&, int q) {
+    const double* N = &cell.values[static_cast<std::size_t>(q) * cell.numNodes];
+    p.shape.insert(p.shape.end(), N, N + cell.numNodes);
+  });
+  return p;
+}
+
 std::unique_ptr<fem::PointLaw> membraneLaw(std::unique_ptr<fem::PointLaw> material) {
-  return condensedLaw(detail::partsOf<MembraneKinematics<true>>(), std::move(material));
+  return condensedLaw(detail::partsOf<MembraneKinematics<true>>(), std::move(material), 2);
 }
 
 std::unique_ptr<fem::PointLaw> barLaw(std::unique_ptr<fem::PointLaw> material) {
-  return condensedLaw(detail::partsOf<BarKinematics<true>>(), std::move(material));
+  return condensedLaw(detail::partsOf<BarKinematics<true>>(), std::move(material), 1);
 }
 
 std::unique_ptr<fem::PointLaw> membraneLaw(const Metal& metal) {
@@ -188,22 +203,6 @@ std::unique_ptr<fem::Term> thinTerm(std::unique_ptr<fem::PointLaw> law, const Th
     *std::copy_n(&points.axes[p * axes], axes, at) = section.stress;
   }
   return fem::lawTerm(std::move(law), points.points, data);
-}
-
-void addThinBodyForce(const fem::Mesh& mesh, const fem::Block& block, const ThinSection& section,
-                      const std::array<double, 3>& perVolume, std::vector<double>& force) {
-  requireThin(block);
-  // Exact on elements with straight edges.
-  const fem::Tabulation t = fem::tabulate(block.topology, 4);
-  for (std::size_t e = 0; e < block.nodes.size() / t.numNodes; ++e)
-    for (int q = 0; q < t.numPoints; ++q) {
-      const double volume =
-          t.weights[q] * soundPlace(mesh, block, t, static_cast<int>(e), q).measure * section.size;
-      for (int n = 0; n < t.numNodes; ++n)
-        for (int i = 0; i < 3; ++i)
-          force[3 * static_cast<std::size_t>(block.nodes[e * t.numNodes + n]) + i] +=
-              volume * t.values[q * t.numNodes + n] * perVolume[i];
-    }
 }
 
 }  // namespace atrapos::solid

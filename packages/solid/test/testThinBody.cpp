@@ -11,6 +11,7 @@
 
 #include "MetalPath.hpp"
 #include "atrapos/fem/LawTerm.hpp"
+#include "atrapos/fem/Loads.hpp"
 #include "atrapos/fem/ReferenceCell.hpp"
 #include "atrapos/fem/StructuredShell.hpp"
 #include "atrapos/fem/TrussMesh.hpp"
@@ -350,7 +351,9 @@ TEST(ThinBody, WeightIsThatOfTheVolume) {
     double volume = 0;
     for (const double w : made.points.weights) volume += w;
     std::vector<double> force(mesh.coordinates.size());
-    addThinBodyForce(mesh, mesh.blocks[0], section, {1, 2, -3}, force);
+    fem::addTraction(
+        {thinValuePoints(mesh, mesh.blocks[0], fem::tabulate(mesh.blocks[0].topology, 4), section)},
+        {1, 2, -3}, force);
     double sum[3] = {};
     for (std::size_t d = 0; d < force.size(); ++d) sum[d % 3] += force[d];
     const double expected[3] = {volume, 2 * volume, -3 * volume};

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <memory>
 #include <vector>
 
@@ -32,6 +31,10 @@ struct ThinPoints {
 ThinPoints thinPoints(const fem::Mesh& mesh, const fem::Block& block, const fem::Tabulation& cell,
                       const ThinSection& section);
 
+/// The same with shape values (body forces).
+fem::PointSet thinValuePoints(const fem::Mesh& mesh, const fem::Block& block, const fem::Tabulation& cell,
+                              const ThinSection& section);
+
 /// A material as ShellMaterialStage<Material>, at thinPoints: plane stress in membranes, uniaxial in bars,
 /// by a condensed stretch across them.
 std::unique_ptr<fem::PointLaw> membraneLaw(std::unique_ptr<fem::PointLaw> material);
@@ -43,9 +46,5 @@ std::unique_ptr<fem::PointLaw> barLaw(const Metal& metal);
 /// The term of one of these laws.
 std::unique_ptr<fem::Term> thinTerm(std::unique_ptr<fem::PointLaw> law, const ThinPoints& points,
                                     const ThinSection& section);
-
-/// Adds a body force (per volume at rest) to nodal forces, [3 node + component].
-void addThinBodyForce(const fem::Mesh& mesh, const fem::Block& block, const ThinSection& section,
-                      const std::array<double, 3>& perVolume, std::vector<double>& force);
 
 }  // namespace atrapos::solid
