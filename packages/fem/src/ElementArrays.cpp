@@ -89,6 +89,8 @@ void ElementArrays::addPart(const Interpolation& of) {
   if (of.shape.size() != (view.mapped ? size : numEntities_ * size) ||
       of.maps.size() != (view.mapped ? static_cast<std::size_t>(numEntities_) * Q_ * C * C : 0))
     throw std::logic_error("ElementArrays: wrong number of shape functions or maps");
+  if (view.mapped && C != 2 && C != 3)
+    throw std::logic_error("ElementArrays: maps of lines or of more than a cell");
   view.shared = view.mapped || (numEntities_ > 0 && allEqual(of.shape, size));
   part.shape = upload("shape", view.shared ? std::vector<double>(of.shape.begin(), of.shape.begin() + size)
                                            : packed(of.shape, size));
