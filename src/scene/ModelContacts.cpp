@@ -264,7 +264,7 @@ BodySize ModelMaker::bodySize() const {
     const auto section = thin_.find(static_cast<int>(&block - mesh_.blocks.data()));
     const auto points =
         section != thin_.end()
-            ? solid::thinPoints(mesh_, block, solid::thinTabulation(block.topology), section->second).points
+            ? solid::thinValuePoints(mesh_, block, solid::thinTabulation(block.topology), section->second)
             : materialPoints(block, fem::tabulate(block.topology));
     volume += std::accumulate(points.weights.begin(), points.weights.end(), 0.0);
   }

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -61,18 +60,14 @@ struct LimitPoint {
   double load, stretch;
 };
 /// Limit points of the load, in the path's order: rows of points.csv of kind maximum or minimum. The stretch
-/// is one and the last column, growth.
+/// is one and the growth.
 std::vector<LimitPoint> limitPoints(const ExampleRun& run) {
+  const Table points(run.folder.results("points.csv"));
+  const auto kind = points.texts("kind");
+  const auto load = points.column("load_factor"), growth = points.column("growth");
   std::vector<LimitPoint> found;
-  std::istringstream rows(readFile(run.folder.results("points.csv")));
-  std::string row;
-  while (std::getline(rows, row)) {
-    std::vector<std::string> cells;
-    std::istringstream cellsOf(row);
-    for (std::string cell; std::getline(cellsOf, cell, ',');) cells.push_back(cell);
-    if (cells.at(4) == "maximum" || cells.at(4) == "minimum")
-      found.push_back({std::stod(cells.at(3)), 1 + std::stod(cells.back())});
-  }
+  for (std::size_t i = 0; i < kind.size(); ++i)
+    if (kind[i] == "maximum" || kind[i] == "minimum") found.push_back({load[i], 1 + growth[i]});
   return found;
 }
 

@@ -16,7 +16,6 @@ namespace atrapos::solid {
 
 using detail::cross;
 using detail::joined;
-using detail::partsOf;
 using detail::pushForward;
 using detail::range;
 using detail::StagedParts;
@@ -37,7 +36,7 @@ std::unique_ptr<fem::PointLaw> enhancedLaw(StagedParts parts, std::unique_ptr<fe
   plan.stages.push_back({std::move(material), joined(range(strain, 6), {n}), range(parts.data, 3)});
   plan.stages.push_back({std::move(parts.forces), joined(x, range(stress, 6)), data});
   plan.outputs = joined(range(stress + 7, n), {stress + 6});
-  plan.names = {"stress_xx", "stress_yy", "stress_zz", "stress_xy", "stress_yz", "stress_zx"};
+  plan.names = detail::stressNames();
   plan.show = [=, gradient = parts.gradient](const double* wires, const double* at, double* shown) {
     double F[9];
     gradient(wires, at, F);
@@ -79,6 +78,20 @@ bool isPlain(ShellStrains strains, int nodesPerElement) {
   return nodesPerElement == 8 && strains == ShellStrains::compatible;
 }
 
+StagedParts partsOf(ShellStrains strains, int nodesPerElement) {
+  switch (nodesPerElement) {
+    case 3:
+      return detail::partsOf<TiedShell<Mitc3>>();
+    case 4:
+      return detail::partsOf<TiedShell<Mitc4>>();
+    case 6:
+      return detail::partsOf<TiedShell<Mitc6>>();
+    default:
+      return isPlain(strains, nodesPerElement) ? detail::partsOf<PlainShell>()
+                                               : detail::partsOf<AssumedShearShell>();
+  }
+}
+
 /// Those of the enhanced element, whose weights and maps serve a metal too.
 fem::EnhancedPoints pointsOf(const Metal& metal, const ShellElements& elements, ShellStrains strains,
                              const ShellCubature& cubature) {
@@ -99,23 +112,11 @@ fem::EnhancedPoints pointsOf(const Metal& metal, const ShellElements& elements, 
 }  // namespace
 
 std::unique_ptr<fem::PointLaw> sixNodeShellLaw(std::unique_ptr<fem::PointLaw> material) {
-  return enhancedLaw(partsOf<TiedShell<Mitc6>>(), std::move(material));
+  return enhancedLaw(detail::partsOf<TiedShell<Mitc6>>(), std::move(material));
 }
 
 std::unique_ptr<fem::PointLaw> shellMetalLaw(const Metal& metal, ShellStrains strains, int nodesPerElement) {
-  const auto parts = [&] {
-    switch (nodesPerElement) {
-      case 3:
-        return partsOf<TiedShell<Mitc3>>();
-      case 4:
-        return partsOf<TiedShell<Mitc4>>();
-      case 6:
-        return partsOf<TiedShell<Mitc6>>();
-      default:
-        return isPlain(strains, nodesPerElement) ? partsOf<PlainShell>() : partsOf<AssumedShearShell>();
-    }
-  };
-  return detail::metalLaw(parts(), detail::planeStressMetal(metal));
+  return detail::metalLaw(partsOf(strains, nodesPerElement), detail::planeStressMetal(metal));
 }
 
 std::unique_ptr<fem::Term> shellMetalTerm(const Metal& metal, const ShellElements& elements,

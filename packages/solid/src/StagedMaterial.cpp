@@ -17,6 +17,10 @@ std::vector<int> joined(std::vector<int> a, const std::vector<int>& b) {
   return a;
 }
 
+std::vector<std::string> stressNames() {
+  return {"stress_xx", "stress_yy", "stress_zz", "stress_xy", "stress_yz", "stress_zx"};
+}
+
 void pushForward(const double* S, const double* F, double volume, double* sigma) {
   for (int i = 0; i < 3; ++i)
     for (int j = i; j < 3; ++j) {

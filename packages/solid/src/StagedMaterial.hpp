@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <memory>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -29,6 +30,9 @@ StagedParts partsOf() {
 /// first, first + 1, ...
 std::vector<int> range(int first, int count);
 std::vector<int> joined(std::vector<int> a, const std::vector<int>& b);
+
+/// Of Cauchy stress.
+std::vector<std::string> stressNames();
 
 /// F S F^T / volume, S and what it becomes in the order xx yy zz xy yz zx.
 void pushForward(const double* S, const double* F, double volume, double* sigma);

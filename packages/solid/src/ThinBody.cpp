@@ -111,7 +111,7 @@ std::unique_ptr<fem::PointLaw> condensedLaw(StagedParts parts, std::unique_ptr<f
       {std::move(material), joined(range(strain, 6), {across}), {-1, -1, -1}});  // e g x g = 0
   plan.stages.push_back({std::move(parts.forces), joined(x, range(stress, 6)), data});
   plan.outputs = range(stress + 7, n);
-  plan.names = {"stress_xx", "stress_yy", "stress_zz", "stress_xy", "stress_yz", "stress_zx"};
+  plan.names = detail::stressNames();
   plan.show = [=, gradient = parts.gradient](const double* wires, const double* at, double* shown) {
     double F[9], S[6];
     gradient(wires, at, F);

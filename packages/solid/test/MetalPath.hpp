@@ -1,5 +1,7 @@
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <cmath>
 #include <vector>
 
@@ -61,6 +63,36 @@ struct Uniaxial {
   }
   double stress(double g, double sense) const { return sense * m.strength(g) + backAt(g, sense); }
   double strain(double g, double sense) const { return stress(g, sense) / E + plastic + sense * (g - gamma); }
+  /// Goes on in the other sense, after the first way out to this gamma.
+  void turnBack(double g) {
+    back = backAt(g, 1);
+    plastic = gamma = g;
+  }
 };
+
+/// Strain and shown stress of bars stretched by 1 + lambda are the closed form's, where they yield in this
+/// sense; also(state, S, step) looks at more there.
+template <class Also>
+void expectBar(const fem::FeProblem& problem, const Steps& steps, const Uniaxial& exact, double sense,
+               const Also& also) {
+  int yielding = 0;
+  for (std::size_t s = 0; s < steps.reports.size(); ++s)
+    for (int i = 1; i <= 4; ++i) {
+      const path::State state = steps.series[s].state(steps.reports[s].length * i / 4);
+      const auto shown = problem.observe(0, state);
+      const double gamma = shown.values.at(6);
+      if (gamma == exact.gamma) continue;
+      ++yielding;
+      // Series of an accuracy of 1e-9 of forces; a dozen of steps.
+      const double strain = state.lambda + 0.5 * state.lambda * state.lambda;
+      EXPECT_NEAR(strain, exact.strain(gamma, sense), 1e-7 * yield / E) << "step " << s;
+      // sigma = F S F^T/J, (1 + 2 E) of which across is what the closed form's lateral strain says.
+      const double S = exact.stress(gamma, sense), across = -nu * S / E - 0.5 * (strain - S / E);
+      EXPECT_NEAR(shown.values.at(0), S * (1 + state.lambda) / (1 + 2 * across), 1e-6 * yield)
+          << "step " << s;
+      also(state, S, s);
+    }
+  EXPECT_GE(yielding, 4);
+}
 
 }  // namespace atrapos::solid::test

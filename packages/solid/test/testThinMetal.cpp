@@ -160,27 +160,6 @@ std::unique_ptr<fem::Term> metalTerm(const ShellGrid& grid, const Metal& m, int 
                         cubature);
 }
 
-/// S_xx and E_xx of the closed form at the point's gamma, along a path of stretch 1 + lambda.
-void expectBar(const fem::FeProblem& problem, const Steps& steps, const Uniaxial& exact) {
-  int yielding = 0;
-  for (std::size_t s = 0; s < steps.reports.size(); ++s)
-    for (int i = 1; i <= 4; ++i) {
-      const path::State state = steps.series[s].state(steps.reports[s].length * i / 4);
-      const auto shown = problem.observe(0, state);
-      const double gamma = shown.values.at(6);
-      if (gamma == 0) continue;
-      ++yielding;
-      // Series of an accuracy of 1e-9 of forces; a dozen of steps.
-      const double strain = state.lambda + 0.5 * state.lambda * state.lambda;
-      EXPECT_NEAR(strain, exact.strain(gamma, 1), 1e-7 * yield / E) << "step " << s;
-      // sigma = F S F^T/J, (1 + 2 E) of which across is what the closed form's lateral strain says.
-      const double S = exact.stress(gamma, 1), across = -nu * S / E - 0.5 * (strain - S / E);
-      EXPECT_NEAR(shown.values.at(0), S * (1 + state.lambda) / (1 + 2 * across), 1e-6 * yield)
-          << "step " << s;
-    }
-  EXPECT_GE(yielding, 4);
-}
-
 }  // namespace
 
 TEST(ThinMetal, BarsAreUniaxial) {
@@ -190,7 +169,7 @@ TEST(ThinMetal, BarsAreUniaxial) {
     const Followed out(problem, {problem.initialState(0), 0.0}, 0.02);
     ASSERT_EQ(out.outcome.reason, path::EndReason::stopReached) << out.outcome.text;
     EXPECT_EQ(out.outcome.events, 1);  // all points at once
-    expectBar(problem, out.steps, {m});
+    expectBar(problem, out.steps, {m}, 1, [](const path::State&, double, std::size_t) {});
   }
   for (const Shear shear : {Shear::compatible, Shear::assumed, Shear::mitc4, Shear::mitc3, Shear::mitc6}) {
     const ShellGrid grid = shellGrid(2, 1, 0.1, flat(1, 1), undistorted, nodesOf(shear));
@@ -208,7 +187,7 @@ TEST(ThinMetal, BarsAreUniaxial) {
     const Followed out(problem, {problem.initialState(0), 0.0}, 0.02);
     ASSERT_EQ(out.outcome.reason, path::EndReason::stopReached) << out.outcome.text;
     EXPECT_EQ(out.outcome.events, 1);
-    expectBar(problem, out.steps, {m});
+    expectBar(problem, out.steps, {m}, 1, [](const path::State&, double, std::size_t) {});
   }
 }
 

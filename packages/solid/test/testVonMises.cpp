@@ -91,9 +91,7 @@ void thereAndBack(const Metal& m) {
   ASSERT_EQ(back.outcome.reason, path::EndReason::stopReached) << back.outcome.text;
   EXPECT_EQ(back.outcome.events, 2);  // unloading, and yielding the other way
   const double gamma = problem.observe(0, out.outcome.final).values.at(6);
-  exact.back = exact.backAt(gamma, 1);
-  exact.plastic = gamma;
-  exact.gamma = gamma;
+  exact.turnBack(gamma);
   expectUniaxial(problem, back.steps, exact, -1);
 }
 

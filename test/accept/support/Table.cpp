@@ -32,12 +32,17 @@ Table::Table(const std::filesystem::path& file) : file_(file.string()) {
   }
 }
 
-std::vector<double> Table::column(const std::string& name) const {
+std::vector<std::string> Table::texts(const std::string& name) const {
   const auto at = std::find(names_.begin(), names_.end(), name);
   if (at == names_.end()) throw std::runtime_error(file_ + ": no column " + name);
+  std::vector<std::string> found;
+  for (const auto& row : rows_) found.push_back(row[static_cast<std::size_t>(at - names_.begin())]);
+  return found;
+}
+
+std::vector<double> Table::column(const std::string& name) const {
   std::vector<double> values;
-  for (const auto& row : rows_) {
-    const std::string& cell = row[static_cast<std::size_t>(at - names_.begin())];
+  for (const std::string& cell : texts(name)) {
     char* end = nullptr;
     values.push_back(std::strtod(cell.c_str(), &end));
     if (cell.empty() || *end != 0)

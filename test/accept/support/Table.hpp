@@ -17,6 +17,8 @@ class Table {
   const std::vector<std::string>& names() const { return names_; }
   /// Throws std::runtime_error where there is no such column or a cell is no number.
   std::vector<double> column(const std::string& name) const;
+  /// Its cells as they are. Throws std::runtime_error where there is no such column.
+  std::vector<std::string> texts(const std::string& name) const;
 
  private:
   std::string file_;
