@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "atrapos/fem/PointSet.hpp"
+#include "atrapos/fem/SharedEdges.hpp"
 #include "scene/Sets.hpp"
 
 namespace atrapos {
@@ -149,8 +150,9 @@ fem::ShellJoints joinShells(const deck::Deck& deck, const fem::Mesh& mesh, const
                                joint.set, deck.shells.foldAngle));
   }
   try {
-    return fem::joinShells(model, mesh, shells.geometry, deck::largestYoungsModulus(deck),
-                           {hinges.begin(), hinges.end()});
+    const double youngsModulus = deck::largestYoungsModulus(deck);
+    fem::coupleSharedEdges(model, mesh, shells.geometry, youngsModulus);
+    return fem::joinShells(model, mesh, shells.geometry, youngsModulus, {hinges.begin(), hinges.end()});
   } catch (const std::invalid_argument& e) {
     deck::failAt(deck, "shells", e.what());
   }
@@ -179,6 +181,16 @@ std::vector<std::string> describe(const fem::Mesh& mesh, const SceneShells& shel
   }
   if (parts > most)
     lines.push_back(fmt::format("normals   {} shells turned over in {} parts in all", elements, parts));
+  if (!shells.geometry.followers.empty())
+    lines.push_back(fmt::format(
+        "edges     {} are shared by shells with and without middle nodes: the middles follow the ends",
+        shells.geometry.followers.size()));
+  if (const std::vector<int> nodes = fem::middlesAtCorners(mesh); !nodes.empty())
+    lines.push_back(fmt::format(
+        "warning   {} nodes are in the middle of an edge of one shell and a corner of another (first node "
+        "{}): their "
+        "edges do not fit between the nodes, and stresses there are off; give both sides the same edges",
+        nodes.size(), mesh.nodeNumber(nodes.front())));
   const std::size_t rigid = shells.joints.rigid.size(), hinged = shells.joints.hinged.size();
   if (rigid + hinged > 0)
     lines.push_back(

@@ -28,8 +28,9 @@ struct SceneShells {
 /// deck::DeckError for shells that cannot be, and for SHELL9.
 SceneShells sceneShells(const deck::Deck& deck, fem::Mesh& mesh);
 
-/// Makes the folds and branches of the shells rigid joints, those excepted that the deck has as hinges; after
-/// the supports and couplings of the model. Throws deck::DeckError.
+/// Couples shared edges (fem::coupleSharedEdges) and makes the folds and branches of the shells rigid joints,
+/// those excepted that the deck has as hinges; after the supports and couplings of the model. Throws
+/// deck::DeckError.
 fem::ShellJoints joinShells(const deck::Deck& deck, const fem::Mesh& mesh, const SceneShells& shells,
                             fem::FeModel& model);
 

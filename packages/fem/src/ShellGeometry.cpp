@@ -12,6 +12,7 @@
 #include "Labels.hpp"
 #include "Vec3.hpp"
 #include "atrapos/fem/ReferenceCell.hpp"
+#include "atrapos/fem/SharedEdges.hpp"
 
 namespace atrapos::fem {
 namespace {
@@ -54,7 +55,9 @@ class Builder {
       addBlock(static_cast<int>(s));
     }
     checkOrientation();
+    findSharedEdges();
     addDirectors();
+    alignFollowers();
     for (std::size_t s = 0; s < sections_.size(); ++s) checkBodies(static_cast<int>(s));
     return std::move(result_);
   }
@@ -159,12 +162,6 @@ class Builder {
     atBranch_.assign(mesh_.numNodes(), 0);
     for (const auto& edge : edges) {
       const std::vector<Use>& uses = edge.second;
-      for (const Use& use : uses)
-        if (hasMiddles(use.from.section) != hasMiddles(uses[0].from.section))
-          fail(fmt::format(
-              "{} and {} have a common edge that is straight for one and has a middle node for the "
-              "other: shells with and without middle nodes may share corners alone",
-              label(uses[0].from.section, uses[0].from.element), label(use.from.section, use.from.element)));
       if (uses.size() > 2)
         for (const Corner& c : {uses[0].from, uses[0].to}) atBranch_[node(c.section, c.element, c.local)] = 1;
       if (uses.size() > 2 && hasMiddles(uses[0].from.section))
@@ -187,6 +184,42 @@ class Builder {
     }
   }
 
+  void findSharedEdges() {
+    followers_.resize(mesh_.numNodes());
+    for (const SharedEdge& edge : sharedEdges(mesh_)) {
+      const auto section = std::find_if(sections_.begin(), sections_.end(),
+                                        [&](const ShellSection& s) { return s.block == edge.block; });
+      const int s = static_cast<int>(section - sections_.begin());
+      const int local = corners(s) + edge.edge;
+      followers_[node(s, edge.element, local)].push_back({s, edge.element, local});
+    }
+  }
+
+  /// Directors halfway between those that their element has at the ends of a shared edge.
+  void alignFollowers() {
+    for (int n = 0; n < mesh_.numNodes(); ++n)
+      for (const Corner& middle : followers_[n]) {
+        ShellBlock& shells = result_.blocks[middle.section];
+        const int N = shells.nodesPerElement, count = corners(middle.section), a = middle.local - count;
+        const int* nodes = &shells.nodes[2 * static_cast<std::size_t>(N) * middle.element];
+        EdgeFollower f;
+        f.node = n;
+        f.director = nodes[N + middle.local];
+        Vec3 D{};
+        for (int end = 0; end < 2; ++end) {
+          const Corner c{middle.section, middle.element, (a + end) % count};
+          f.ends[end] = nodes[c.local];
+          f.endDirectors[end] = nodes[N + c.local];
+          f.endScales[end] = shells.directorScale[at(c)];
+          for (int i = 0; i < 3; ++i) D[i] += 0.5 * shells.directors[3 * at(c) + i];
+        }
+        std::copy(D.begin(), D.end(), &shells.directors[3 * at(middle)]);
+        std::copy(D.begin(), D.end(),
+                  &result_.directors[3 * static_cast<std::size_t>(f.director - result_.numMeshNodes)]);
+        result_.followers.push_back(f);
+      }
+  }
+
   void addDirectors() {
     std::map<int, Vec3> prescribed;
     for (const PrescribedDirector& p : options_.directors) {
@@ -200,7 +233,9 @@ class Builder {
     for (int n = 0; n < mesh_.numNodes(); ++n) {
       result_.firstDirector.push_back(result_.numDirectors());
       const auto given = prescribed.find(n);
-      if (given != prescribed.end())
+      if (!followers_[n].empty())
+        for (const Corner& c : corners_[n]) addDirector(n, {c}, std::nullopt);
+      else if (given != prescribed.end())
         addDirector(n, corners_[n], given->second);
       else
         for (const auto& group :
@@ -340,6 +375,7 @@ class Builder {
   std::vector<std::vector<double>> thickness_;  // [section][element][node]
   std::vector<std::vector<Vec3>> normals_;      // [section][element][node]
   std::vector<std::vector<Corner>> corners_;    // [mesh node]
+  std::vector<std::vector<Corner>> followers_;  // [mesh node] of shared edges, which it is the middle of
   ShellGeometry result_;
 };
 

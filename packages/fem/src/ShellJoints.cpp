@@ -224,10 +224,13 @@ ShellJoints joinShells(FeModel& model, const Mesh& mesh, const ShellGeometry& sh
   std::vector<char> hinged(static_cast<std::size_t>(shells.numMeshNodes), 0);
   for (const int n : hinges) hinged.at(static_cast<std::size_t>(n)) = 1;
   const Independent independent(model);
+  std::vector<char> follows(static_cast<std::size_t>(shells.numMeshNodes), 0);
+  for (const EdgeFollower& f : shells.followers) follows[static_cast<std::size_t>(f.node)] = 1;
   Points angles(2), directions(3);
   ShellJoints joints;
   for (int node = 0; node < shells.numMeshNodes; ++node) {
     if (shells.firstDirector[node + 1] - shells.firstDirector[node] < 2) continue;
+    if (follows[static_cast<std::size_t>(node)]) continue;  // the joints at the ends of its edge hold it
     (hinged[static_cast<std::size_t>(node)] ? joints.hinged : joints.rigid).push_back(node);
     if (hinged[static_cast<std::size_t>(node)]) continue;
     const Joint joint = jointAt(shells, node);

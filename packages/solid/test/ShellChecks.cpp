@@ -33,6 +33,13 @@ Numbers randomState(const fem::FeModel& model, double amplitude, unsigned seed) 
   return u;
 }
 
+void keepTo(const fem::FeModel& model, double lambda, Numbers& u) {
+  for (const auto& c : model.couplings.resolved(model.dofs, model.supports)) {
+    u[c.dof] = lambda * c.perLoadFactor;
+    for (const auto& m : c.masters) u[c.dof] += m.factor * u[m.dof];
+  }
+}
+
 void expectTangent(fem::FeProblem& problem, const Numbers& u, const Numbers& direction, double lambda) {
   const Numbers exact = tangent(problem, u, lambda).times(direction);
   const auto error = [&](double h) {

@@ -7,6 +7,9 @@ namespace atrapos::solid::test {
 /// A state off the linear range: random displacements of this size at free dofs, 0 at the supports.
 Numbers randomState(const fem::FeModel& model, double amplitude, unsigned seed);
 
+/// Makes a vector keep to the couplings, at this rate of the load factor; masters first.
+void keepTo(const fem::FeModel& model, double lambda, Numbers& u);
+
 /// Central differences of the residual against the tangent along `direction` (zero at prescribed dofs): their
 /// error falls like h^2.
 void expectTangent(fem::FeProblem& problem, const Numbers& u, const Numbers& direction, double lambda);

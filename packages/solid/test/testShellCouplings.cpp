@@ -19,14 +19,6 @@ namespace {
 
 using Node = std::array<double, 3>;
 
-/// Makes a vector keep to the couplings, at this rate of the load factor; masters first.
-void keepTo(const fem::FeModel& model, double lambda, Numbers& u) {
-  for (const auto& c : model.couplings.resolved(model.dofs, model.supports)) {
-    u[c.dof] = lambda * c.perLoadFactor;
-    for (const auto& m : c.masters) u[c.dof] += m.factor * u[m.dof];
-  }
-}
-
 /// A cantilever strip of length 10, width 1 along x, its free end attached to a rigid body at the end's
 /// centre.
 struct RigidEnd {

@@ -43,12 +43,22 @@ struct ShellBlock {
   int numElements() const { return static_cast<int>(nodes.size()) / (2 * nodesPerElement); }
 };
 
+/// The middle of an edge that a shell without middle nodes shares: what is there follows the ends
+/// (SharedEdges.hpp). The element's director is halfway between those at the ends, and so is its change:
+/// w = (s_a w_a + s_b w_b)/2.
+struct EdgeFollower {
+  int node = 0, director = 0;  ///< of the middle, its director this element's own
+  std::array<int, 2> ends{}, endDirectors{};
+  std::array<double, 2> endScales{1, 1};  ///< s: ShellBlock::directorScale of the element at the ends
+};
+
 struct ShellGeometry {
   int numMeshNodes = 0;
   std::vector<ShellBlock> blocks;
-  std::vector<int> firstDirector;  ///< [mesh node], one more at the end; none where no shell is
-  std::vector<int> meshNode;       ///< [director] where it stands; ascending
-  std::vector<double> directors;   ///< [director][3] D
+  std::vector<EdgeFollower> followers;  ///< until coupleSharedEdges they are free
+  std::vector<int> firstDirector;       ///< [mesh node], one more at the end; none where no shell is
+  std::vector<int> meshNode;            ///< [director] where it stands; ascending
+  std::vector<double> directors;        ///< [director][3] D
 
   int numDirectors() const { return static_cast<int>(meshNode.size()); }
   /// Nodes of 3 dofs each, for FeModel::numNodes: those of the mesh, then the director nodes.
