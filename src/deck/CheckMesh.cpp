@@ -257,6 +257,14 @@ class MeshCheck {
     if (coupling.kind == Coupling::Kind::ShellOnSolid && !hasShells(coupling.set)) {
       fail(path + "/set", fmt::format("no node of '{}' belongs to shells", coupling.set));
     }
+    if (coupling.reference.empty()) return;
+    const std::string& name = coupling.reference;
+    nodes(path + "/reference", name);
+    const int set = fem::findNodeSet(mesh_, name);
+    const std::size_t count = set >= 0 ? mesh_.nodeSets[static_cast<std::size_t>(set)].nodes.size()
+                                       : fem::nodesOf(mesh_, sideSet(name)).size();
+    if (count != 1)
+      fail(path + "/reference", fmt::format("'{}' has {} nodes; expected a set of one node", name, count));
   }
 
   void contact(const Contact& contact) const {

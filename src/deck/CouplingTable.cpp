@@ -26,7 +26,9 @@ const Table<Coupling>& couplingTable() {
   static const Table<Coupling> table{
       choice("kind", required, &Coupling::kind, kinds, "what the nodes keep to"),
       name("set", required, &Coupling::set, "a node set or side set, name or id", "nodes that move together"),
-      normal};
+      normal,
+      name("reference", optional, &Coupling::reference, "a node set of one node, name or id",
+           "of a rigid body: a point of it, where supports and loads may be; no cell need have it")};
   return table;
 }
 

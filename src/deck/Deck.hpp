@@ -242,6 +242,7 @@ struct Coupling {
   std::string set;  ///< node set, else side set
   Kind kind = Kind::Rigid;
   std::optional<Vector3> normal;  ///< plane only, not zero, any length
+  std::string reference;          ///< rigid only, a node set of one node; empty: none
 };
 
 // ---------------------------------------------------------------------------------------------- loads

@@ -130,6 +130,9 @@ const Table<Deck>& deckTable() {
         if (!plane && c.normal) {
           v.at(c.name).at("normal").fail("is for kind: plane alone");
         }
+        if (c.kind != Coupling::Kind::Rigid && !c.reference.empty()) {
+          v.at(c.name).at("reference").fail("is for kind: rigid alone");
+        }
       }
     };
     auto shells =

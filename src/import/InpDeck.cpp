@@ -22,13 +22,15 @@ constexpr std::size_t mostMonitors = 12;
 
 class DeckMaker {
  public:
-  DeckMaker(InpModel& model, const InpStep& step, InpMesh& mesh) : model_(model), step_(step), mesh_(mesh) {}
+  DeckMaker(InpModel& model, const InpStep& step, const InpRigidMotions& rigid, InpMesh& mesh)
+      : model_(model), step_(step), rigid_(rigid), mesh_(mesh) {}
 
   std::string operator()() {
     addMaterials();
     if (mesh_.mesh.dimension == 2) addPlane();
     addThin(Family::membrane, "thickness", membranes_);
     addThin(Family::bar, "area", bars_);
+    addCouplings();  // whose sets have names of their own
     addSupports();
     addForces();
     addPressures();
@@ -51,6 +53,7 @@ class DeckMaker {
 
   void addMaterials() {
     std::map<std::size_t, std::set<int>> blocksOf;  // by the material's place
+    std::map<std::size_t, bool> finite;             // whether metals may have large strains
     for (std::size_t e = 0; e < model_.elements.size(); ++e) {
       const InpSection* const section = sectionOf(static_cast<int>(e));
       const int material = section == nullptr ? -1 : model_.materials.position(section->material);
@@ -59,12 +62,17 @@ class DeckMaker {
                                 section == nullptr ? *model_.file : section->place.text(),
                                 model_.elementIds[e]));
       blocksOf[static_cast<std::size_t>(material)].insert(mesh_.blockAt[e]);
+      const Family family = model_.elements[e].type->family;
+      const bool massive =
+          family == Family::solid || family == Family::planeStrain || family == Family::axisymmetric;
+      const auto at = finite.emplace(static_cast<std::size_t>(material), step_.nonlinearGeometry).first;
+      at->second = at->second && massive;
     }
     for (const auto& [place, blocks] : blocksOf) {
       const std::string& name = model_.materials.all()[place].first;
       std::vector<std::string> names;
       for (const int b : blocks) names.push_back(mesh_.mesh.blocks[static_cast<std::size_t>(b)].name);
-      materials_.add(name, fmt::format("{}, blocks: {}", inpLaw(model_, name), listOf(names)));
+      materials_.add(name, fmt::format("{}, blocks: {}", inpLaw(model_, name, finite[place]), listOf(names)));
     }
   }
 
@@ -151,6 +159,18 @@ class DeckMaker {
       tellOnce(support.place, "*BOUNDARY: a rotation is left out that is about none of the shell's axes");
     for (const int d : directors.value_or(std::set<int>())) add(fmt::format("director_{}: 0", "xyz"[d]));
     return keys;
+  }
+
+  void addCouplings() {
+    for (const InpRigidMotions::Coupling& c : rigid_.couplings()) {
+      const std::string number = std::to_string(couplings_.size() + 1),
+                        set = mesh_.nodeSet(c.nodes, "rigid_" + number);
+      if (set.empty()) continue;  // of elements that were left out
+      std::string keys = fmt::format("kind: {}, set: {}", c.turns ? "rigid" : "equal", deck::yaml(set));
+      if (c.reference >= 0)
+        keys += ", reference: " + deck::yaml(mesh_.nodeSet({c.reference}, "reference_" + number));
+      couplings_.add(set, keys);
+    }
   }
 
   void tellOnce(const InpPlace& place, const std::string& what) {
@@ -281,7 +301,9 @@ class DeckMaker {
     result += "materials:\n" + materials_.text(2) + plane_;
     if (membranes_.size() > 0) result += "membranes:\n" + membranes_.text(2);
     if (bars_.size() > 0) result += "bars:\n" + bars_.text(2);
-    result += "supports:\n" + supports_.text(2) + "loads:\n" + loads_.text(2);
+    result += "supports:\n" + supports_.text(2);
+    if (couplings_.size() > 0) result += "couplings:\n" + couplings_.text(2);
+    result += "loads:\n" + loads_.text(2);
     if (loads_.size() == 0) result.erase(result.size() - 7);  // driven by supports
     result += path_;
     if (monitors_.size() > 0) result += "output:\n  monitors:\n" + monitors_.text(4);
@@ -290,10 +312,11 @@ class DeckMaker {
 
   InpModel& model_;
   const InpStep& step_;
+  const InpRigidMotions& rigid_;
   InpMesh& mesh_;
   std::set<std::string> told_;
   bool loaded_ = false;  ///< something depends on the load factor
-  DeckEntries materials_, membranes_, bars_, supports_, loads_, monitors_;
+  DeckEntries materials_, membranes_, bars_, supports_, couplings_, loads_, monitors_;
   std::string plane_, path_;
 };
 
@@ -309,12 +332,12 @@ std::vector<std::vector<int>> inpCuts(const InpStep& step) {
   return {cuts.begin(), cuts.end()};
 }
 
-std::string inpDeck(InpModel& model, const InpStep& step, InpMesh& mesh) {
+std::string inpDeck(InpModel& model, const InpStep& step, const InpRigidMotions& rigid, InpMesh& mesh) {
   for (const InpCard* card : model.transforms)
     card->place.fail(
         "*TRANSFORM: supports and forces along axes of their own have no equal; import without --deck makes "
         "the mesh");
-  return DeckMaker(model, step, mesh)();
+  return DeckMaker(model, step, rigid, mesh)();
 }
 
 }  // namespace atrapos::importer

@@ -6,6 +6,7 @@
 
 #include "deck/Characters.hpp"
 #include "import/Import.hpp"
+#include "import/InpPlastic.hpp"
 
 namespace atrapos::importer {
 namespace {
@@ -25,13 +26,16 @@ std::vector<double> constants(InpModel& model, const InpCard& card, std::size_t 
   return numbers;
 }
 
-std::string elastic(InpModel& model, const InpCard& card) {
+/// With *PLASTIC, null: none.
+std::string elastic(InpModel& model, const InpCard& card, const InpCard* plastic, bool finite) {
   const std::string type = card.word("TYPE", "ISO");
   if (type != "ISO" && type != "ISOTROPIC")
     card.place.fail(
         fmt::format("*ELASTIC, TYPE={}: no law here is equal; expected ISO", deck::shortened(type)));
   const auto c = constants(model, card, 2);
-  return fmt::format("law: saint_venant_kirchhoff, youngs_modulus: {}, poissons_ratio: {}", c[0], c[1]);
+  const std::string constants = fmt::format("youngs_modulus: {}, poissons_ratio: {}", c[0], c[1]);
+  if (plastic == nullptr) return "law: saint_venant_kirchhoff, " + constants;
+  return "law: von_mises, " + constants + ", " + inpPlastic(model, *plastic, finite);
 }
 
 double bulkModulus(double d, const InpPlace& place) {
@@ -86,14 +90,17 @@ std::string hyperelastic(InpModel& model, const InpCard& card) {
 
 }  // namespace
 
-std::string inpLaw(InpModel& model, const std::string& name) {
+std::string inpLaw(InpModel& model, const std::string& name, bool finite) {
   const InpMaterial* const material = model.materials.find(name);
-  const InpCard *law = nullptr, *linear = nullptr;
+  const InpCard *law = nullptr, *linear = nullptr, *plastic = nullptr;
   for (const InpCard* card : material->cards) {
     if (card->keyword == "HYPERELASTIC") law = card;
     if (card->keyword == "ELASTIC") linear = card;
+    if (card->keyword == "PLASTIC") plastic = card;
   }
   if (law != nullptr) {
+    if (plastic != nullptr)
+      plastic->place.fail("*PLASTIC beside *HYPERELASTIC: no law here is equal; expected it beside *ELASTIC");
     const std::string text = hyperelastic(model, *law);
     model.remark(law->place,
                  "*HYPERELASTIC: the energy of the volume is kappa/4 (J^2 - 1 - 2 ln J), near J = 1 the same "
@@ -103,7 +110,7 @@ std::string inpLaw(InpModel& model, const std::string& name) {
   if (linear == nullptr)
     material->place.fail(
         fmt::format("material '{}' has neither *ELASTIC nor *HYPERELASTIC", deck::shortened(name)));
-  return elastic(model, *linear);
+  return elastic(model, *linear, plastic, finite);
 }
 
 double inpDensity(const InpModel& model, const std::string& name, const InpPlace& place) {

@@ -38,20 +38,21 @@ void requireOneFamily(const InpModel& model) {
 
 }  // namespace
 
-InpMesh::InpMesh(InpModel& model, const std::vector<std::vector<int>>& cuts) {
+InpMesh::InpMesh(InpModel& model, const std::vector<std::vector<int>>& cuts, const std::vector<int>& more) {
   if (model.elements.empty())
     throw Error(fmt::format("{}: has no element that this program knows; known are {}", *model.file,
                             inpElementNames()));
   requireOneFamily(model);
   mesh.title = deck::beginOf(deck::plainLine(model.title), 80);  // what Exodus holds
   mesh.dimension = fem::isPlane(model.elements.front().type->topology) ? 2 : 3;
-  takeNodes(model);
+  takeNodes(model, more);
   takeElements(model, cuts);
   takeSets(model);
 }
 
-void InpMesh::takeNodes(InpModel& model) {
+void InpMesh::takeNodes(InpModel& model, const std::vector<int>& more) {
   nodeAt.assign(model.nodeIds.size(), -1);
+  for (const int node : more) nodeAt[static_cast<std::size_t>(node)] = 0;
   for (const int node : model.connectivity) nodeAt[static_cast<std::size_t>(node)] = 0;
   std::size_t dropped = 0;
   for (std::size_t n = 0; n < nodeAt.size(); ++n) {

@@ -66,6 +66,14 @@ struct InpMaterial {
   std::vector<const InpCard*> cards;  ///< *ELASTIC and so on
 };
 
+/// *RIGID BODY: nodes that keep their places to each other.
+struct InpRigidBody {
+  InpPlace place;
+  std::vector<int> nodes;  ///< positions
+  int reference = -1;      ///< node that leads; -1: none
+  int rotation = -1;  ///< node whose components 1 to 3 are the body's turns; -1: 4 to 6 of the reference are
+};
+
 /// The part of an input file before its steps, elements and nodes by their position.
 struct InpModel {
   const std::string* file = nullptr;  ///< of the first card
@@ -81,6 +89,8 @@ struct InpModel {
   InpNamed<std::vector<InpFace>> surfaces;
   std::vector<InpSection> sections;
   InpNamed<InpMaterial> materials;
+  std::vector<InpRigidBody> rigidBodies;
+  int ties = 0;                            ///< pairs of surfaces in *TIE
   std::vector<const InpCard*> boundaries;  ///< *BOUNDARY before the first step
   std::vector<const InpCard*> transforms;  ///< *TRANSFORM
   std::vector<const InpCard*> steps;       ///< from the first *STEP on
@@ -105,6 +115,9 @@ InpModel readInpModel(const InpSource& source);
 /// is neither; nothing for an element that may be one of those left out.
 std::vector<int> inpNodes(const InpModel& model, std::string_view field, const InpPlace& place);
 std::vector<int> inpElements(const InpModel& model, std::string_view field, const InpPlace& place);
+
+/// The nodes of a face, positions.
+std::vector<int> inpFaceNodes(const InpModel& model, const InpFace& face);
 
 /// The face that a label names (S1, P2, SPOS, ...) of an element, its side in Exodus' order; nothing where it
 /// has none of this name.

@@ -2,6 +2,7 @@
 #include "import/InpDeck.hpp"
 #include "import/InpMesh.hpp"
 #include "import/InpModel.hpp"
+#include "import/InpRigidMotions.hpp"
 #include "import/InpStep.hpp"
 
 namespace atrapos::importer {
@@ -11,12 +12,13 @@ Model readInp(const std::string& file, Deck deck) {
   InpModel model = readInpModel(source);
   Model result;
   if (deck == Deck::yes) {
-    const InpStep step = readInpStep(model);
-    InpMesh mesh(model, inpCuts(step));
-    result.deck = inpDeck(model, step, mesh);
+    InpStep step = readInpStep(model);
+    const InpRigidMotions rigid(model, step);
+    InpMesh mesh(model, inpCuts(step), rigid.references());
+    result.deck = inpDeck(model, step, rigid, mesh);
     result.mesh = std::move(mesh.mesh);
   } else {
-    result.mesh = InpMesh(model, {}).mesh;
+    result.mesh = InpMesh(model, {}, {}).mesh;
   }
   result.remarks = std::move(model.remarks);
   if (model.moreRemarks > 0)

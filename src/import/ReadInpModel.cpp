@@ -13,6 +13,7 @@
 #include "deck/Characters.hpp"
 #include "import/Import.hpp"
 #include "import/InpModel.hpp"
+#include "import/InpTies.hpp"
 
 namespace atrapos::importer {
 namespace {
@@ -37,6 +38,8 @@ class ModelReader {
       for (auto& named : sets->all()) makeSet(named.second);
     for (const InpCard* card : cards_) readSet(*card);
     for (const InpCard* card : cards_) readRest(*card);
+    for (const InpCard* card : cards_)
+      if (card->keyword == "TIE") tieInpSurfaces(model_, *card);
     assignSections();
     return std::move(model_);
   }
@@ -264,18 +267,54 @@ class ModelReader {
     if (k == "HEADING") return readTitle(card);
     if (k == "SURFACE") return readSurface(card);
     if (k == "SOLIDSECTION" || k == "SHELLSECTION" || k == "MEMBRANESECTION") return readSection(card);
+    if (k == "RIGIDBODY") return readRigidBody(card);
+    if (k == "TIE") return;  // when all surfaces are there
     if (k == "BOUNDARY") return model_.boundaries.push_back(&card);
     if (k == "MATERIAL") {
       material_ = &model_.materials[nameOf(card, "NAME")];
       material_->place = card.place;
       return;
     }
-    if (k == "ELASTIC" || k == "HYPERELASTIC" || k == "DENSITY") {
+    if (k == "ELASTIC" || k == "HYPERELASTIC" || k == "PLASTIC" || k == "DENSITY") {
       if (material_ == nullptr) card.place.fail(fmt::format("*{}: is before the first *MATERIAL", k));
       return material_->cards.push_back(&card);
     }
     if (k == "TRANSFORM") model_.transforms.push_back(&card);
     model_.remark(card.place, fmt::format("*{}: left out", deck::shortened(k)));
+  }
+
+  void readRigidBody(const InpCard& card) {
+    InpRigidBody body;
+    body.place = card.place;
+    for (const char* set : {"NSET", "TIENSET", "PINNSET"})
+      if (const std::string* name = card.find(set)) {
+        const auto nodes = inpNodes(model_, *name, card.place);
+        body.nodes.insert(body.nodes.end(), nodes.begin(), nodes.end());
+      }
+    if (const std::string* name = card.find("ELSET"))
+      for (const int e : inpElements(model_, *name, card.place)) {
+        const InpElement& element = model_.elements[static_cast<std::size_t>(e)];
+        const int* nodes = &model_.connectivity[element.firstNode];
+        body.nodes.insert(body.nodes.end(), nodes, nodes + element.type->nodes);
+      }
+    count(body.nodes.size(), card.place);
+    makeSet(body.nodes);
+    if (body.nodes.empty())
+      return model_.remark(card.place, "*RIGID BODY: left out, no NSET or ELSET names nodes that it has");
+    if (card.has("PINNSET"))
+      model_.remark(card.place, "*RIGID BODY, PIN NSET: directors of shells there turn with the body");
+    const auto single = [&](const char* parameter) {
+      const std::string* name = card.find(parameter);
+      if (name == nullptr) return -1;
+      const auto nodes = inpNodes(model_, *name, card.place);
+      if (nodes.size() != 1)
+        card.place.fail(
+            fmt::format("*RIGID BODY, {}: names {} nodes; expected one", parameter, nodes.size()));
+      return nodes.front();
+    };
+    body.reference = single("REFNODE");
+    body.rotation = single("ROTNODE");
+    model_.rigidBodies.push_back(std::move(body));
   }
 
   void readTitle(const InpCard& card) {
@@ -323,16 +362,13 @@ class ModelReader {
   }
 
   std::array<int, 4> corners(int element, int side) const {
-    const InpElement& e = model_.elements[static_cast<std::size_t>(element)];
-    const auto local = fem::sideNodes(e.type->topology, side);
-    const auto& order = inpNodeOrder(e.type->topology);
-    const std::size_t count = fem::isPlane(e.type->topology)           ? 2
-                              : local.size() == 3 || local.size() == 6 ? 3
-                                                                       : 4;
+    const std::vector<int> all = inpFaceNodes(model_, {element, side});
+    const std::size_t count = fem::isPlane(model_.elements[static_cast<std::size_t>(element)].type->topology)
+                                  ? 2
+                              : all.size() == 3 || all.size() == 6 ? 3
+                                                                   : 4;
     std::array<int, 4> nodes{-1, -1, -1, -1};
-    for (std::size_t i = 0; i < count; ++i)
-      nodes[i] = model_.connectivity[e.firstNode +
-                                     static_cast<std::size_t>(order[static_cast<std::size_t>(local[i])])];
+    for (std::size_t i = 0; i < count; ++i) nodes[i] = all[i];
     std::sort(nodes.begin(), nodes.end());
     return nodes;
   }
@@ -416,6 +452,16 @@ std::vector<int> inpElements(const InpModel& model, std::string_view field, cons
       model.elementAt.count(inpInteger(field, place, "element", 1, mostId)) == 0)
     return {};
   return itemsOf(model.elementAt, model.elementSets, field, place, "element");
+}
+
+std::vector<int> inpFaceNodes(const InpModel& model, const InpFace& face) {
+  const InpElement& e = model.elements[static_cast<std::size_t>(face.element)];
+  const auto& order = inpNodeOrder(e.type->topology);
+  std::vector<int> nodes;
+  for (const int local : fem::sideNodes(e.type->topology, face.side))
+    nodes.push_back(
+        model.connectivity[e.firstNode + static_cast<std::size_t>(order[static_cast<std::size_t>(local)])]);
+  return nodes;
 }
 
 std::optional<int> inpFace(fem::Topology topology, std::string_view label) {

@@ -15,6 +15,11 @@ namespace {
 
 using Kind = deck::Coupling::Kind;
 
+/// The node that leads a rigid body; -1: none does.
+int referenceOf(const fem::Mesh& mesh, const deck::Coupling& coupling) {
+  return coupling.reference.empty() ? -1 : nodesOf(mesh, coupling.reference).front();
+}
+
 /// v . n of all nodes is that of the first, and directors stay in the plane: w . n = 0.
 void addPlane(const deck::Vector3& normal, const std::vector<int>& nodes, const fem::ShellGeometry& shells,
               fem::FeModel& model) {
@@ -33,13 +38,20 @@ void addPlane(const deck::Vector3& normal, const std::vector<int>& nodes, const 
     }
 }
 
-/// The nodes and their directors on one rigid body about their centre.
-void addRigid(const fem::Mesh& mesh, const std::vector<int>& nodes, const fem::ShellGeometry& shells,
-              double youngsModulus, fem::FeModel& model) {
+/// The nodes and their directors on one rigid body, about their centre or a node `reference` of it (-1:
+/// none), which leads: what supports it supports the body.
+void addRigid(const fem::Mesh& mesh, const std::vector<int>& nodes, int reference,
+              const fem::ShellGeometry& shells, double youngsModulus, fem::FeModel& model) {
+  const auto X = [&](int node) {
+    const double* x = &mesh.coordinates[3 * static_cast<std::size_t>(node)];
+    return std::array<double, 3>{x[0], x[1], x[2]};
+  };
   std::array<double, 3> centre{};
-  const auto X = [&](int node) { return &mesh.coordinates[3 * static_cast<std::size_t>(node)]; };
-  for (int node : nodes)
-    for (int i = 0; i < 3; ++i) centre[i] += X(node)[i] / static_cast<double>(nodes.size());
+  if (reference >= 0)
+    centre = X(reference);
+  else
+    for (int node : nodes)
+      for (int i = 0; i < 3; ++i) centre[i] += X(node)[i] / static_cast<double>(nodes.size());
   double size = 0;
   const auto directorOf = [&](int director) {
     return &shells.directors[3 * static_cast<std::size_t>(director - shells.numMeshNodes)];
@@ -53,8 +65,9 @@ void addRigid(const fem::Mesh& mesh, const std::vector<int>& nodes, const fem::S
   }
   const double arms = size > 0 ? size : 1.0;
   const fem::RigidBody body(model, centre, arms, youngsModulus * arms);
+  if (reference >= 0) fem::coupleEqual(model.couplings, model.dofs, {reference, body.originNode()});
   for (int node : nodes) {
-    body.attach(model, node, {X(node)[0], X(node)[1], X(node)[2]});
+    if (node != reference) body.attach(model, node, X(node));
     for (int director : shells.directorNodes(node)) {
       const double* D = directorOf(director);
       body.attachDirector(model, director, {D[0], D[1], D[2]});
@@ -111,7 +124,8 @@ void ModelMaker::addCouplings() {
           addPlane(*coupling.normal, nodes, g, made_.model);
           break;
         case Kind::Rigid:
-          addRigid(mesh_, nodes, g, deck::largestYoungsModulus(deck_), made_.model);
+          addRigid(mesh_, nodes, referenceOf(mesh_, coupling), g, deck::largestYoungsModulus(deck_),
+                   made_.model);
           break;
         case Kind::ShellOnSolid:
           for (int node : nodes)
@@ -137,8 +151,11 @@ std::vector<std::pair<int, int>> ModelMaker::joinedNodes() const {
   std::vector<std::pair<int, int>> joined;
   for (const deck::Coupling& coupling : deck_.couplings) {
     const std::vector<int> nodes = nodesOf(mesh_, coupling.set);
-    if (coupling.kind == Kind::Rigid)
+    if (coupling.kind == Kind::Rigid) {
       for (int node : nodes) joined.push_back({nodes[0], node});
+      if (const int reference = referenceOf(mesh_, coupling); reference >= 0)
+        joined.push_back({nodes[0], reference});
+    }
     if (coupling.kind == Kind::ShellOnSolid)
       for (int node : nodes)
         for (int director : shells_.geometry.directorNodes(node))

@@ -140,6 +140,60 @@ output:
   EXPECT_NEAR(end.at("clamp_z"), -0.4, 1e-5);
 }
 
+// A reference node that no cell has, 2 ahead of the rigid end: loaded, driven, and held while the end carries
+// the load. A force P there deflects it by P (L^3/3 + a L^2 + a^2 L)/EI with a = 2, and the end by P (L^3/3 +
+// a L^2/2)/EI.
+TEST_F(CouplingsTest, ReferenceNodeOfARigidEnd) {
+  fem::ShellPlateOptions options;
+  options.length = 10;
+  options.divisions = {8, 1};
+  options.blockName = "strip";
+  fem::Mesh mesh = fem::shellPlateMesh(options);
+  mesh.coordinates.insert(mesh.coordinates.end(), {12, 0.5, 0});
+  mesh.nodeSets.push_back({"pin", 100, {mesh.numNodes() - 1}});
+  exodus::writeMesh(mesh, (folder_ / "strip.exo").string());
+  std::string deck = kStrip;
+  deck.erase(deck.find("  generate:"), deck.find("materials:") - deck.find("  generate:"));
+  deck = edited(deck, "set: x_max}\nloads", "set: x_max, reference: pin}\nloads");
+  const auto endOf = [&](const std::string& text) {
+    writeFile(folder_ / "deck.yaml", text);
+    const CommandResult r = runAtrapos({"run", "-q", "-o", "out", "deck.yaml"}, folder_.path());
+    EXPECT_EQ(r.exitCode, 0) << r.err;
+    return lastRow(readFile(folder_ / "out" / "path.csv"));
+  };
+  const double EI = 100, P = 0.4e-3, atPin = (1000 / 3. + 200 + 40) / EI, atEnd = (1000 / 3. + 100) / EI;
+  // Loads of a thousandth of the strip's test above: linear to 1e-6. The strip's shear is 1e-4 of its
+  // bending.
+  const std::string loaded =
+      edited(edited(deck, "set: x_max, total: [0, 0, 0.4]", "set: pin, total: [0, 0, 0.4e-3]"),
+             "  ux: {type: displacement, set: x_max", "  ux: {type: displacement, set: pin");
+  const auto bent = endOf(edited(loaded, "component: x}\n    clamp", "component: z}\n    clamp"));
+  EXPECT_NEAR(bent.at("uz"), P * atEnd, 5e-4 * P * atEnd);
+  EXPECT_NEAR(bent.at("ux"), P * atPin, 5e-4 * P * atPin);  // z of the pin
+  EXPECT_NEAR(bent.at("clamp_z"), -P, 1e-5 * P);
+
+  const std::string driven =
+      edited(edited(deck, "loads:\n  tip: {type: nodal, set: x_max, total: [0, 0, 0.4]}\n", ""),
+             "supports:\n", "supports:\n  pin: {set: pin, z: {per_load_factor: 1.0e-3}}\n");
+  const auto pushed = endOf(edited(driven, "support: clamp", "support: pin"));
+  EXPECT_NEAR(pushed.at("clamp_z"), 1e-3 / atPin, 5e-4 * 1e-3 / atPin);  // reaction of the pin
+
+  // The end's load P deflects the pin by P atEnd; the pin's reaction takes that back.
+  const auto held = endOf(
+      edited(edited(edited(deck, "0.4]", "0.4e-3]"), "supports:\n", "supports:\n  pin: {set: pin, z: 0}\n"),
+             "support: clamp", "support: pin"));
+  EXPECT_NEAR(held.at("clamp_z"), -P * atEnd / atPin, 5e-4 * P);
+
+  for (const auto& [with, words] : std::vector<std::pair<std::string, std::string>>{
+           {"reference: x_max", "couplings/end/reference: 'x_max' has 3 nodes; expected a set of one node"},
+           {"reference: nail", "couplings/end/reference: the mesh has no node set or side set 'nail'"}}) {
+    writeFile(folder_ / "deck.yaml", edited(deck, "reference: pin", with));
+    const CommandResult r = runAtrapos({"run", "-q", "-o", "out", "deck.yaml"}, folder_.path());
+    EXPECT_EQ(r.exitCode, 2);
+    EXPECT_NE(r.err.find(words), std::string::npos) << r.err;
+  }
+}
+
 // Supports on what a coupling moves are refused with the coupling's name.
 TEST_F(CouplingsTest, SupportedSlavesAreRefused) {
   const CommandResult r = run(edited(kStrip, "supports:\n", "supports:\n  tip: {set: x_max, y: 0}\n"));

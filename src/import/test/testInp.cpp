@@ -1,10 +1,12 @@
 // Input files of Abaqus and CalculiX: what is read, how it is refused, and what cells, sets and decks come of
 // it.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <set>
 
 #include "InpFile.hpp"
@@ -169,12 +171,12 @@ TEST(Inp, WhatIsLeftOutIsTold) {
       readText(kCube +
                "*SURFACE, NAME=a\ncube, S2\n*SURFACE, NAME=b\n1, S2\n*NSET, NSET=far\n9, 77\n*ELEMENT, "
                "TYPE=B31, ELSET=bars\n"
-               "2, 1, 2\n*ELSET, ELSET=half\nbars\n*PLASTIC\n1.\n*EQUATION\n2\n1, 1, 1., 2, 1, -1.\n");
+               "2, 1, 2\n*ELSET, ELSET=half\nbars\n*CREEP\n1.\n*EQUATION\n2\n1, 1, 1., 2, 1, -1.\n");
   EXPECT_EQ(namesOf(model.mesh.sideSets),
             (std::vector<std::string>{"a", "b"}));  // names stay, though they are the same
   for (const char* line :
        {":17: *NSET: 1 node left out that the mesh does not have, first 77",
-        ":19: *ELEMENT, TYPE=B31: left out", ":21: element set 'half': left out", ":23: *PLASTIC: left out",
+        ":19: *ELEMENT, TYPE=B31: left out", ":21: element set 'half': left out", ":23: *CREEP: left out",
         ":25: *EQUATION: left out", "1 node left out", "node set 'far': left out"})
     EXPECT_TRUE(std::any_of(model.remarks.begin(), model.remarks.end(), [&](const std::string& remark) {
       return remark.find(line) != std::string::npos;
@@ -344,6 +346,161 @@ TEST(Inp, Materials) {
                 ":15: *HYPERELASTIC, OGDEN: term 1 has a constant that is 0");
   expectRefused(begin + "*ELASTIC, TYPE=ORTHO\n3., 0.\n" + end, Deck::yes, ":15: *ELASTIC, TYPE=ORTHO");
   expectRefused(begin + end, Deck::yes, ":14: material 'm' has neither");
+}
+
+/// Has a remark with these words.
+bool tells(const Model& model, const std::string& words) {
+  return std::any_of(model.remarks.begin(), model.remarks.end(),
+                     [&](const std::string& r) { return r.find(words) != std::string::npos; });
+}
+
+TEST(Inp, Plasticity) {
+  const std::string begin = kCube +
+                            "*SOLID SECTION, ELSET=cube, MATERIAL=m\n*MATERIAL, NAME=m\n*ELASTIC\n2e5, .3\n",
+                    end = "*BOUNDARY\n1, 1, 3\n*STEP\n*STATIC\n*CLOAD\n7, 1, 1.\n*END STEP\n";
+  const std::string law = "law: von_mises, youngs_modulus: 200000, poissons_ratio: 0.3, yield_stress: 250";
+  const std::vector<std::pair<std::string, std::string>> keys{
+      {"*PLASTIC\n250.\n", ", blocks"},
+      {"*PLASTIC\n250., 0.\n260., .01\n", ", hardening_modulus: 1000, blocks"},
+      {"*PLASTIC\n250., 0.\n260., .01\n270., .02\n280., .03\n", ", hardening_modulus: 1000, blocks"},
+      {"*PLASTIC, HARDENING=KINEMATIC\n250., 0.\n260., .01\n", ", kinematic_modulus: 1000, blocks"},
+      {"*PLASTIC\n250., 0., 20.\n260., .01, 20.\n200., 0., 400.\n", ", hardening_modulus: 1000, blocks"}};
+  for (const auto& [card, key] : keys) {
+    const Model model = readText(begin + card + end, Deck::yes);
+    EXPECT_NE(model.deck.find(law + key), std::string::npos) << model.deck;
+    deck::readDeckText("mesh: {file: m.exo}\n" + model.deck, "m.yaml");
+    EXPECT_EQ(tells(model, "rows of other temperatures"), card.find("400") != std::string::npos);
+    EXPECT_EQ(tells(model, "hardening goes on as before it"), card.find("260") != std::string::npos);
+    EXPECT_FALSE(tells(model, "a curve through"));
+  }
+  // With large strains those of metals are too, in solids.
+  std::string large = begin + "*PLASTIC\n250.\n" + end;
+  large.replace(large.find("*STEP"), 5, "*STEP, NLGEOM");
+  EXPECT_NE(readText(large, Deck::yes).deck.find(law + ", strains: finite"), std::string::npos);
+
+  expectRefused(begin + "*PLASTIC, HARDENING=JOHNSON COOK\n250.\n" + end, Deck::yes,
+                ":17: *PLASTIC, HARDENING=JOHNSON");
+  expectRefused(begin + "*PLASTIC\n" + end, Deck::yes, ":17: *PLASTIC: has no row");
+  expectRefused(begin + "*PLASTIC\n-1.\n" + end, Deck::yes,
+                ":18: *PLASTIC: the yield stress is not positive");
+  expectRefused(begin + "*PLASTIC\n250., 0.\n260., 0.\n" + end, Deck::yes,
+                ":19: *PLASTIC: plastic strains must begin");
+  expectRefused(begin + "*PLASTIC, HARDENING=KINEMATIC\n250., 0.\n240., .1\n" + end, Deck::yes,
+                "the yield stress falls");
+}
+
+// Tables of the law itself give its constants back, others a curve as near as the line says.
+TEST(Inp, HardeningCurves) {
+  const std::string begin = kCube +
+                            "*SOLID SECTION, ELSET=cube, MATERIAL=m\n*MATERIAL, NAME=m\n*ELASTIC\n2e5, .3\n",
+                    end = "*BOUNDARY\n1, 1, 3\n*STEP\n*STATIC\n*CLOAD\n7, 1, 1.\n*END STEP\n";
+  const auto hardened = [&](const std::string& parameters, const std::function<double(double)>& stress) {
+    std::string rows;
+    for (int i = 0; i <= 20; ++i) {
+      const double g = 0.3 * i * i / 400;
+      rows += std::to_string(stress(g)) + ", " + std::to_string(g) + "\n";
+    }
+    const Model model = readText(begin + "*PLASTIC" + parameters + "\n" + rows + end, Deck::yes);
+    const deck::Deck read = deck::readDeckText("mesh: {file: m.exo}\n" + model.deck, "m.yaml");
+    return std::make_pair(std::get<deck::VonMises>(read.materials.at(0).law), model);
+  };
+  const auto [voce, told] =
+      hardened("", [](double g) { return 250 + 130 * g + 270 * (1 - std::exp(-17 * g)); });
+  // Exponents are looked for in steps of half a percent.
+  EXPECT_NEAR(voce.hardeningModulus, 130, 10);
+  EXPECT_NEAR(voce.saturation, 270, 3);
+  EXPECT_NEAR(voce.exponent, 17, 0.1);
+  EXPECT_TRUE(tells(told, "*PLASTIC: a curve through its 21 rows, off by 0.0")) << told.remarks.back();
+
+  const auto [swift, near] =
+      hardened("", [](double g) { return 500 * std::pow(0.01 + g, 0.2) / std::pow(0.01, 0.2); });
+  double off = 0;
+  for (int i = 0; i <= 20; ++i) {
+    const double g = 0.3 * i * i / 400, exact = 500 * std::pow(1 + 100 * g, 0.2);
+    off = std::max(off, std::abs((500 + swift.hardeningModulus * g +
+                                  swift.saturation * (1 - std::exp(-swift.exponent * g))) /
+                                     exact -
+                                 1));
+  }
+  EXPECT_LT(off, 0.04);  // a power is no exponential
+  EXPECT_TRUE(tells(near, fmt::format("off by {:.2g} % at most", 100 * off))) << off;
+
+  const auto [back, line] =
+      hardened(", HARDENING=KINEMATIC", [](double g) { return 250 + 100 * (1 - std::exp(-30 * g)); });
+  EXPECT_NEAR(back.kinematicModulus, 3000, 20);
+  EXPECT_NEAR(back.recall, 30, 0.2);
+}
+
+/// Two cubes on each other, whose meshes are apart: nodes 21 to 24 are at the places of 5 to 8.
+const std::string kTwoCubes =
+    "*NODE\n1\n2, 1.\n3, 1., 1.\n4, 0, 1\n5, 0, 0, 1\n6, 1, 0, 1\n7, 1, 1, 1\n8, 0, 1, 1\n"
+    "21, 0, 0, 1.0000001\n22, 1, 0, 1\n23, 1, 1, 1\n24, 0, 1, 1\n25, 0, 0, 2\n26, 1, 0, 2\n27, 1, 1, 2\n28, "
+    "0, 1, 2\n"
+    "99, .5, .5, 3.\n98, .5, .5, 3.\n"
+    "*ELEMENT, TYPE=C3D8, ELSET=cube\n1, 1,2,3,4,5,6,7,8\n2, 21,22,23,24,25,26,27,28\n"
+    "*SURFACE, NAME=lower\n1, S2\n*SURFACE, NAME=upper\n2, S1\n*NSET, NSET=head\n25, 26, 27, 28\n"
+    "*NSET, NSET=seam\n21, 22, 23, 24\n";
+
+TEST(Inp, TiedSurfaces) {
+  const Model model = readText(kTwoCubes + "*TIE, NAME=t\nupper, lower\n");
+  EXPECT_TRUE(tells(model, "*TIE: 4 nodes of 'upper' are one with those of 'lower'"));
+  EXPECT_EQ(model.mesh.numNodes(), 12);
+  EXPECT_EQ(std::vector<int>(model.mesh.blocks[0].nodes.begin() + 8, model.mesh.blocks[0].nodes.begin() + 12),
+            (std::vector<int>{4, 5, 6, 7}));
+  for (const fem::NodeSet& set : model.mesh.nodeSets)
+    if (set.name == "seam") {
+      EXPECT_EQ(set.nodes, (std::vector<int>{4, 5, 6, 7}));
+    }
+  std::string apart = kTwoCubes + "*TIE, NAME=t\nupper, lower\n";
+  apart.replace(apart.find("23, 1, 1, 1\n"), 12, "23, 1, .9, 1\n");
+  const Model left = readText(apart);
+  EXPECT_EQ(left.mesh.numNodes(), 16);
+  EXPECT_TRUE(
+      tells(left, "*TIE: left out, 1 of 4 nodes of 'upper' are at no node of 'lower', first node 23"));
+  expectRefused(kTwoCubes + "*TIE, NAME=t\nupper, roof\n", Deck::no, ":32: *TIE: there is no surface 'roof'");
+  expectRefused(kTwoCubes + "*SURFACE, NAME=all, TYPE=NODE\nhead\n*TIE, NAME=t\nhead, all\n" +
+                    "*TIE, NAME=t\nlower, lower\n*NODE\n30, 0, 0, 1\n*ELEMENT, TYPE=C3D4\n5, 5, 6, 7, 30\n" +
+                    "*SURFACE, NAME=flat, TYPE=NODE\n30\n*TIE, NAME=t\nflat, lower\n",
+                Deck::no, "*TIE: ties nodes of element 5 to each other");
+}
+
+TEST(Inp, RigidBodies) {
+  const std::string begin = kTwoCubes + "*TIE, NAME=t\nupper, lower\n" + kSteel +
+                            "*BOUNDARY\n1, 1, 3\n2, 1, 3\n3, 1, 3\n",
+                    body = "*RIGID BODY, NSET=head, REF NODE=99, ROT NODE=98\n", step = "*STEP\n*STATIC\n",
+                    load = "*CLOAD\n99, 3, 4.\n", end = "*END STEP\n";
+  const auto deckOf = [](const std::string& text) {
+    const Model model = readText(text, Deck::yes);
+    deck::readDeckText("mesh: {file: m.exo}\n" + model.deck, "m.yaml");
+    return model.deck;
+  };
+  const auto expectIn = [](const std::string& deck, const std::string& part) {
+    EXPECT_NE(deck.find(part), std::string::npos) << part << "\n" << deck;
+  };
+  // Free to turn: the reference node leads.
+  const std::string turns = deckOf(begin + body + step + load + "*BOUNDARY\n99, 1, 2\n" + end);
+  expectIn(turns, "head: {kind: rigid, set: head, reference: reference_1}");
+  expectIn(turns, "set: reference_1, x: 0, y: 0}");
+  expectIn(turns, "per_node: [0, 0, 4]");
+  // Without turns: the nodes move alike, or as they are driven.
+  const std::string alike = deckOf(begin + body + step + load + "*BOUNDARY\n98, 1, 3\n99, 1, 2\n" + end);
+  expectIn(alike, "head: {kind: equal, set: head}");
+  expectIn(alike, "x: 0, y: 0}");
+  const std::string driven =
+      deckOf(begin + body + step + "*BOUNDARY\n99, 1, 2\n99, 4, 6\n99, 3, 3, -.5\n" + end);
+  expectIn(driven, "set: head, x: 0, y: 0, z: {per_load_factor: -0.5}");
+  EXPECT_EQ(driven.find("couplings"), std::string::npos) << driven;
+
+  expectRefused(begin + body + step + load + "*BOUNDARY\n98, 1, 2\n" + end, Deck::yes,
+                "*RIGID BODY: some of its turns are held and some are not");
+  expectRefused(begin + body + step + load + "*BOUNDARY\n98, 1, 2\n98, 3, 3, .1\n" + end, Deck::yes,
+                "*RIGID BODY: a turn of it is driven");
+  expectRefused(begin + body + step + "*CLOAD\n98, 3, 4.\n" + end, Deck::yes,
+                "*RIGID BODY: a moment on its ROT NODE");
+  expectRefused(begin + "*RIGID BODY, NSET=head, REF NODE=head\n" + step + load + end, Deck::yes,
+                "*RIGID BODY, REFNODE: names 4 nodes; expected one");
+  EXPECT_TRUE(tells(readText(begin + "*RIGID BODY, ANALYTICAL SURFACE=s, REF NODE=99\n", Deck::no),
+                    "*RIGID BODY: left out"));
 }
 
 TEST(Inp, DecksThatWouldBeAnotherProblemAreRefused) {
