@@ -44,15 +44,16 @@ class Held {
     }
   }
 
-  /// Whether the middle is; then the ends must be, as masters maybe, or the edge would open there.
+  /// Whether the middle is, or the ends follow it; what holds it must hold the ends, as masters maybe, or the
+  /// edge would open there.
   bool middle(const Mesh& mesh, const EdgeFollower& f, int dof, const std::array<int, 2>& ends) const {
-    if (!model_.supports.fixed(dof) && slaves_.count(dof) == 0) return false;
+    const bool leads = masters_.count(dof) > 0 && slaves_.count(ends[0]) > 0 && slaves_.count(ends[1]) > 0;
+    if (!model_.supports.fixed(dof) && slaves_.count(dof) == 0 && !leads) return false;
     for (const int end : ends)
       if (!model_.supports.fixed(end) && slaves_.count(end) == 0 && masters_.count(end) == 0)
         throw std::invalid_argument(
             fmt::format("{} is the middle of an edge that a shell without middle nodes shares: what holds it "
-                        "must hold the "
-                        "ends of the edge too, nodes {} and {}",
+                        "must hold the ends of the edge too, nodes {} and {}",
                         nodeLabel(mesh, f.node), mesh.nodeNumber(f.ends[0]), mesh.nodeNumber(f.ends[1])));
     return true;
   }

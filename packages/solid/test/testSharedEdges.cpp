@@ -333,10 +333,13 @@ TEST(SharedEdges, SupportsTakeConditions) {
               hold(patch.model, {f.director, f.endDirectors[0], f.endDirectors[1]}, "xyz");
             }),
             all - 3);
-  EXPECT_EQ(pivots([&](Patch& patch, const fem::EdgeFollower& f) {  // moving as one
-              fem::coupleEqual(patch.model.couplings, patch.model.dofs, {f.ends[0], f.node, f.ends[1]});
-            }),
-            all - 3);
+  for (const bool first : {true, false})  // moving as one, as the middle does or as an end
+    EXPECT_EQ(pivots([&](Patch& patch, const fem::EdgeFollower& f) {
+                fem::coupleEqual(patch.model.couplings, patch.model.dofs,
+                                 first ? std::vector<int>{f.node, f.ends[0], f.ends[1]}
+                                       : std::vector<int>{f.ends[0], f.node, f.ends[1]});
+              }),
+              all - 3);
   try {
     pivots([](Patch& patch, const fem::EdgeFollower& f) { hold(patch.model, {f.node}, "z"); });
     FAIL();
