@@ -102,6 +102,17 @@ TEST(Flow, PoiseuilleInAPipe) {
   EXPECT_LT(s.error("p", [](double, double z, double) { return 4 * 2 * 4 * (3 - z); }), 1e-9);
 }
 
+// The same by the pressure at its inlet, a force per area of the fluid there.
+TEST(Flow, PressureDrivesAPipe) {
+  const TemporaryFolder folder;
+  const LastState s =
+      run(edited(kPipe, "  inlet_w: {set: y_min, field: w, value: {per_load_factor: 1 - x*x}}\n",
+                 "loads:\n  inlet: {type: inflow, set: y_min, field: w, amount: 24*lambda}\n"),
+          folder);
+  EXPECT_LT(s.error("w", [](double r, double, double) { return 4 * (1 - r * r); }), 1e-9);
+  EXPECT_LT(s.error("p", [](double, double z, double) { return 4 * 2 * 4 * (3 - z); }), 1e-9);
+}
+
 TEST(Flow, PoiseuilleBetweenPlatesInSpace) {
   const TemporaryFolder folder;
   const LastState s = run(R"(mesh:
