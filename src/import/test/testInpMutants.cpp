@@ -37,10 +37,20 @@ const std::string
     kPlane =
         "*NODE\n1\n2,1\n3,1,1\n4,0,1\n*ELEMENT, TYPE=CPS4, ELSET=p\n1, 1,2,3,4\n*MATERIAL, "
         "NAME=m\n*ELASTIC\n1, .3\n*SOLID SECTION, ELSET=p, MATERIAL=m\n.1\n"
-        "*BOUNDARY\n1, 1, 2\n4, 1\n*STEP\n*STATIC\n*DLOAD\np, P2, 2.\n*END STEP\n";
+        "*BOUNDARY\n1, 1, 2\n4, 1\n*STEP\n*STATIC\n*DLOAD\np, P2, 2.\n*END STEP\n",
+    kTied =
+        "*NODE\n1\n2,1\n3,1,1\n4,0,1\n5,0,0,1\n6,1,0,1\n7,1,1,1\n8,0,1,1\n21,0,0,1\n22,1,0,1\n23,1,1,1\n24,0,"
+        "1,1\n"
+        "25,0,0,2\n26,1,0,2\n27,1,1,2\n28,0,1,2\n99,.5,.5,3\n98,.5,.5,3\n*ELEMENT, TYPE=C3D8, ELSET=c\n1, "
+        "1,2,3,4,5,6,7,8\n2, 21,22,23,24,25,26,27,28\n*SURFACE, NAME=lower\n1, S2\n*SURFACE, NAME=upper\n2, "
+        "S1\n*NSET, NSET=head\n25, 26, 27, 28\n*TIE, NAME=t\nupper, lower\n*MATERIAL, NAME=m\n*ELASTIC\n2e5, "
+        ".3\n*PLASTIC\n250., 0.\n280., .01\n300., .05\n310., .1\n*SOLID SECTION, ELSET=c, MATERIAL=m\n"
+        "*RIGID BODY, NSET=head, REF NODE=99, ROT NODE=98\n*BOUNDARY\n1, 1, 3\n2, 2, 3\n4, "
+        "3\n*STEP\n*STATIC\n"
+        "*BOUNDARY\n99, 1, 2\n*CLOAD\n99, 3, -1.\n*END STEP\n";
 
 TEST(InpMutants, AreReadOrRefusedWithOneLine) {
-  const std::vector<std::string> bases{kBase, kShells, kPlane};
+  const std::vector<std::string> bases{kBase, kShells, kPlane, kTied};
   for (const std::string& base : bases)
     deck::readDeckText("mesh: {file: m.exo}\n" + readText(base, Deck::yes).deck, "m.yaml");
   test::TextMutator mutate(test::inp(), 20);
