@@ -62,7 +62,8 @@ std::string wastefulOrder(const deck::Deck& deck) {
   // Between events that are near a few orders do.
   if (path.order < lowest && smooth)
     return fmt::format(
-        "path/order: {} takes two to ten times the factorizations of 20, the default (docs/chart.md)",
+        "path/order: {} takes several times the factorizations of 20, the default: 5 takes 8 to 25 times as "
+        "many (docs/chart.md)",
         path.order);
   if (path.order > highest)
     return fmt::format("path/order: {} costs more than 30 and reaches no farther (docs/chart.md)",
