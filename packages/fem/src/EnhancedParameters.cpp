@@ -56,6 +56,7 @@ class Solver {
         points_(points),
         modes_(modes),
         J_(law.shape().inputs),
+        O_(law.shape().outputs),
         in_(in),
         out_(out),
         ds_(derivative) {}
@@ -103,7 +104,7 @@ class Solver {
     }
     bool finite = true;
     for (int q = 0; q < points_.numPoints; ++q) {
-      const std::size_t at = ((static_cast<std::size_t>(q) + 1) * J_ - 1) * kLanes + lane;
+      const std::size_t at = ((static_cast<std::size_t>(q) + 1) * O_ - 1) * kLanes + lane;
       const double s = out_[at], ds = ds_[at], w = modes_.weight[q * kLanes + lane];
       finite = finite && std::isfinite(s) && std::isfinite(ds);
       for (int j = 0; j < M; ++j) {
@@ -162,7 +163,7 @@ class Solver {
   const PointLaw& law_;
   const PointBatch& points_;
   const EnhancedModes& modes_;
-  int J_;
+  int J_, O_;
   double *in_, *out_, *ds_;
 };
 

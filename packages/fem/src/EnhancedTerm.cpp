@@ -17,17 +17,24 @@ namespace {
 class EnhancedTerm final : public Term {
  public:
   EnhancedTerm(std::unique_ptr<PointLaw> law, const EnhancedPoints& p)
-      : a_(std::move(law), p.points, p.data), I_(a_.elements.inputs()), M_(p.numParameters), modes_(p.modes) {
-    const std::size_t Q = numPoints(), J = I_ + 1;
-    if (a_.shape.inputs != I_ + 1 || a_.shape.outputs != I_ + 1)
-      throw std::logic_error("enhancedTerm: the law's inputs and outputs are vectors and one strain");
+      : a_(std::move(law), p.points, p.data),
+        I_(a_.elements.inputs()),
+        J_(a_.shape.inputs),
+        M_(p.numParameters),
+        modes_(p.modes) {
+    const std::size_t Q = numPoints(), J = J_;
+    if ((J_ != I_ + 1 && J_ != I_ + 2) || a_.shape.outputs != I_ + 1)
+      throw std::logic_error(
+          "enhancedTerm: the law's inputs and outputs are vectors and one strain, before which inputs may "
+          "have the "
+          "load factor");
     if (M_ < 1 || M_ > kMaxParameters || modes_.size() != Q * M_ ||
         p.strain.size() != static_cast<std::size_t>(p.points.numPoints()))
       throw std::logic_error("enhancedTerm: wrong number of parameters, modes or strains");
     strain_ = a_.elements.packed(p.strain, Q);
     if (a_.elements.numFields() > 1) throw std::logic_error("enhancedTerm: points of one field only");
     const std::size_t dofs = localDofs() * kLanes, rank = M_;
-    a_.allocateScratch(dofs * (1 + 2 * rank) + a_.perBatch(3 * J + J * J) + 3 * rank * rank * kLanes);
+    a_.allocateScratch(dofs * (1 + 2 * rank) + a_.perBatch(3 * J + (I_ + 1) * J) + 3 * rank * rank * kLanes);
     makeWorkspace();
   }
 
@@ -35,7 +42,7 @@ class EnhancedTerm final : public Term {
   int nodesPerEntity() const override { return a_.elements.nodesPerEntity(); }
   const std::vector<int>& nodes() const override { return a_.elements.nodes(); }
   bool symmetric() const override { return a_.shape.symmetric; }
-  bool seesLoadFactor() const override { return false; }
+  bool seesLoadFactor() const override { return J_ > I_ + 1; }
   std::size_t historyBytes(int maxOrder) const override { return a_.historyBytes(maxOrder); }
 
   void keep(const TermPart& part) override {
@@ -48,13 +55,13 @@ class EnhancedTerm final : public Term {
     a_.elements.connect(dofs, positions, nodesPerEntity());
   }
 
-  OwnForces addResidual(const ConstDofView& u, double, const DofView& f) const override {
+  OwnForces addResidual(const ConstDofView& u, double lambda, const DofView& f) const override {
     const int balances = a_.elements.numBalances();
     std::vector<double> squares(static_cast<std::size_t>(batches().count) * balances);
     forEachBatch("residual", batches(), [&](int b) {
       const ThreadMemory::Held held(a_.memory());
       const Scratch s(*this, held);
-      inputs(b, u, held, s);
+      inputs(b, u, lambda, held, s);
       a_.law->value(a_.batch(b, a_.data(), held.data()), s.in, s.out);
       a_.elements.addForces(b, s.out, I_ + 1, true, zero(s.force, localDofs()));
       a_.elements.scatter(b, s.force, f.data());
@@ -63,14 +70,18 @@ class EnhancedTerm final : public Term {
     return sumOf(squares, balances);
   }
 
-  void addTangent(const ConstDofView& u, double, const TangentSink& sink) const override {
+  void addTangent(const ConstDofView& u, double lambda, const TangentSink& sink) const override {
     forEachBatch("tangent", batches(), [&](int b) {
       const ThreadMemory::Held held(a_.memory());
       const Scratch s(*this, held);
-      inputs(b, u, held, s);
+      inputs(b, u, lambda, held, s);
       double* byE = s.out;  // [q][I + 1][lane], its last row unused
       double* byh = s.in;   // the same, once the inputs were read
       linearize(b, held, s, byE, byh, s.inverse);
+      if (seesLoadFactor()) {
+        loadDirection(b, s, byE);
+        a_.elements.scatter(b, s.force, sink.loadDirection.data());
+      }
       // K_ub and -K_bb^-1 K_bu by dof, [dof][parameter].
       const int dofs = localDofs();
       zero(s.left, dofs * M_);
@@ -84,21 +95,22 @@ class EnhancedTerm final : public Term {
             subtractProduct(s.inverse + (k * M_ + j) * kLanes, s.force + n * kLanes,
                             s.right + (n * M_ + k) * kLanes);
       }
-      a_.elements.addBlocks(b, s.jacobian, I_ + 1, I_ + 1, a_.shape.symmetric, {M_, s.left, s.right}, sink,
+      a_.elements.addBlocks(b, s.jacobian, I_ + 1, J_, a_.shape.symmetric, {M_, s.left, s.right}, sink,
                             s.jacobian);
     });
   }
 
-  void beginSeries(const ConstDofView& u, double, int maxOrder) override {
+  void beginSeries(const ConstDofView& u, double lambda, int maxOrder) override {
     a_.reserveHistory(maxOrder);
     std::vector<PointFailure> failures(batches().count);
     forEachBatch("beginSeries", batches(), [&](int b) {
       const ThreadMemory::Held held(a_.memory());
       const Scratch s(*this, held);
-      inputs(b, u, held, s);
-      std::copy_n(s.in, a_.perBatch(I_ + 1), s.product);
+      inputs(b, u, lambda, held, s);
+      std::copy_n(s.in, a_.perBatch(J_), s.product);
       linearize(b, held, s, &dfde_[b * a_.perBatch(I_ + 1)], &dsdh_[b * a_.perBatch(I_ + 1)],
                 &inverse_[static_cast<std::size_t>(b) * M_ * M_ * kLanes]);
+      if (seesLoadFactor()) byLoadFactor(b, s.jacobian, &dgdl_[static_cast<std::size_t>(b) * M_ * kLanes]);
       a_.start(b, a_.data(), s.product, s.out, failures[b]);
     });
     const std::string unsolved = failure();
@@ -109,13 +121,13 @@ class EnhancedTerm final : public Term {
   }
 
   // f_k - K_ub K_bb^-1 g_k, after the histories of order k - 1 became those of the true (U, beta).
-  void addOrder(int k, const ConstDofView& last, double, const DofView& f) override {
+  void addOrder(int k, const ConstDofView& last, double lastLambda, const DofView& f) override {
     const SeriesOrder order = seriesOrder(k, a_.maxOrder());
     forEachBatch("addOrder", batches(), [&](int b) {
       const ThreadMemory::Held held(a_.memory());
       const Scratch s(*this, held);
       double* g = &g_[static_cast<std::size_t>(b) * M_ * kLanes];
-      if (k > 1) trueInputs(b, last, g, s);
+      if (k > 1) trueInputs(b, last, lastLambda, g, s);
       a_.law->order(a_.seriesBatch(b, a_.data()), order, s.in, s.out);
       zero(g, M_);
       for (int q = 0; q < numPoints(); ++q) {
@@ -125,26 +137,18 @@ class EnhancedTerm final : public Term {
       }
       a_.elements.addForces(b, s.out, I_ + 1, true, zero(s.force, localDofs()));
       // What the parameters of this order do to the forces.
-      double beta[kMaxParameters * kLanes];
-      solve(b, g, beta);
-      const double* byE = &dfde_[b * a_.perBatch(I_ + 1)];
-      for (int q = 0; q < numPoints(); ++q) {
-        double minusE[kLanes] = {};
-        for (int j = 0; j < M_; ++j) addTimes(-mode(q, j), beta + j * kLanes, minusE);
-        for (int m = 0; m < I_; ++m) {
-          const std::size_t at = (static_cast<std::size_t>(q) * (I_ + 1) + m) * kLanes;
-          product(byE + at, minusE, s.product + at);
-        }
-      }
-      a_.elements.addForces(b, s.product, I_ + 1, false, s.force);
+      double minusBeta[kMaxParameters * kLanes];
+      solve(b, g, minusBeta);
+      for (int i = 0; i < M_ * kLanes; ++i) minusBeta[i] = -minusBeta[i];
+      addCondensed(b, &dfde_[b * a_.perBatch(I_ + 1)], minusBeta, s);
       a_.elements.scatter(b, s.force, f.data());
     });
   }
 
-  PointValues observe(const ConstDofView& u, double) const override {
+  PointValues observe(const ConstDofView& u, double lambda) const override {
     return a_.observe(a_.data(), [&](int b, const ThreadMemory::Held& held) {
       const Scratch s(*this, held);
-      inputs(b, u, held, s);
+      inputs(b, u, lambda, held, s);
       return s.in;
     });
   }
@@ -153,7 +157,7 @@ class EnhancedTerm final : public Term {
   /// A batch's numbers in a thread's memory.
   struct Scratch {
     Scratch(const EnhancedTerm& t, const ThreadMemory::Held& held) {
-      const std::size_t dofs = t.localDofs() * kLanes, J = t.I_ + 1, rank = t.M_;
+      const std::size_t dofs = t.localDofs() * kLanes, J = t.J_, rank = t.M_;
       force = t.a_.scratchOf(held);
       left = force + dofs;
       right = left + dofs * rank;
@@ -161,7 +165,7 @@ class EnhancedTerm final : public Term {
       out = in + t.a_.perBatch(J);
       product = out + t.a_.perBatch(J);
       jacobian = product + t.a_.perBatch(J);
-      inverse = jacobian + t.a_.perBatch(J * J);
+      inverse = jacobian + t.a_.perBatch((t.I_ + 1) * J);
     }
     double *force, *left, *right, *in, *out, *product, *jacobian, *inverse;
   };
@@ -184,9 +188,11 @@ class EnhancedTerm final : public Term {
 
   double mode(int q, int j) const { return modes_[q * M_ + j]; }
 
-  /// in[q] = (h, e) with the beta that belongs to the displacements.
-  void inputs(int b, const ConstDofView& u, const ThreadMemory::Held& held, const Scratch& s) const {
-    a_.elements.gather(b, u.data(), I_ + 1, s.in);
+  /// in[q] = (h, lambda where the law reads it, e) with the beta that belongs to the state.
+  void inputs(int b, const ConstDofView& u, double lambda, const ThreadMemory::Held& held,
+              const Scratch& s) const {
+    a_.elements.gather(b, u.data(), J_, s.in);
+    setLoadFactor(lambda, s.in);
     EnhancedFailure failure[kLanes];
     solveEnhanced(*a_.law, a_.batch(b, a_.data(), held.data()),
                   {M_, modes_.data(), a_.elements.weights(b), &strain_[b * a_.perBatch(1)]}, s.in, s.out,
@@ -195,23 +201,68 @@ class EnhancedTerm final : public Term {
       failed_[static_cast<std::size_t>(b) * kLanes + lane] = failure[lane];
   }
 
+  /// Where the law reads it.
+  void setLoadFactor(double lambda, double* in) const {
+    for (int q = 0; seesLoadFactor() && q < numPoints(); ++q)
+      std::fill_n(in + (q * J_ + I_) * kLanes, kLanes, lambda);
+  }
+
+  /// dg/dlambda of the parameters, [parameter].
+  void byLoadFactor(int b, const double* jacobian, double* dgdl) const {
+    zero(dgdl, M_);
+    for (int q = 0; q < numPoints(); ++q) {
+      double ofStrain[kLanes];
+      product(a_.elements.weights(b) + q * kLanes,
+              jacobian + ((static_cast<std::size_t>(q) * (I_ + 1) + I_) * J_ + I_) * kLanes, ofStrain);
+      for (int j = 0; j < M_; ++j) addTimes(mode(q, j), ofStrain, dgdl + j * kLanes);
+    }
+  }
+
+  /// s.force = -(df/dlambda - K_ub K_bb^-1 dg/dlambda), after linearize.
+  void loadDirection(int b, const Scratch& s, const double* byE) const {
+    double dgdl[kMaxParameters * kLanes], beta[kMaxParameters * kLanes];
+    byLoadFactor(b, s.jacobian, dgdl);
+    multiply(s.inverse, dgdl, beta);
+    for (int q = 0; q < numPoints(); ++q)
+      for (int m = 0; m < I_; ++m) {
+        const std::size_t row = static_cast<std::size_t>(q) * (I_ + 1) + m;
+        for (int l = 0; l < kLanes; ++l)
+          s.product[row * kLanes + l] = -s.jacobian[(row * J_ + I_) * kLanes + l];
+      }
+    a_.elements.addForces(b, s.product, I_ + 1, true, zero(s.force, localDofs()));
+    addCondensed(b, byE, beta, s);
+  }
+
+  /// s.force += byE times the strains of `beta`.
+  void addCondensed(int b, const double* byE, const double* beta, const Scratch& s) const {
+    for (int q = 0; q < numPoints(); ++q) {
+      double e[kLanes] = {};
+      for (int j = 0; j < M_; ++j) addTimes(mode(q, j), beta + j * kLanes, e);
+      for (int m = 0; m < I_; ++m) {
+        const std::size_t at = (static_cast<std::size_t>(q) * (I_ + 1) + m) * kLanes;
+        product(byE + at, e, s.product + at);
+      }
+    }
+    a_.elements.addForces(b, s.product, I_ + 1, false, s.force);
+  }
+
   /// The law's tangent at all points in s.jacobian, weighted f by e and s by h, [q][I + 1], and K_bb^-1.
   /// `byh` may be the inputs' own place.
   void linearize(int b, const ThreadMemory::Held& held, const Scratch& s, double* byE, double* byh,
                  double* inverse) const {
-    const int J = I_ + 1;
+    const int O = I_ + 1, e = J_ - 1;
     double K[kMaxParameters * kMaxParameters * kLanes];
     zero(K, M_ * M_);
     a_.law->tangent(a_.batch(b, a_.data(), held.data()), s.in, s.out, s.jacobian);
     for (int q = 0; q < numPoints(); ++q) {
       const double* w = a_.elements.weights(b) + q * kLanes;
-      const double* jacobian = s.jacobian + static_cast<std::size_t>(q) * J * J * kLanes;
+      const double* jacobian = s.jacobian + static_cast<std::size_t>(q) * O * J_ * kLanes;
       for (int m = 0; m < I_; ++m) {
-        product(w, jacobian + (m * J + I_) * kLanes, byE + (q * J + m) * kLanes);
-        product(w, jacobian + (I_ * J + m) * kLanes, byh + (q * J + m) * kLanes);
+        product(w, jacobian + (m * J_ + e) * kLanes, byE + (q * O + m) * kLanes);
+        product(w, jacobian + (I_ * J_ + m) * kLanes, byh + (q * O + m) * kLanes);
       }
       double dsde[kLanes];
-      product(w, jacobian + (I_ * J + I_) * kLanes, dsde);
+      product(w, jacobian + (I_ * J_ + e) * kLanes, dsde);
       for (int j = 0; j < M_; ++j)
         for (int k = 0; k < M_; ++k) addTimes(mode(q, j) * mode(q, k), dsde, K + (j * M_ + k) * kLanes);
     }
@@ -230,7 +281,9 @@ class EnhancedTerm final : public Term {
 
   /// x = K_bb^-1 y
   void solve(int b, const double* y, double* x) const {
-    const double* K = &inverse_[static_cast<std::size_t>(b) * M_ * M_ * kLanes];
+    multiply(&inverse_[static_cast<std::size_t>(b) * M_ * M_ * kLanes], y, x);
+  }
+  void multiply(const double* K, const double* y, double* x) const {
     for (int j = 0; j < M_; ++j)
       for (int l = 0; l < kLanes; ++l) {
         double sum = 0;
@@ -239,24 +292,29 @@ class EnhancedTerm final : public Term {
       }
   }
 
-  /// in[q] = (h_k, e_k) of U_k, with beta_k = -K_bb^-1 (g_k + K_bu U_k) and the g_k that the sweep of order
-  /// k left.
-  void trueInputs(int b, const ConstDofView& Uk, const double* g, const Scratch& s) const {
-    const int J = I_ + 1;
+  /// in[q] = (h_k, lambda_k, e_k) of U_k and lambda_k, with beta_k = -K_bb^-1 (g_k + K_bu U_k + dg/dlambda
+  /// lambda_k) and the g_k that the sweep of order k left.
+  void trueInputs(int b, const ConstDofView& Uk, double lambdak, const double* g, const Scratch& s) const {
+    const int J = J_, O = I_ + 1;
     double sum[kMaxParameters * kLanes], minusBeta[kMaxParameters * kLanes];
     std::copy_n(g, M_ * kLanes, sum);
     a_.elements.gather(b, Uk.data(), J, s.in);
-    const double* byh = &dsdh_[b * a_.perBatch(J)];
+    setLoadFactor(lambdak, s.in);
+    if (seesLoadFactor()) {
+      const double* dgdl = &dgdl_[static_cast<std::size_t>(b) * M_ * kLanes];
+      for (int i = 0; i < M_ * kLanes; ++i) sum[i] += dgdl[i] * lambdak;
+    }
+    const double* byh = &dsdh_[b * a_.perBatch(O)];
     for (int q = 0; q < numPoints(); ++q) {
       double stress[kLanes] = {};
       for (int m = 0; m < I_; ++m)
         for (int l = 0; l < kLanes; ++l)
-          stress[l] += byh[(q * J + m) * kLanes + l] * s.in[(q * J + m) * kLanes + l];
+          stress[l] += byh[(q * O + m) * kLanes + l] * s.in[(q * J + m) * kLanes + l];
       for (int j = 0; j < M_; ++j) addTimes(mode(q, j), stress, sum + j * kLanes);
     }
     solve(b, sum, minusBeta);
     for (int q = 0; q < numPoints(); ++q) {
-      double* e = zero(s.in + (q * J + I_) * kLanes, 1);
+      double* e = zero(s.in + (q * J + J - 1) * kLanes, 1);
       for (int j = 0; j < M_; ++j) addTimes(-mode(q, j), minusBeta + j * kLanes, e);
     }
   }
@@ -277,6 +335,7 @@ class EnhancedTerm final : public Term {
     dsdh_ = std::vector(count * a_.perBatch(I_ + 1), 0.0);
     inverse_ = std::vector(count * M_ * M_ * kLanes, 0.0);
     g_ = std::vector(count * M_ * kLanes, 0.0);
+    if (seesLoadFactor()) dgdl_ = std::vector(count * M_ * kLanes, 0.0);
     failed_ = std::vector(count * kLanes, EnhancedFailure::none);
   }
 
@@ -285,13 +344,14 @@ class EnhancedTerm final : public Term {
   const Batches& batches() const { return a_.elements.batches(); }
 
   LawArrays a_;
-  int I_, M_;
+  int I_, J_, M_;               ///< inputs from the unknowns, of the law; parameters
   std::vector<double> modes_;   ///< [q][parameter]
   std::vector<double> strain_;  ///< [batch][q][lane]
   // At the start of the series under way:
   std::vector<double> dfde_;     ///< [batch][q][I + 1][lane], times the weight
   std::vector<double> dsdh_;     ///< the same
   std::vector<double> inverse_;  ///< [batch][M][M][lane] K_bb^-1
+  std::vector<double> dgdl_;     ///< [batch][M][lane] by lambda, where the law reads it
   std::vector<double> g_;        ///< [batch][M][lane] of the order swept last: g_k with U_k = 0, beta_k = 0
   mutable std::vector<EnhancedFailure> failed_;  ///< [batch][lane] of the last loop over states
 };

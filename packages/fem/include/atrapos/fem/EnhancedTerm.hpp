@@ -24,7 +24,7 @@ constexpr int kMaxParameters = 8;
 
 /// A law of h = B u and of an enhanced strain e, paper (32)-(35), whose element parameters are condensed
 /// inside the element at every order (docs/theory/shell.md, "Condensation"). Inputs (h, e) with h as in
-/// lawTerm, outputs their work conjugates (f, s).
+/// lawTerm, outputs their work conjugates (f, s). A law with one input more reads the load factor before e.
 ///
 /// beta follows from the displacements alone. Where an element has none, its forces are NaN and beginSeries
 /// throws taylor::DomainError with the element (from 1 within the whole term) and the reason.
