@@ -77,11 +77,15 @@ class MeshCheck {
           fail(path, fmt::format("block '{}' already has the material '{}'", name, previous->second));
         }
         if (std::holds_alternative<VonMises>(material.law)) plastic(material, found);
-        if ((!material.expansion.empty() || material.dielectric) && isThin(found)) {
-          const std::string key = material.dielectric ? "dielectric" : "expansion";
-          fail("materials/" + material.name + "/" + key,
-               fmt::format("block '{}' has {}; {} is for solids and plane bodies", name, kindOf(found), key));
-        }
+        if (material.dielectric && isThin(found))
+          fail("materials/" + material.name + "/dielectric",
+               fmt::format("block '{}' has {}; dielectric is for solids and plane bodies", name,
+                           kindOf(found)));
+        if (!material.expansion.empty() && isThin(found) &&
+            !fem::isShell(mesh_.blocks[static_cast<std::size_t>(found)]))
+          fail("materials/" + material.name + "/expansion",
+               fmt::format("block '{}' has {}; expansion is for solids, plane bodies and shells", name,
+                           kindOf(found)));
       }
     }
     std::set<int> used;

@@ -80,7 +80,7 @@ void checkInField(const Value& root, const Material& material, const Deck& deck)
     v.fail("is not for formulation: mixed");
   }
   if (!material.expansion.empty()) {
-    checkFormula(at.at("expansion"), material.expansion, deck, physics::Place::surface);
+    checkFormula(at.at("expansion"), material.expansion, deck, physics::Place::shell);
   }
   if (!material.dielectric) {
     return;

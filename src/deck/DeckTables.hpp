@@ -24,7 +24,7 @@ const Table<ThinSection>& membraneTable();
 const Table<ThinSection>& barTable();
 /// What names of fields and constants are like; follows "cannot be the name of a ...".
 constexpr const char* freeNames =
-    "expected letters, digits and _, no digit in front, and none of lambda, x, y, z, pi and the functions";
+    "expected letters, digits and _, no digit in front, and none of lambda, x, y, z, zeta, pi and the functions";
 /// The block `constants`, which a deck may not have.
 Field<Deck> constantsField();
 const Table<ScalarField>& scalarFieldTable();

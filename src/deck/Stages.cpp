@@ -195,7 +195,7 @@ std::vector<Driven> drivenOf(const Deck& deck) {
   look(deck.supports, Driven::Kind::Support, [](const Support& s) { return isDriven(s); });
   look(deck.tools, Driven::Kind::Tool, [&](const Tool& t) { return isDriven(t, deck); });
   look(deck.materials, Driven::Kind::Material,
-       [&](const Material& m) { return formulas.haveLambda(m.expansion, physics::Place::surface); });
+       [&](const Material& m) { return formulas.haveLambda(m.expansion, physics::Place::shell); });
   look(deck.physics, Driven::Kind::Physics, [&](const Physics& p) { return isDriven(p, formulas); });
   return all;
 }

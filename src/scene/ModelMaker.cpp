@@ -129,7 +129,7 @@ void ModelMaker::addMaterials() {
       const int b = fem::findBlock(mesh_, name);
       const fem::Block& block = mesh_.blocks[b];
       std::optional<physics::Expansion> expansion;
-      if (!material.expansion.empty()) expansion = expansionOf(material, b);
+      if (!material.expansion.empty() && !fem::isShell(block)) expansion = expansionOf(material, b);
       try {
         if (thin_.count(b) > 0) {
           made_.bodies[b] = addThin(material, b);
@@ -175,8 +175,15 @@ BodyBlock ModelMaker::addShell(const deck::Material& material, int shells) {
   body.term = static_cast<int>(made_.model.terms.size());
   body.shells = shells;
   body.toNodes = solid::shellPointsToNodes({}, shells_.elements[shells].nodesPerElement);
+  std::unique_ptr<fem::PointLaw> growth;
+  try {
+    if (!material.expansion.empty()) growth = physics::shellExpansion(material.expansion, deck_.constants);
+  } catch (const formula::FormulaError& e) {
+    fail("materials/" + material.name + "/expansion", fmt::format("in shells {}", e.what()));
+  }
   made_.model.terms.push_back(registry::shellTerm(material, shells_.elements[shells],
-                                                  shells_.cubature[shells], shells_.shear[shells]));
+                                                  shells_.cubature[shells], shells_.shear[shells],
+                                                  std::move(growth)));
   return body;
 }
 

@@ -147,12 +147,13 @@ double poissonsRatio(const Rubber& law) {
   return poissonsRatio(law.bulk - 2 * mu / 3, mu);
 }
 
+solid::ShellStrains strainsOf(deck::Shear shear) {
+  return shear == deck::Shear::Assumed ? solid::ShellStrains::assumedShear : solid::ShellStrains::compatible;
+}
+
 std::unique_ptr<fem::Term> shells(const deck::VonMises& entry, const solid::ShellElements& elements,
                                   const solid::ShellCubature& cubature, deck::Shear shear) {
-  return solid::shellMetalTerm(
-      metal(entry), elements,
-      shear == deck::Shear::Assumed ? solid::ShellStrains::assumedShear : solid::ShellStrains::compatible,
-      cubature);
+  return solid::shellMetalTerm(metal(entry), elements, strainsOf(shear), cubature);
 }
 template <class Entry>
 std::unique_ptr<fem::Term> shells(const Entry& entry, const solid::ShellElements& elements,
@@ -177,6 +178,21 @@ std::unique_ptr<fem::Term> shells(const Entry& entry, const solid::ShellElements
                              solid::assumedShearPoints(elements, cubature));
   return fem::enhancedTerm(fem::pointLaw(solid::ShellLaw<Law>{law(entry)}),
                            solid::shellPoints(elements, cubature));
+}
+
+std::unique_ptr<fem::Term> expandingShells(const deck::VonMises&, const solid::ShellElements&,
+                                           const solid::ShellCubature&, deck::Shear,
+                                           std::unique_ptr<fem::PointLaw>) {
+  throw std::logic_error("registry: an expansion of a metal");  // decks are checked
+}
+template <class Entry>
+std::unique_ptr<fem::Term> expandingShells(const Entry& entry, const solid::ShellElements& elements,
+                                           const solid::ShellCubature& cubature, deck::Shear shear,
+                                           std::unique_ptr<fem::PointLaw> growth) {
+  const auto material = law(entry);
+  return solid::expandingShellTerm(elements, strainsOf(shear), poissonsRatio(material),
+                                   fem::pointLaw(solid::ShellMaterialStage<decltype(law(entry))>{material}),
+                                   std::move(growth), cubature);
 }
 
 std::unique_ptr<fem::PointLaw> thin(const deck::VonMises& entry, bool bars) {
@@ -232,9 +248,11 @@ std::unique_ptr<fem::Term> mixedTerm(const deck::Material& material, const fem::
 }
 
 std::unique_ptr<fem::Term> shellTerm(const deck::Material& material, const solid::ShellElements& elements,
-                                     const solid::ShellCubature& cubature, deck::Shear shear) {
+                                     const solid::ShellCubature& cubature, deck::Shear shear,
+                                     std::unique_ptr<fem::PointLaw> growth) {
   return std::visit(
       [&](const auto& entry) -> std::unique_ptr<fem::Term> {
+        if (growth) return expandingShells(entry, elements, cubature, shear, std::move(growth));
         return shells(entry, elements, cubature, shear);
       },
       material.law);

@@ -110,8 +110,11 @@ TEST(SceneInput, EmptySets) {
 
 TEST(SceneInput, ShellsAreNoSolids) {
   expectRefused(
-      edited(plate, "poissons_ratio: 0.3", "poissons_ratio: 0.3, expansion: 1.0e-5*lambda"),
-      "materials/steel/expansion: block 'plate' has shells; expansion is for solids and plane bodies");
+      edited(plate, "poissons_ratio: 0.3", "poissons_ratio: 0.3, dielectric: {field: V, permittivity: 1}"),
+      "materials/steel/dielectric: block 'plate' has shells; dielectric is for solids and plane bodies");
+  EXPECT_EQ(
+      refusal(edited(plate, "poissons_ratio: 0.3", "poissons_ratio: 0.3, expansion: 1.0e-5*lambda*zeta")),
+      "no error");
   expectRefused(edited(plate, "shells:\n",
                        "physics:\n  heat: {type: balance, field: T, blocks: [plate], source: 1}\nshells:\n"),
                 "physics/heat/blocks: block 'plate' has shells; balances are for solids and plane cells");
@@ -120,6 +123,8 @@ TEST(SceneInput, ShellsAreNoSolids) {
 }
 
 TEST(SceneInput, SolidsAreNoShells) {
+  expectRefused(edited(bar, "poissons_ratio: 0.3", "poissons_ratio: 0.3, expansion: 1.0e-5*zeta"),
+                "materials/steel/expansion: in block 'bar'");
   expectRefused(edited(bar, "tools:\n", "shells: {joints: {fold: {set: x_max, joint: hinge}}}\ntools:\n"),
                 "shells/joints/fold/set: no node of 'x_max' belongs to shells");
   expectRefused(edited(bar, "loads:\n", "couplings:\n  seam: {kind: shell_on_solid, set: x_max}\nloads:\n"),

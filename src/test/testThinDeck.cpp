@@ -88,7 +88,7 @@ TEST(ThinDeck, WhatCannotBeIsRefused) {
       {kSheet, "blocks: [skin]}",
        "blocks: [skin], expansion: 0.001 * T}\nphysics:\n  heat: {type: balance, field: T, "
        "conductivity: 1, blocks: [skin]}",
-       "block 'skin' has membranes; expansion is for solids and plane bodies"},
+       "block 'skin' has membranes; expansion is for solids, plane bodies and shells"},
       {kSheet, "blocks: [skin]}", "blocks: [skin], formulation: mixed}",
        "pressures stand beside displacements"},
       {kTruss, "all: {blocks: [bars], area: 2}", "all: {blocks: [bars], area: 2, prestress: 3}",

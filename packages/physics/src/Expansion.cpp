@@ -1,6 +1,7 @@
 #include "atrapos/physics/Expansion.hpp"
 
 #include "FormulaInputs.hpp"
+#include "atrapos/physics/GrowthStage.hpp"
 
 namespace atrapos::physics {
 
@@ -28,6 +29,13 @@ Expansion expansionOf(const std::string& text, const std::vector<std::string>& f
       step.a = step.a == lambda && !expansion.field.empty() ? 1 : 0;
   }
   return expansion;
+}
+
+std::unique_ptr<fem::PointLaw> shellExpansion(const std::string& text, const Constants& constants) {
+  formula::Builder builder;
+  const detail::Layout layout = detail::layoutOf({}, Place::shell);
+  const int result = formula::parse(text, detail::symbols({}, constants, layout, builder), builder);
+  return fem::pointLaw(GrowthStage{builder.program({result})});
 }
 
 }  // namespace atrapos::physics

@@ -27,6 +27,7 @@ inline formula::Symbols symbols(const std::vector<std::string>& fields, const Co
                                 const Layout& layout, formula::Builder& builder) {
   formula::Symbols s;
   for (int i = 0; i < 3; ++i) s.scalars[std::string(1, "xyz"[i])] = builder.datum(i);
+  if (layout.place == Place::shell) s.scalars["zeta"] = builder.datum(3);
   for (const auto& [name, value] : constants) s.scalars[name] = builder.number(value);
   // Those of the place are the axes: dot(grad(T), grad(x)) is dT/dx.
   if (layout.place == Place::body)

@@ -11,7 +11,8 @@ using detail::Layout, detail::layoutOf, detail::symbols;
 using formula::Builder;
 
 bool isFreeName(const std::string& name) {
-  return formula::isName(name) && name != "lambda" && name != "x" && name != "y" && name != "z";
+  return formula::isName(name) && name != "lambda" && name != "x" && name != "y" && name != "z" &&
+         name != "zeta";
 }
 
 void checkFormula(const std::string& text, const std::vector<std::string>& fields, const Constants& constants,

@@ -10,7 +10,9 @@
 
 #include "ShellSurface.hpp"
 #include "StagedMaterial.hpp"
+#include "atrapos/fem/EnhancedTerm.hpp"
 #include "atrapos/fem/LawTerm.hpp"
+#include "atrapos/solid/GrowthStages.hpp"
 
 namespace atrapos::solid {
 
@@ -24,18 +26,38 @@ using detail::Vec3;
 
 namespace {
 
-/// Inputs x and e; data: the Kinematics', g. Cauchy stress is shown without the enhanced part in F.
-std::unique_ptr<fem::PointLaw> enhancedLaw(StagedParts parts, std::unique_ptr<fem::PointLaw> material) {
-  const int n = parts.inputs, strain = n + 1, stress = strain + 6;
-  const std::vector<int> x = range(0, n), data = range(0, parts.data);
+/// Inputs x and e, data: the Kinematics', g; with `growth`, which may be null, those of expandingShellLaw.
+/// Cauchy stress is shown without the enhanced part in F.
+std::unique_ptr<fem::PointLaw> enhancedLaw(StagedParts parts, std::unique_ptr<fem::PointLaw> material,
+                                           std::unique_ptr<fem::PointLaw> growth = nullptr) {
+  const int n = parts.inputs;
+  const std::vector<int> x = range(0, n), data = range(0, parts.data), g = range(parts.data, 3);
   fem::StagedPlan plan;
-  plan.inputs = n + 1;
-  plan.data = parts.data + 3;
+  plan.inputs = growth ? n + 2 : n + 1;
+  plan.data = parts.data + (growth ? 13 : 3);
   plan.symmetric = material->shape().symmetric;
-  plan.stages.push_back({std::move(parts.strain), x, data});
-  plan.stages.push_back({std::move(material), joined(range(strain, 6), {n}), range(parts.data, 3)});
-  plan.stages.push_back({std::move(parts.forces), joined(x, range(stress, 6)), data});
-  plan.outputs = joined(range(stress + 7, n), {stress + 6});
+  int next = plan.inputs;
+  // The first wire of a stage's outputs.
+  const auto add = [&](std::unique_ptr<fem::PointLaw> law, std::vector<int> inputs, std::vector<int> from) {
+    const int first = next;
+    next += law->shape().outputs;
+    plan.stages.push_back({std::move(law), std::move(inputs), std::move(from)});
+    return first;
+  };
+  const int enhanced = plan.inputs - 1, strain = add(std::move(parts.strain), x, data);
+  std::vector<int> ofMaterial = joined(range(strain, 6), {enhanced});
+  int stress = 0;
+  if (growth) {
+    const int e = add(std::move(growth), {n}, range(parts.data + 3, 4));
+    const int elastic =
+        add(fem::pointLaw(ElasticStrainStage{}), joined(ofMaterial, {e}), range(parts.data + 7, 6));
+    const int own = add(std::move(material), range(elastic, 7), g);
+    stress = add(fem::pointLaw(GrownStressStage{}), joined(range(own, 7), {e}), {});
+  } else {
+    stress = add(std::move(material), std::move(ofMaterial), g);
+  }
+  const int forces = add(std::move(parts.forces), joined(x, range(stress, 6)), data);
+  plan.outputs = joined(range(forces, n), {stress + 6});
   plan.names = detail::stressNames();
   plan.show = [=, gradient = parts.gradient](const double* wires, const double* at, double* shown) {
     double F[9];
@@ -81,21 +103,20 @@ bool isPlain(ShellStrains strains, int nodesPerElement) {
 StagedParts partsOf(ShellStrains strains, int nodesPerElement) {
   switch (nodesPerElement) {
     case 3:
-      return detail::partsOf<TiedShell<Mitc3>>();
+      return detail::shellPartsOf<TiedShell<Mitc3>>();
     case 4:
-      return detail::partsOf<TiedShell<Mitc4>>();
+      return detail::shellPartsOf<TiedShell<Mitc4>>();
     case 6:
-      return detail::partsOf<TiedShell<Mitc6>>();
+      return detail::shellPartsOf<TiedShell<Mitc6>>();
     default:
-      return isPlain(strains, nodesPerElement) ? detail::partsOf<PlainShell>()
-                                               : detail::partsOf<AssumedShearShell>();
+      return isPlain(strains, nodesPerElement) ? detail::shellPartsOf<PlainShell>()
+                                               : detail::shellPartsOf<AssumedShearShell>();
   }
 }
 
-/// Those of the enhanced element, whose weights and maps serve a metal too.
-fem::EnhancedPoints pointsOf(const Metal& metal, const ShellElements& elements, ShellStrains strains,
+/// Those of the enhanced element, whose weights and maps serve a metal too. poisson: of the material at rest.
+fem::EnhancedPoints pointsOf(double poisson, const ShellElements& elements, ShellStrains strains,
                              const ShellCubature& cubature) {
-  const double poisson = metal.lambda / (2 * (metal.lambda + metal.mu));
   switch (elements.nodesPerElement) {
     case 3:
       return mitc3Points(elements, poisson, cubature);
@@ -115,6 +136,36 @@ std::unique_ptr<fem::PointLaw> sixNodeShellLaw(std::unique_ptr<fem::PointLaw> ma
   return enhancedLaw(detail::partsOf<TiedShell<Mitc6>>(), std::move(material));
 }
 
+std::unique_ptr<fem::PointLaw> expandingShellLaw(ShellStrains strains, int nodesPerElement,
+                                                 std::unique_ptr<fem::PointLaw> material,
+                                                 std::unique_ptr<fem::PointLaw> growth) {
+  return enhancedLaw(partsOf(strains, nodesPerElement), std::move(material), std::move(growth));
+}
+
+std::unique_ptr<fem::Term> expandingShellTerm(const ShellElements& elements, ShellStrains strains,
+                                              double poissonsRatio, std::unique_ptr<fem::PointLaw> material,
+                                              std::unique_ptr<fem::PointLaw> growth,
+                                              const ShellCubature& cubature) {
+  const int N = elements.nodesPerElement;
+  fem::EnhancedPoints points = pointsOf(poissonsRatio, elements, strains, cubature);
+  const std::size_t count = points.points.numPoints(), before = points.data.size() / count,
+                    each = static_cast<std::size_t>(points.points.pointsPerEntity);
+  const StagedParts parts = partsOf(strains, N);
+  const std::size_t numData = static_cast<std::size_t>(parts.data) + 13;
+  std::vector<double> data;
+  data.reserve(count * numData);
+  for (std::size_t p = 0; p < count; ++p) {
+    if (isPlain(strains, N)) data.insert(data.end(), {1, 0, 0, 0, 1, 0, 0, 0, 1});  // the axes are Cartesian
+    data.insert(data.end(), &points.data[p * before], &points.data[p * before] + before);
+    data.insert(data.end(), &points.points.positions[3 * p], &points.points.positions[3 * p] + 3);
+    data.push_back(points.modes[p % each * points.numParameters]);  // zeta
+    data.resize(data.size() + 6);
+    parts.unit(&data[p * numData], &data[(p + 1) * numData - 6]);
+  }
+  points.data = std::move(data);
+  return fem::enhancedTerm(expandingShellLaw(strains, N, std::move(material), std::move(growth)), points);
+}
+
 std::unique_ptr<fem::PointLaw> shellMetalLaw(const Metal& metal, ShellStrains strains, int nodesPerElement) {
   return detail::metalLaw(partsOf(strains, nodesPerElement), detail::planeStressMetal(metal));
 }
@@ -122,7 +173,8 @@ std::unique_ptr<fem::PointLaw> shellMetalLaw(const Metal& metal, ShellStrains st
 std::unique_ptr<fem::Term> shellMetalTerm(const Metal& metal, const ShellElements& elements,
                                           ShellStrains strains, const ShellCubature& cubature) {
   auto law = shellMetalLaw(metal, strains, elements.nodesPerElement);
-  const fem::EnhancedPoints enhanced = pointsOf(metal, elements, strains, cubature);
+  const fem::EnhancedPoints enhanced =
+      pointsOf(metal.lambda / (2 * (metal.lambda + metal.mu)), elements, strains, cubature);
   const auto numData = static_cast<std::size_t>(law->shape().data);
   const std::size_t count = enhanced.points.numPoints(), before = enhanced.data.size() / count;
   std::vector<double> data(count * numData);

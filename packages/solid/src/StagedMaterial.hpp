@@ -19,12 +19,27 @@ struct StagedParts {
   std::unique_ptr<fem::PointLaw> strain, forces;
   int inputs = 0, data = 0;
   void (*gradient)(const double* x, const double* data, double* F) = nullptr;
+  /// Of shells: the unit tensor as the element's strains have it, 6; assumed strains of a body that grows
+  /// alike are (e + e^2/2) times that.
+  void (*unit)(const double* data, double* tensor) = nullptr;
 };
 
 template <class Kinematics>
 StagedParts partsOf() {
   return {fem::pointLaw(ShellStrainStage<Kinematics>{}), fem::pointLaw(ShellForceStage<Kinematics>{}),
           Kinematics::numInputs, Kinematics::numData, &Kinematics::gradient};
+}
+
+template <class Kinematics>
+StagedParts shellPartsOf() {
+  StagedParts parts = partsOf<Kinematics>();
+  parts.unit = [](const double* data, double* tensor) {
+    double x[Kinematics::numInputs];
+    Kinematics::doubled(data, x);
+    Kinematics::strain(x, data).store(tensor);
+    for (int m = 0; m < 6; ++m) tensor[m] /= 1.5;  // e + e^2/2 of e = 1
+  };
+  return parts;
 }
 
 /// first, first + 1, ...

@@ -21,6 +21,10 @@ struct Expansion {
 Expansion expansionOf(const std::string& text, const std::vector<std::string>& fields,
                       const Constants& constants);
 
+/// The stage of an expansion in a shell, a formula of lambda, x, y, z and zeta (GrowthStage). Throws
+/// formula::FormulaError.
+std::unique_ptr<fem::PointLaw> shellExpansion(const std::string& text, const Constants& constants);
+
 /// The law of a material of solids with an expansion. Its inputs are H, the value of the expansion's field
 /// where it has one, and the load factor; its data the place.
 template <class Material>

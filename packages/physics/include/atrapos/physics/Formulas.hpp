@@ -14,11 +14,12 @@ namespace atrapos::physics {
 
 using Constants = std::map<std::string, double>;
 
-/// Whether a formula may call something of one's own so: no function, and not lambda, x, y or z.
+/// Whether a formula may call something of one's own so: no function, and not lambda, x, y, z or zeta.
 bool isFreeName(const std::string& name);
 
-/// Where a formula stands, which says what it may refer to.
-enum class Place { body, surface, reference };
+/// Where a formula stands, which says what it may refer to. `shell`: to zeta besides, from -1 at the bottom
+/// to 1 at the top of a shell, and to values of fields as on a surface.
+enum class Place { body, surface, shell, reference };
 
 /// Throws formula::FormulaError where a formula cannot be read; `reference`: of the place and constants
 /// alone.

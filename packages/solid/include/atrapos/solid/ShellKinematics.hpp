@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+
 #include "atrapos/solid/Mitc3Base.hpp"
 #include "atrapos/solid/Mitc4Base.hpp"
 #include "atrapos/solid/Mitc6Base.hpp"
@@ -14,6 +16,7 @@
 ///     strain       the Green-Lagrange strain of x, in the axes of the data
 ///     forces       the work conjugates of x for the second Piola-Kirchhoff stress in these axes
 ///     gradient     at a point as doubles: F by rows, [component][axis], from the axes to space
+///     doubled      the x of a body whose lengths are all twice as large, without a turn
 namespace atrapos::solid {
 
 /// Strains of the displacements (ShellLaw). x: H_ij = du_i/dX_j by rows; data: the axes at rest,
@@ -43,6 +46,10 @@ struct PlainShell {
       for (int k = 0; k < 3; ++k)
         F[3 * i + k] =
             axes[3 * i + k] + x[3 * i] * axes[k] + x[3 * i + 1] * axes[3 + k] + x[3 * i + 2] * axes[6 + k];
+  }
+
+  static void doubled(const double*, double* x) {
+    for (int i = 0; i < 9; ++i) x[i] = i % 4 == 0 ? 1 : 0;
   }
 
  private:
@@ -83,6 +90,7 @@ struct AssumedShearShell {
         F[3 * i + k] = g[0] * base[3 * k] + g[1] * base[3 * k + 1] + 0.5 * (g[2] + g[3]) * base[3 * k + 2];
     }
   }
+  static void doubled(const double* data, double* x) { std::copy_n(data, numInputs, x); }
 };
 
 /// Strains tied between points of an Element (TiedPoint.hpp). x: changes of its vectors, [component][vector];
@@ -108,6 +116,7 @@ struct TiedShell {
     for (int i = 0; i < numInputs; ++i) now[i] = data[i] + x[i];
     detail::tiedGradient<Element>(now, data + numInputs, data + firstBase, F);
   }
+  static void doubled(const double* data, double* x) { std::copy_n(data, numInputs, x); }
 };
 
 }  // namespace atrapos::solid

@@ -18,6 +18,20 @@ enum class ShellStrains { compatible, assumedShear };
 /// fem::enhancedTerm at mitc6Points.
 std::unique_ptr<fem::PointLaw> sixNodeShellLaw(std::unique_ptr<fem::PointLaw> material);
 
+/// The same in shells of this many nodes, with lengths that grow (GrowthStages.hpp). growth, a stage: in: the
+/// load factor; out: e; data: x, y, z, zeta. Inputs: those of the Kinematics, the load factor, e; data: the
+/// Kinematics' in Cartesian axes, g, growth's, the unit tensor as the
+/// element's strains have it, 6.
+std::unique_ptr<fem::PointLaw> expandingShellLaw(ShellStrains strains, int nodesPerElement,
+                                                 std::unique_ptr<fem::PointLaw> material,
+                                                 std::unique_ptr<fem::PointLaw> growth);
+
+/// The term of that law. poissonsRatio: of the material at rest (mitc4Points).
+std::unique_ptr<fem::Term> expandingShellTerm(const ShellElements& elements, ShellStrains strains,
+                                              double poissonsRatio, std::unique_ptr<fem::PointLaw> material,
+                                              std::unique_ptr<fem::PointLaw> growth,
+                                              const ShellCubature& cubature = {});
+
 /// A metal in shells of this many nodes; kinematic hardening where it has a modulus. Inputs: those of the
 /// Kinematics (ShellKinematics.hpp); outputs: forces, the event function, variables; data: 1 where the point
 /// yields, else 0, the Kinematics' in axes of which 3 is the normal at rest, variables. strains: of eight
