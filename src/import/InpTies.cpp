@@ -114,6 +114,8 @@ void replace(InpModel& model, const std::vector<int>& from, const std::vector<in
     for (int& node : body.nodes) node = now[static_cast<std::size_t>(node)];
     std::sort(body.nodes.begin(), body.nodes.end());
     body.nodes.erase(std::unique(body.nodes.begin(), body.nodes.end()), body.nodes.end());
+    for (int* node : {&body.reference, &body.rotation})
+      if (*node >= 0) *node = now[static_cast<std::size_t>(*node)];
   }
   for (std::size_t i = 0; i < from.size(); ++i)
     model.nodeAt[model.nodeIds[static_cast<std::size_t>(from[i])]] = to[i];

@@ -26,15 +26,18 @@ using detail::Vec3;
 
 namespace {
 
+// Data at a point behind the Kinematics': g; then of an expansion the place and zeta, the unit tensor.
+constexpr int kBase = 3, kPlace = 4, kUnit = 6;
+
 /// Inputs x and e, data: the Kinematics', g; with `growth`, which may be null, those of expandingShellLaw.
 /// Cauchy stress is shown without the enhanced part in F.
 std::unique_ptr<fem::PointLaw> enhancedLaw(StagedParts parts, std::unique_ptr<fem::PointLaw> material,
                                            std::unique_ptr<fem::PointLaw> growth = nullptr) {
   const int n = parts.inputs;
-  const std::vector<int> x = range(0, n), data = range(0, parts.data), g = range(parts.data, 3);
+  const std::vector<int> x = range(0, n), data = range(0, parts.data), g = range(parts.data, kBase);
   fem::StagedPlan plan;
   plan.inputs = growth ? n + 2 : n + 1;
-  plan.data = parts.data + (growth ? 13 : 3);
+  plan.data = parts.data + kBase + (growth ? kPlace + kUnit : 0);
   plan.symmetric = material->shape().symmetric;
   int next = plan.inputs;
   // The first wire of a stage's outputs.
@@ -48,9 +51,9 @@ std::unique_ptr<fem::PointLaw> enhancedLaw(StagedParts parts, std::unique_ptr<fe
   std::vector<int> ofMaterial = joined(range(strain, 6), {enhanced});
   int stress = 0;
   if (growth) {
-    const int e = add(std::move(growth), {n}, range(parts.data + 3, 4));
-    const int elastic =
-        add(fem::pointLaw(ElasticStrainStage{}), joined(ofMaterial, {e}), range(parts.data + 7, 6));
+    const int e = add(std::move(growth), {n}, range(parts.data + kBase, kPlace));
+    const int elastic = add(fem::pointLaw(ElasticStrainStage{}), joined(ofMaterial, {e}),
+                            range(parts.data + kBase + kPlace, kUnit));
     const int own = add(std::move(material), range(elastic, 7), g);
     stress = add(fem::pointLaw(GrownStressStage{}), joined(range(own, 7), {e}), {});
   } else {
@@ -151,7 +154,7 @@ std::unique_ptr<fem::Term> expandingShellTerm(const ShellElements& elements, She
   const std::size_t count = points.points.numPoints(), before = points.data.size() / count,
                     each = static_cast<std::size_t>(points.points.pointsPerEntity);
   const StagedParts parts = partsOf(strains, N);
-  const std::size_t numData = static_cast<std::size_t>(parts.data) + 13;
+  const std::size_t numData = static_cast<std::size_t>(parts.data + kBase + kPlace + kUnit);
   std::vector<double> data;
   data.reserve(count * numData);
   for (std::size_t p = 0; p < count; ++p) {
@@ -159,8 +162,8 @@ std::unique_ptr<fem::Term> expandingShellTerm(const ShellElements& elements, She
     data.insert(data.end(), &points.data[p * before], &points.data[p * before] + before);
     data.insert(data.end(), &points.points.positions[3 * p], &points.points.positions[3 * p] + 3);
     data.push_back(points.modes[p % each * points.numParameters]);  // zeta
-    data.resize(data.size() + 6);
-    parts.unit(&data[p * numData], &data[(p + 1) * numData - 6]);
+    data.resize(data.size() + kUnit);
+    parts.unit(&data[p * numData], &data[(p + 1) * numData - kUnit]);
   }
   points.data = std::move(data);
   return fem::enhancedTerm(expandingShellLaw(strains, N, std::move(material), std::move(growth)), points);
