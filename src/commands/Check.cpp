@@ -5,6 +5,7 @@
 #include <ostream>
 
 #include "atrapos/linear/Choice.hpp"
+#include "commands/FirstAnswer.hpp"
 #include "commands/MeshCommand.hpp"
 #include "commands/RunSettings.hpp"
 #include "commands/SceneCase.hpp"
@@ -54,6 +55,8 @@ void printCheck(const deck::Deck& deck, Scene& scene, std::ostream& out) {
       estimateMemory(problem, pathCase.start(), scene.deck().path, *solver, pathCase.historyBytes());
   if (const std::string why = linear::choice(*solver); !why.empty()) out << "# solver    " << why << '\n';
   for (const std::string& line : describe(memory, allMachines())) out << "# " << line << '\n';
+  for (const std::string& line : describeFirstAnswer(scene, pathCase.start(), *solver))
+    out << "# " << line << '\n';
 }
 
 void printCheck(const ModelCase& model, std::ostream& out) {
