@@ -8,23 +8,12 @@
 #include <exception>
 
 #include "atrapos/linear/FactorCost.hpp"
-#include "atrapos/path/Calls.hpp"
 #include "scene/Extents.hpp"
 
 namespace atrapos {
 namespace {
 
 using Vector3 = std::array<double, 3>;
-
-/// Longest side of a box around the mesh.
-double sizeOf(const fem::Mesh& mesh) {
-  double size = 0;
-  for (int axis = 0; axis < mesh.dimension; ++axis) {
-    const auto [low, high] = rangeAlong(mesh, axis);
-    size = std::max(size, high - low);
-  }
-  return size;
-}
 
 /// The thickness of the thinnest shell, or of the thinnest body.
 double thicknessOf(const Scene& scene) {
@@ -98,7 +87,7 @@ std::vector<std::string> describeFirstAnswer(Scene& scene, const path::State& st
                                              linear::TangentSolver& solver) {
   fem::FeProblem& problem = scene.problem();
   const fem::FeModel& model = problem.model();
-  const double size = sizeOf(scene.mesh());
+  const double size = longestSide(scene.mesh());
   if (model.dofs.find(fem::displacementField().name) < 0 || !(size > 0)) return {};
   std::vector<std::string> lines;
   const int dimension = scene.mesh().dimension;
@@ -120,11 +109,12 @@ std::vector<std::string> describeFirstAnswer(Scene& scene, const path::State& st
   const std::vector<double>& ends = scene.deck().path.stop.loadFactors;
   const double loadFactor = ends.empty() ? 1 : ends.back();
   try {
-    path::Calls calls(problem, solver);
-    const auto F = calls.newVector(), answer = calls.newVector();
-    calls.factor(start, *F);
+    const auto F = Teuchos::rcp(new path::Vector(problem.map())),
+               answer = Teuchos::rcp(new path::Vector(problem.map()));
+    const auto K = problem.tangent(start, *F);
     if (F->normInf() == 0) return lines;  // tools that have not arrived
-    calls.solve(*F, *answer);
+    solver.factor(K);
+    solver.solve(*F, *answer);
     answer->scale(loadFactor);
     const Displacements u = displacementsIn(scene, model.dofs, fem::FeProblem::values(*answer));
     if (u.node >= 0)

@@ -77,15 +77,14 @@ class MeshCheck {
           fail(path, fmt::format("block '{}' already has the material '{}'", name, previous->second));
         }
         if (std::holds_alternative<VonMises>(material.law)) plastic(material, found);
-        if (material.dielectric && isThin(found))
-          fail("materials/" + material.name + "/dielectric",
-               fmt::format("block '{}' has {}; dielectric is for solids and plane bodies", name,
-                           kindOf(found)));
-        if (!material.expansion.empty() && isThin(found) &&
-            !fem::isShell(mesh_.blocks[static_cast<std::size_t>(found)]))
-          fail("materials/" + material.name + "/expansion",
-               fmt::format("block '{}' has {}; expansion is for solids, plane bodies and shells", name,
-                           kindOf(found)));
+        const bool shell = fem::isShell(mesh_.blocks[static_cast<std::size_t>(found)]);
+        if (isThin(found) && (material.dielectric || (!material.expansion.empty() && !shell))) {
+          const std::string key = material.dielectric ? "dielectric" : "expansion";
+          fail("materials/" + material.name + "/" + key,
+               fmt::format(
+                   "block '{}' has {}; {} is for {}", name, kindOf(found), key,
+                   material.dielectric ? "solids and plane bodies" : "solids, plane bodies and shells"));
+        }
       }
     }
     std::set<int> used;

@@ -123,6 +123,9 @@ std::vector<int> inpFaceNodes(const InpModel& model, const InpFace& face);
 /// has none of this name.
 std::optional<int> inpFace(fem::Topology topology, std::string_view label);
 
+/// In ascending order, each once.
+void inpMakeSet(std::vector<int>& items);
+
 /// The name without quotes.
 std::string inpName(std::string_view field);
 

@@ -76,13 +76,12 @@ Hardening fitted(const std::vector<Row>& rows, double exponent, bool linear) {
 }
 
 Hardening nearest(const std::vector<Row>& rows, bool linear) {
-  Hardening best{rows.front().stress};
-  if (rows.size() == 1) return best;
+  if (rows.size() == 1) return {rows.front().stress};
   // A line where the rows are on one.
   const double last = rows.back().strain;
   Hardening line{rows.front().stress, (rows.back().stress - rows.front().stress) / last};
   if (line.modulus >= 0 && line.offOf(rows) < 1e-6) return line;
-  best = line.modulus >= 0 && linear ? line : fitted(rows, 1 / last, false);
+  Hardening best = line.modulus >= 0 && linear ? line : fitted(rows, 1 / last, false);
   double least = best.offOf(rows);
   // Exponents from such that the table ends where hardening begins to fall, to such that it has in a
   // hundredth.

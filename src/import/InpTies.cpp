@@ -39,8 +39,7 @@ Surface surfaceOf(const InpModel& model, std::string_view field, const InpPlace&
   } else {
     place.fail(fmt::format("*TIE: there is no surface '{}'", deck::shortened(name)));
   }
-  std::sort(surface.nodes.begin(), surface.nodes.end());
-  surface.nodes.erase(std::unique(surface.nodes.begin(), surface.nodes.end()), surface.nodes.end());
+  inpMakeSet(surface.nodes);
   return surface;
 }
 
@@ -105,15 +104,13 @@ void replace(InpModel& model, const std::vector<int>& from, const std::vector<in
     if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end())
       place.fail(fmt::format("*TIE: ties nodes of element {} to each other", model.elementIds[e]));
   }
-  for (auto& [name, nodes] : model.nodeSets.all()) {
-    for (int& node : nodes) node = now[static_cast<std::size_t>(node)];
-    std::sort(nodes.begin(), nodes.end());
-    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-  }
+  const auto replaceIn = [&](std::vector<int>& set) {
+    for (int& node : set) node = now[static_cast<std::size_t>(node)];
+    inpMakeSet(set);
+  };
+  for (auto& named : model.nodeSets.all()) replaceIn(named.second);
   for (InpRigidBody& body : model.rigidBodies) {
-    for (int& node : body.nodes) node = now[static_cast<std::size_t>(node)];
-    std::sort(body.nodes.begin(), body.nodes.end());
-    body.nodes.erase(std::unique(body.nodes.begin(), body.nodes.end()), body.nodes.end());
+    replaceIn(body.nodes);
     for (int* node : {&body.reference, &body.rotation})
       if (*node >= 0) *node = now[static_cast<std::size_t>(*node)];
   }

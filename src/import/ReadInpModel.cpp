@@ -35,7 +35,7 @@ class ModelReader {
     for (const InpCard* card : cards_)
       if (card->keyword == "ELEMENT") readElements(*card);
     for (auto* sets : {&model_.nodeSets, &model_.elementSets})
-      for (auto& named : sets->all()) makeSet(named.second);
+      for (auto& named : sets->all()) inpMakeSet(named.second);
     for (const InpCard* card : cards_) readSet(*card);
     for (const InpCard* card : cards_) readRest(*card);
     for (const InpCard* card : cards_)
@@ -186,7 +186,7 @@ class ModelReader {
       for (int n = 0; n < element.type->nodes; ++n)
         add(nodes, model_.connectivity[element.firstNode + static_cast<std::size_t>(n)], card.place);
     }
-    makeSet(nodes);
+    inpMakeSet(nodes);
   }
 
   template <class Sets>
@@ -239,7 +239,7 @@ class ModelReader {
                                 missing, what, missing > 1 ? "s" : "", firstMissing));
     result.insert(result.end(), found.begin(), found.end());
     count(result.size(), card.place);  // sorting it takes time
-    makeSet(result);
+    inpMakeSet(result);
   }
 
   void add(std::vector<int>& set, int item, const InpPlace& place) {
@@ -252,11 +252,6 @@ class ModelReader {
     if (entries_ > mostEntries)
       place.fail(fmt::format("sets and elements have more than {} entries together, which is the most",
                              mostEntries));
-  }
-
-  static void makeSet(std::vector<int>& items) {
-    std::sort(items.begin(), items.end());
-    items.erase(std::unique(items.begin(), items.end()), items.end());
   }
 
   void readRest(const InpCard& card) {
@@ -298,7 +293,7 @@ class ModelReader {
         body.nodes.insert(body.nodes.end(), nodes, nodes + element.type->nodes);
       }
     count(body.nodes.size(), card.place);
-    makeSet(body.nodes);
+    inpMakeSet(body.nodes);
     if (body.nodes.empty())
       return model_.remark(card.place, "*RIGID BODY: left out, no NSET or ELSET names nodes that it has");
     if (card.has("PINNSET"))
@@ -331,7 +326,7 @@ class ModelReader {
       std::vector<int>& nodes = model_.nodeSets[name];
       for (InpLine line; lines.next(line);)
         for (const int node : inpNodes(model_, line.at(0), line.place)) add(nodes, node, line.place);
-      return makeSet(nodes);
+      return inpMakeSet(nodes);
     }
     if (type != "ELEMENT")
       return model_.remark(card.place, fmt::format("*SURFACE, TYPE={}: left out; known are ELEMENT and NODE",
@@ -475,6 +470,11 @@ std::optional<int> inpFace(fem::Topology topology, std::string_view label) {
   }
   const int side = inpSide(topology, face);
   return side >= 0 ? std::optional<int>(side) : std::nullopt;
+}
+
+void inpMakeSet(std::vector<int>& items) {
+  std::sort(items.begin(), items.end());
+  items.erase(std::unique(items.begin(), items.end()), items.end());
 }
 
 std::string inpName(std::string_view field) {

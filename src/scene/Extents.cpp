@@ -38,4 +38,13 @@ std::pair<double, double> rangeAlong(const fem::Mesh& mesh, int axis) {
   return {low, high};
 }
 
+double longestSide(const fem::Mesh& mesh) {
+  double size = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto [low, high] = rangeAlong(mesh, axis);
+    size = std::max(size, high - low);
+  }
+  return size;
+}
+
 }  // namespace atrapos

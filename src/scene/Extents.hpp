@@ -15,6 +15,9 @@ struct Extents {
 /// The least and the largest coordinate along an axis, of all nodes; 0, 0 where there are none.
 std::pair<double, double> rangeAlong(const fem::Mesh& mesh, int axis);
 
+/// The longest side of a box around the mesh.
+double longestSide(const fem::Mesh& mesh);
+
 Extents extentsOf(const fem::Mesh& mesh, const fem::Block& block);
 
 }  // namespace atrapos

@@ -23,24 +23,10 @@
 #include "scene/Sets.hpp"
 
 namespace atrapos {
-namespace {
-
-/// The longest side of a box around the mesh.
-double sizeOf(const fem::Mesh& mesh) {
-  double size = 0;
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto [low, high] = rangeAlong(mesh, axis);
-    size = std::max(size, high - low);
-  }
-  return size;
-}
-
-}  // namespace
-
 SceneModel ModelMaker::make() {
   made_.model.comm = Teuchos::rcp(new Teuchos::MpiComm<int>(ranks::communicator()));
   made_.model.dofs = fem::DofMap(mesh_.numNodes(), fields());
-  if (!deck_.materials.empty()) made_.model.size = sizeOf(mesh_);
+  if (!deck_.materials.empty()) made_.model.size = longestSide(mesh_);
   made_.model.dofs.addNodes(shells_.geometry.numDirectors(), fem::directorField());
   addMaterials();
   addFlows();

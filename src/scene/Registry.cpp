@@ -180,19 +180,18 @@ std::unique_ptr<fem::Term> shells(const Entry& entry, const solid::ShellElements
                            solid::shellPoints(elements, cubature));
 }
 
-std::unique_ptr<fem::Term> expandingShells(const deck::VonMises&, const solid::ShellElements&,
-                                           const solid::ShellCubature&, deck::Shear,
-                                           std::unique_ptr<fem::PointLaw>) {
-  throw std::logic_error("registry: an expansion of a metal");  // decks are checked
-}
 template <class Entry>
 std::unique_ptr<fem::Term> expandingShells(const Entry& entry, const solid::ShellElements& elements,
                                            const solid::ShellCubature& cubature, deck::Shear shear,
                                            std::unique_ptr<fem::PointLaw> growth) {
-  const auto material = law(entry);
-  return solid::expandingShellTerm(elements, strainsOf(shear), poissonsRatio(material),
-                                   fem::pointLaw(solid::ShellMaterialStage<decltype(law(entry))>{material}),
-                                   std::move(growth), cubature);
+  if constexpr (inFields<Entry>) {
+    const auto material = law(entry);
+    return solid::expandingShellTerm(elements, strainsOf(shear), poissonsRatio(material),
+                                     fem::pointLaw(solid::ShellMaterialStage<decltype(law(entry))>{material}),
+                                     std::move(growth), cubature);
+  } else {
+    throw std::logic_error("registry: an expansion of another material");  // decks are checked
+  }
 }
 
 std::unique_ptr<fem::PointLaw> thin(const deck::VonMises& entry, bool bars) {

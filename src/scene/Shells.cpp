@@ -26,13 +26,10 @@ std::vector<fem::ShellSection> sectionsOf(const deck::Deck& deck, const fem::Mes
   return sections;
 }
 
-/// Whether a cell has no middle nodes: a surface of facets.
-bool isFacet(fem::Topology topology) {
-  return topology == fem::Topology::Shell4 || topology == fem::Topology::Shell3;
+/// Whether a shell's assumed strains are its own, and there are no others to choose.
+bool isTied(fem::Topology topology) {
+  return !fem::hasMiddles(topology) || topology == fem::Topology::Shell6;
 }
-
-/// Whether its assumed strains are its own, and there are no others to choose.
-bool isTied(fem::Topology topology) { return isFacet(topology) || topology == fem::Topology::Shell6; }
 
 deck::Shear shearOf(const deck::Deck& deck, const fem::Mesh& mesh, int block) {
   for (const deck::ShellSection& section : deck.shells.sections)
@@ -70,7 +67,7 @@ std::vector<fem::PrescribedDirector> directorsInSymmetry(const deck::Deck& deck,
                                                          const fem::ShellGeometry& geometry) {
   std::set<int> facetNodes;
   for (const fem::Block& block : mesh.blocks)
-    if (isFacet(block.topology) && fem::isShell(block))
+    if (fem::isShell(block) && !fem::hasMiddles(block.topology))
       facetNodes.insert(block.nodes.begin(), block.nodes.end());
   if (facetNodes.empty()) return {};
   const double largest =

@@ -3,8 +3,7 @@
 
 #include <cstdio>
 
-#include "support/Command.hpp"
-#include "support/Folder.hpp"
+#include "support/CheckedDeck.hpp"
 
 namespace atrapos::test {
 namespace {
@@ -27,13 +26,7 @@ path:
 
 class FirstAnswer : public ::testing::Test {
  protected:
-  std::string of(const std::string& deck) {
-    writeFile(folder_ / "m.yaml", deck);
-    EXPECT_EQ(runAtrapos({"mesh", "-q", "m.yaml"}, folder_.path()).exitCode, 0);
-    const CommandResult check = runAtrapos({"check", "m.yaml"}, folder_.path());
-    EXPECT_EQ(check.exitCode, 0) << check.err;
-    return check.out;
-  }
+  std::string of(const std::string& deck) { return checkedDeck(folder_, deck); }
   static void expectIn(const std::string& text, const std::string& line) {
     EXPECT_NE(text.find(line), std::string::npos) << line << "\n" << text;
   }

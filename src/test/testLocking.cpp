@@ -3,8 +3,7 @@
 
 #include <sstream>
 
-#include "support/Command.hpp"
-#include "support/Folder.hpp"
+#include "support/CheckedDeck.hpp"
 
 namespace atrapos::test {
 namespace {
@@ -27,20 +26,17 @@ class Locking : public ::testing::Test {
  protected:
   /// What check says, and the deflection of the tip.
   std::pair<std::string, double> of(const std::string& mesh) {
-    writeFile(folder_ / "m.yaml", cantilever(mesh));
-    EXPECT_EQ(runAtrapos({"mesh", "-q", "m.yaml"}, folder_.path()).exitCode, 0);
-    const CommandResult check = runAtrapos({"check", "m.yaml"}, folder_.path());
-    EXPECT_EQ(check.exitCode, 0) << check.err;
+    const std::string check = checkedDeck(folder_, cantilever(mesh));
     const CommandResult run = runAtrapos({"run", "m.yaml"}, folder_.path());
     EXPECT_EQ(run.exitCode, 0) << run.err;
     EXPECT_EQ(run.out.find("locks in bending") != std::string::npos,
-              check.out.find("locks in bending") != std::string::npos);
+              check.find("locks in bending") != std::string::npos);
     std::istringstream lines(readFile(folder_ / "m_results/path.csv"));
     std::string line, last;
     while (std::getline(lines, line)) last = line;
     std::istringstream cells(last);
     for (int c = 0; c < 4; ++c) std::getline(cells, line, ',');
-    return {check.out, -std::stod(line)};
+    return {check, -std::stod(line)};
   }
   TemporaryFolder folder_;
 };

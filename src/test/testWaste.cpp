@@ -4,8 +4,7 @@
 
 #include <string>
 
-#include "support/Command.hpp"
-#include "support/Folder.hpp"
+#include "support/CheckedDeck.hpp"
 
 namespace atrapos::test {
 namespace {
@@ -25,14 +24,10 @@ class Waste : public ::testing::Test {
  protected:
   /// The lines of check that begin with "# waste".
   std::string of(const std::string& deck) {
-    writeFile(folder_ / "m.yaml", deck);
-    EXPECT_EQ(runAtrapos({"mesh", "-q", "m.yaml"}, folder_.path()).exitCode, 0);
-    const CommandResult check = runAtrapos({"check", "m.yaml"}, folder_.path());
-    EXPECT_EQ(check.exitCode, 0) << check.err;
+    const std::string text = checkedDeck(folder_, deck);
     std::string lines;
-    for (std::size_t at = check.out.find("# waste"); at != std::string::npos;
-         at = check.out.find("# waste", at + 1))
-      lines += check.out.substr(at, check.out.find('\n', at) + 1 - at);
+    for (std::size_t at = text.find("# waste"); at != std::string::npos; at = text.find("# waste", at + 1))
+      lines += text.substr(at, text.find('\n', at) + 1 - at);
     return lines;
   }
   TemporaryFolder folder_;

@@ -10,6 +10,7 @@
 #include "atrapos/exodus/ResultReader.hpp"
 #include "atrapos/fem/StructuredMesh.hpp"
 #include "atrapos/fem/StructuredShell.hpp"
+#include "import/UsedNodes.hpp"
 #include "support/Command.hpp"
 #include "support/Folder.hpp"
 #include "support/Table.hpp"
@@ -103,16 +104,21 @@ TEST(ShellRuns, TubeOfFourNodesUnderPressure) {
   EXPECT_NEAR(ring.hoop, 20 * (ring.radius - ring.halfThickness), 2e-3 * ring.hoop);
 }
 
-/// The tube of 32 x 2 SHELL4, every second one cut into two SHELL3 of a block `fill`, with the sides of both.
-fem::Mesh mixedTube() {
+/// The tube of kTube, so many cells around and two along it.
+fem::Mesh tubeMesh(int around, fem::Topology cell) {
   fem::ShellCylinderOptions options;
   options.radius = 1;
   options.thetaMax = 90;
   options.length = 0.2;
-  options.divisions = {32, 2};
-  options.topology = fem::Topology::Shell4;
+  options.divisions = {around, 2};
+  options.topology = cell;
   options.blockName = "tube";
-  fem::Mesh mesh = fem::shellCylinderMesh(options);
+  return fem::shellCylinderMesh(options);
+}
+
+/// The tube of 32 x 2 SHELL4, every second one cut into two SHELL3 of a block `fill`, with the sides of both.
+fem::Mesh mixedTube() {
+  fem::Mesh mesh = tubeMesh(32, fem::Topology::Shell4);
   const std::vector<int> cells = mesh.blocks[0].nodes;
   const int count = static_cast<int>(cells.size()) / 4;
   fem::Block fill;
@@ -151,13 +157,7 @@ fem::Mesh mixedTube() {
 
 /// The tube of 16 x 2 SHELL8, every second one without its middle nodes in a block `fill`.
 fem::Mesh tubeOfEightAndFour() {
-  fem::ShellCylinderOptions options;
-  options.radius = 1;
-  options.thetaMax = 90;
-  options.length = 0.2;
-  options.divisions = {16, 2};
-  options.blockName = "tube";
-  fem::Mesh mesh = fem::shellCylinderMesh(options);
+  fem::Mesh mesh = tubeMesh(16, fem::Topology::Shell8);
   const std::vector<int> cells = mesh.blocks[0].nodes;
   const int count = static_cast<int>(cells.size()) / 8;
   fem::Block fill;
@@ -178,26 +178,7 @@ fem::Mesh tubeOfEightAndFour() {
   mesh.blocks.push_back(fill);
   for (fem::SideSet& set : mesh.sideSets)
     for (fem::Side& side : set.sides) side.element = number[side.element];
-  // Nodes in the middle of outer edges that no cell has any more.
-  std::vector<int> left(mesh.numNodes(), -1);
-  for (const fem::Block& block : mesh.blocks)
-    for (const int n : block.nodes) left[n] = 0;
-  std::vector<double> coordinates;
-  for (int n = 0; n < mesh.numNodes(); ++n) {
-    if (left[n] < 0) continue;
-    left[n] = static_cast<int>(coordinates.size() / 3);
-    coordinates.insert(coordinates.end(), &mesh.coordinates[3 * n], &mesh.coordinates[3 * n] + 3);
-  }
-  mesh.coordinates = coordinates;
-  for (fem::Block& block : mesh.blocks)
-    for (int& n : block.nodes) n = left[n];
-  for (fem::NodeSet& set : mesh.nodeSets) {
-    std::vector<int> nodes;
-    for (const int n : set.nodes)
-      if (left[n] >= 0) nodes.push_back(left[n]);
-    set.nodes = nodes;
-    set.factors.clear();
-  }
+  importer::dropUnusedNodes(mesh);  // in the middle of outer edges
   return mesh;
 }
 

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "Labels.hpp"
+#include "NewMultipliers.hpp"
 #include "SharedEdgeLaw.hpp"
 #include "Vec3.hpp"
 #include "atrapos/fem/LawTerm.hpp"
@@ -31,8 +32,6 @@ void forEachEdge(const Mesh& mesh, const Function& f) {
     }
   }
 }
-
-bool hasMiddles(const Block& block) { return nodesPerElement(block.topology) > shellCorners(block.topology); }
 
 /// Dofs that supports or couplings hold.
 class Held {
@@ -63,11 +62,6 @@ class Held {
   std::set<int> slaves_, masters_;
 };
 
-Vec3 vectorAt(const std::vector<double>& values, int n) {
-  const double* v = &values[3 * static_cast<std::size_t>(n)];
-  return {v[0], v[1], v[2]};
-}
-
 /// The middles as points with a multiplier vector each: y and h, then the directors of the ends.
 class Middles {
  public:
@@ -76,8 +70,6 @@ class Middles {
     directors_.nodesPerEntity = 2;
     points_.shapeComponents = directors_.shapeComponents = 2;
     points_.pointsPerEntity = 1;
-    mu_.nodesPerEntity = mu_.shapeComponents = 1;
-    mu_.field = "force at the middle of an edge";
   }
 
   void add(const Mesh& mesh, const ShellGeometry& shells, const EdgeFollower& f, double youngsModulus) {
@@ -114,36 +106,35 @@ class Middles {
 
   /// [edge, as added][component]: whether supports or couplings hold the middle.
   void addTo(FeModel& model, const std::vector<std::array<bool, 3>>& held) {
-    const int first =
-        model.dofs.addNodes(points_.numEntities, {mu_.field, {"x", "y", "z"}, Role::multiplier});
-    const int field = model.dofs.find(mu_.field);
-    for (int e = 0; e < points_.numEntities; ++e) {
-      mu_.nodes.push_back(first + e);
+    const Field force{"force at the middle of an edge", {"x", "y", "z"}, Role::multiplier};
+    Interpolation mu = newMultipliers(model, force, points_.numEntities);
+    const int field = model.dofs.find(force.name);
+    for (std::size_t e = 0; e < held.size(); ++e)
       for (int i = 0; i < 3; ++i)
-        if (held[static_cast<std::size_t>(e)][static_cast<std::size_t>(i)])
-          model.supports.prescribe(model.dofs.dof(field, first + e, i), 0, 0);
-    }
-    mu_.shape.assign(static_cast<std::size_t>(points_.numEntities), 1.0);
-    points_.more = {std::move(directors_), std::move(mu_)};
+        if (held[e][static_cast<std::size_t>(i)])
+          model.supports.prescribe(model.dofs.dof(field, mu.nodes[e], i), 0, 0);
+    points_.more = {std::move(directors_), std::move(mu)};
     model.terms.push_back(lawTerm(pointLaw(SharedEdgeLaw{}), points_, data_));
   }
 
  private:
   PointSet points_;
-  Interpolation directors_, mu_;
+  Interpolation directors_;
   std::vector<double> data_;
 };
 
 }  // namespace
 
+bool hasMiddles(Topology topology) { return nodesPerElement(topology) > shellCorners(topology); }
+
 std::vector<SharedEdge> sharedEdges(const Mesh& mesh) {
   std::set<std::pair<int, int>> straight;
   forEachEdge(mesh, [&](int b, int, int, const std::pair<int, int>& ends) {
-    if (!hasMiddles(mesh.blocks[b])) straight.insert(ends);
+    if (!hasMiddles(mesh.blocks[b].topology)) straight.insert(ends);
   });
   std::vector<SharedEdge> shared;
   forEachEdge(mesh, [&](int b, int e, int c, const std::pair<int, int>& ends) {
-    if (hasMiddles(mesh.blocks[b]) && straight.count(ends) > 0) shared.push_back({b, e, c});
+    if (hasMiddles(mesh.blocks[b].topology) && straight.count(ends) > 0) shared.push_back({b, e, c});
   });
   return shared;
 }

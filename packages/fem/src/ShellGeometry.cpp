@@ -68,17 +68,13 @@ class Builder {
   const Block& block(int section) const { return mesh_.blocks[sections_[section].block]; }
   int perElement(int section) const { return result_.blocks[section].nodesPerElement; }
   int corners(int section) const { return shellCorners(block(section).topology); }
-  bool hasMiddles(int section) const { return perElement(section) > corners(section); }
   std::string label(int section, int element) const {
     return elementLabel(mesh_, sections_[section].block, element);
   }
   int node(int section, int element, int local) const {
     return block(section).nodes[static_cast<std::size_t>(element) * perElement(section) + local];
   }
-  Vec3 position(int node) const {
-    const double* x = &mesh_.coordinates[3 * static_cast<std::size_t>(node)];
-    return {x[0], x[1], x[2]};
-  }
+  Vec3 position(int node) const { return vectorAt(mesh_.coordinates, node); }
   std::size_t at(const Corner& c) const {
     return static_cast<std::size_t>(c.element) * perElement(c.section) + c.local;
   }
@@ -164,7 +160,7 @@ class Builder {
       const std::vector<Use>& uses = edge.second;
       if (uses.size() > 2)
         for (const Corner& c : {uses[0].from, uses[0].to}) atBranch_[node(c.section, c.element, c.local)] = 1;
-      if (uses.size() > 2 && hasMiddles(uses[0].from.section))
+      if (uses.size() > 2 && hasMiddles(block(uses[0].from.section).topology))
         atBranch_[node(uses[0].from.section, uses[0].from.element,
                        corners(uses[0].from.section) + uses[0].from.local)] = 1;
       for (std::size_t i = 0; i < uses.size(); ++i)

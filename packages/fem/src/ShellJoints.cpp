@@ -8,6 +8,7 @@
 
 #include "JointLaws.hpp"
 #include "Labels.hpp"
+#include "NewMultipliers.hpp"
 #include "Vec3.hpp"
 #include "atrapos/fem/LawTerm.hpp"
 
@@ -34,8 +35,7 @@ Joint jointAt(const ShellGeometry& shells, int node) {
   Joint joint;
   joint.nodes = shells.directorNodes(node);
   for (const int n : joint.nodes) {
-    const double* d = &shells.directors[3 * static_cast<std::size_t>(n - shells.numMeshNodes)];
-    const Vec3 D{d[0], d[1], d[2]};
+    const Vec3 D = vectorAt(shells.directors, n - shells.numMeshNodes);
     joint.length.push_back(norm(D));
     joint.E.push_back(scaled(1 / norm(D), D));
   }
@@ -204,13 +204,8 @@ struct Points {
   template <class Law>
   void addTo(FeModel& model, const Law& law) {
     if (points.numEntities == 0) return;
-    Interpolation mu;
-    mu.components = mu.nodesPerEntity = mu.shapeComponents = 1;
-    mu.field = "moment of a joint";
-    const int first = model.dofs.addNodes(points.numEntities, {mu.field, {""}, Role::multiplier});
-    for (int e = 0; e < points.numEntities; ++e) mu.nodes.push_back(first + e);
-    mu.shape.assign(static_cast<std::size_t>(points.numEntities), 1.0);
-    points.more.push_back(std::move(mu));
+    points.more.push_back(
+        newMultipliers(model, {"moment of a joint", {""}, Role::multiplier}, points.numEntities));
     model.terms.push_back(lawTerm(pointLaw(law), points, data));
   }
 };

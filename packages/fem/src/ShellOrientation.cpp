@@ -61,10 +61,7 @@ class Orientation {
     Block& b = mesh_.blocks[elements_[e].block];
     return &b.nodes[static_cast<std::size_t>(elements_[e].inBlock) * nodesPerElement(b.topology)];
   }
-  Vec3 place(int node) const {
-    const double* x = &mesh_.coordinates[3 * static_cast<std::size_t>(node)];
-    return {x[0], x[1], x[2]};
-  }
+  Vec3 place(int node) const { return vectorAt(mesh_.coordinates, node); }
 
   void collect() {
     int number = 0;

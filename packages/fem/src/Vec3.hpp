@@ -2,6 +2,8 @@
 
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <vector>
 
 namespace atrapos::fem {
 
@@ -21,5 +23,11 @@ inline void add(double factor, const Vec3& x, Vec3& y) {
 }
 
 inline Vec3 scaled(double factor, const Vec3& x) { return {factor * x[0], factor * x[1], factor * x[2]}; }
+
+/// Vector n of a list, [vector][component].
+inline Vec3 vectorAt(const std::vector<double>& values, int n) {
+  const double* v = &values[3 * static_cast<std::size_t>(n)];
+  return {v[0], v[1], v[2]};
+}
 
 }  // namespace atrapos::fem

@@ -29,7 +29,7 @@ namespace {
 // Data at a point behind the Kinematics': g; then of an expansion the place and zeta, the unit tensor.
 constexpr int kBase = 3, kPlace = 4, kUnit = 6;
 
-/// Inputs x and e, data: the Kinematics', g; with `growth`, which may be null, those of expandingShellLaw.
+/// Inputs x and e, data: the Kinematics', g; with `growth`, which may be null, those of expandingShellTerm.
 /// Cauchy stress is shown without the enhanced part in F.
 std::unique_ptr<fem::PointLaw> enhancedLaw(StagedParts parts, std::unique_ptr<fem::PointLaw> material,
                                            std::unique_ptr<fem::PointLaw> growth = nullptr) {
@@ -139,12 +139,6 @@ std::unique_ptr<fem::PointLaw> sixNodeShellLaw(std::unique_ptr<fem::PointLaw> ma
   return enhancedLaw(detail::partsOf<TiedShell<Mitc6>>(), std::move(material));
 }
 
-std::unique_ptr<fem::PointLaw> expandingShellLaw(ShellStrains strains, int nodesPerElement,
-                                                 std::unique_ptr<fem::PointLaw> material,
-                                                 std::unique_ptr<fem::PointLaw> growth) {
-  return enhancedLaw(partsOf(strains, nodesPerElement), std::move(material), std::move(growth));
-}
-
 std::unique_ptr<fem::Term> expandingShellTerm(const ShellElements& elements, ShellStrains strains,
                                               double poissonsRatio, std::unique_ptr<fem::PointLaw> material,
                                               std::unique_ptr<fem::PointLaw> growth,
@@ -153,7 +147,7 @@ std::unique_ptr<fem::Term> expandingShellTerm(const ShellElements& elements, She
   fem::EnhancedPoints points = pointsOf(poissonsRatio, elements, strains, cubature);
   const std::size_t count = points.points.numPoints(), before = points.data.size() / count,
                     each = static_cast<std::size_t>(points.points.pointsPerEntity);
-  const StagedParts parts = partsOf(strains, N);
+  StagedParts parts = partsOf(strains, N);
   const std::size_t numData = static_cast<std::size_t>(parts.data + kBase + kPlace + kUnit);
   std::vector<double> data;
   data.reserve(count * numData);
@@ -166,7 +160,7 @@ std::unique_ptr<fem::Term> expandingShellTerm(const ShellElements& elements, She
     parts.unit(&data[p * numData], &data[(p + 1) * numData - kUnit]);
   }
   points.data = std::move(data);
-  return fem::enhancedTerm(expandingShellLaw(strains, N, std::move(material), std::move(growth)), points);
+  return fem::enhancedTerm(enhancedLaw(std::move(parts), std::move(material), std::move(growth)), points);
 }
 
 std::unique_ptr<fem::PointLaw> shellMetalLaw(const Metal& metal, ShellStrains strains, int nodesPerElement) {

@@ -41,4 +41,30 @@ Numbers linearSolution(fem::FeProblem& problem) {
   return fem::FeProblem::values(*u);
 }
 
+Matrix rotation(double angle) {
+  const double c = std::cos(angle), s = std::sin(angle), a[3] = {1 / 3., 2 / 3., 2 / 3.};
+  Matrix Q{};
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) Q[3 * i + j] = (1 - c) * a[i] * a[j] + (i == j ? c - 1 : 0);
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3, k = (i + 2) % 3;
+    Q[3 * k + j] += s * a[i];
+    Q[3 * j + k] -= s * a[i];
+  }
+  return Q;
+}
+
+Numbers homogeneous(const ShellGrid& grid, const Matrix& A) {
+  Numbers u(6 * grid.numNodes(), 0.0);
+  for (int n = 0; n < grid.numNodes(); ++n) {
+    const Vec3 D = grid.D(n);
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) {
+        u[3 * n + i] += A[3 * i + j] * grid.x[n][j];
+        u[3 * grid.director(n) + i] += A[3 * i + j] * D[j];
+      }
+  }
+  return u;
+}
+
 }  // namespace atrapos::solid::test

@@ -37,6 +37,14 @@ inline fem::FeModel shellModel(const ShellGrid& grid, const SaintVenantKirchhoff
   return model;
 }
 
+using Matrix = std::array<double, 9>;  ///< by rows
+
+/// Q - I with the rotation Q about (1, 2, 2)/3: u = (Q - I) X.
+Matrix rotation(double angle);
+
+/// v = A R, w = A D: u = A X in the whole body.
+Numbers homogeneous(const ShellGrid& grid, const Matrix& A);
+
 /// Holds components ("x", "yz", ...) of v at these nodes.
 inline void hold(fem::FeModel& model, const std::vector<int>& nodes, const std::string& components) {
   for (int n : nodes)

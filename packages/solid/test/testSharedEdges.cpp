@@ -88,7 +88,7 @@ struct Patch {
     }
     return u;
   }
-  Numbers homogeneous(const std::array<double, 9>& A) const {
+  Numbers homogeneous(const Matrix& A) const {
     const auto times = [A](const Vec3& x) {
       Vec3 y{};
       for (int i = 0; i < 3; ++i)
@@ -139,19 +139,6 @@ Patch patchOf(const std::array<Cell, 2>& cells, const Map& surface, double thick
 /// Parallelograms.
 Vec3 skew(double s, double t) { return {s + 0.4 * t, 0.1 * s + 0.9 * t, 0}; }
 Vec3 arch(double s, double t) { return {std::sin(s), t, std::cos(s)}; }
-
-std::array<double, 9> rotation(double angle) {
-  const double c = std::cos(angle), s = std::sin(angle), a[3] = {1 / 3., 2 / 3., 2 / 3.};
-  std::array<double, 9> Q{};
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) Q[3 * i + j] = (1 - c) * a[i] * a[j] + (i == j ? c - 1 : 0);
-  for (int i = 0; i < 3; ++i) {
-    const int j = (i + 1) % 3, k = (i + 2) % 3;
-    Q[3 * k + j] += s * a[i];
-    Q[3 * j + k] -= s * a[i];
-  }
-  return Q;  // minus the identity
-}
 
 double patchError(const std::array<Cell, 2>& cells, const std::function<Numbers(const Patch&)>& solution) {
   Patch patch = patchOf(cells, skew);
@@ -204,7 +191,7 @@ TEST(SharedEdges, TangentAndOrders) {
 // Plates: constant strain in the plane and constant curvatures, on parallelograms. Rounding times
 // (1/thickness)^2 times a few nodes.
 TEST(SharedEdges, ConstantStrainAndCurvaturePass) {
-  std::array<double, 9> A{1e-3, 2e-4, 0, -4e-4, 5e-4, 0, 0, 0, 0};
+  Matrix A{1e-3, 2e-4, 0, -4e-4, 5e-4, 0, 0, 0, 0};
   A[8] = -nu / (1 - nu) * (A[0] + A[4]);  // S_33 = 0
   for (const auto& cells : pairs) {
     EXPECT_LT(patchError(cells, [&](const Patch& p) { return p.homogeneous(A); }), 1e-11);
@@ -218,7 +205,7 @@ TEST(SharedEdges, HomogeneousStateAtFiniteStrain) {
   const double a = 1.2, d = 1.1;
   const double stretch = std::sqrt(1 - nu / (1 - nu) * (a * a + d * d - 2));
   const std::array<double, 3> U{a, d, stretch};
-  auto A = rotation(0.5);
+  Matrix A = rotation(0.5);
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j)
       A[3 * i + j] = (A[3 * i + j] + (i == j ? 1 : 0)) * U[static_cast<std::size_t>(j)] - (i == j ? 1 : 0);

@@ -14,8 +14,6 @@ using namespace atrapos::fem::test;
 
 namespace {
 
-using Matrix = std::array<double, 9>;
-
 const auto material = SaintVenantKirchhoff::fromYoung(1.0, 0.3);
 constexpr double thickness = 0.05;
 
@@ -39,20 +37,6 @@ ShellGrid parallelograms(Shear shear = Shear::compatible) {
         return SurfacePoint{{s + 0.4 * t, 0.1 * s + 0.9 * t, 0}, {0, 0, 1}};
       },
       undistorted, nodesOf(shear));
-}
-
-/// v = A R, w = A D: u = A X in the whole body.
-Numbers homogeneous(const ShellGrid& grid, const Matrix& A) {
-  Numbers u(6 * grid.numNodes(), 0.0);
-  for (int n = 0; n < grid.numNodes(); ++n) {
-    const Vec3 D = grid.D(n);
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j) {
-        u[3 * n + i] += A[3 * i + j] * grid.x[n][j];
-        u[3 * grid.director(n) + i] += A[3 * i + j] * D[j];
-      }
-  }
-  return u;
 }
 
 /// v and w of the plate theory: curvatures k = (w_xx, w_yy, w_xy) of z = -(...)/2, sections stay normal.
@@ -88,20 +72,6 @@ double patchError(const ShellGrid& grid, const Numbers& exact, Shear shear = She
 double energy(const ShellGrid& grid, const Numbers& u) {
   fem::FeProblem problem(shellModel(grid, material));
   return 0.5 * dot(u, tangent(problem, Numbers(u.size(), 0.0), 0).times(u));
-}
-
-Matrix rotation(double angle) {
-  // About (1, 2, 2)/3, Rodrigues.
-  const double c = std::cos(angle), s = std::sin(angle), a[3] = {1 / 3., 2 / 3., 2 / 3.};
-  Matrix Q{};
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) Q[3 * i + j] = (1 - c) * a[i] * a[j] + (i == j ? c - 1 : 0);
-  for (int i = 0; i < 3; ++i) {
-    const int j = (i + 1) % 3, k = (i + 2) % 3;
-    Q[3 * k + j] += s * a[i];
-    Q[3 * j + k] -= s * a[i];
-  }
-  return Q;  // minus the identity: u = Q X
 }
 
 /// Q U - I: plane stretch and shear U with the thickness stretch that leaves S_33 = 0, turned by Q.

@@ -86,6 +86,12 @@ const std::vector<Element>& elements() {
   return all;
 }
 
+/// Has a remark with these words.
+bool tells(const Model& model, const std::string& words) {
+  return std::any_of(model.remarks.begin(), model.remarks.end(),
+                     [&](const std::string& r) { return r.find(words) != std::string::npos; });
+}
+
 class Cell : public ::testing::TestWithParam<Element> {};
 
 // Nodes stand where Exodus' reference cell has them, and faces have the corners that the manual says.
@@ -142,6 +148,9 @@ const std::string kNodes =
     "*NODE, NSET=all\n1\n2, 1.\n3, 1.d0, 1.\n4, , +1.0E+0\n5, 0, 0, 1\n6, 1, 0, 1\n7, 1, 1, 1\n8, 0, 1, "
     "1\n9, 5, 5, 5\n";
 const std::string kCube = kNodes + "*ELEMENT, TYPE=C3D8, ELSET=cube\n1, 1,2,3,4,5,6,7,8\n";
+/// The cube of a material m, whose laws come next, and a step that pulls it.
+const std::string kCubeOfM = kCube + "*SOLID SECTION, ELSET=cube, MATERIAL=m\n*MATERIAL, NAME=m\n",
+                  kPulled = "*BOUNDARY\n1, 1, 3\n*STEP\n*STATIC\n*CLOAD\n7, 1, 1.\n*END STEP\n";
 const std::string kSteel =
     "*MATERIAL, NAME=steel\n*ELASTIC\n210000., .3\n*DENSITY\n2.\n*SOLID SECTION, ELSET=cube, "
     "MATERIAL=steel\n";
@@ -178,9 +187,7 @@ TEST(Inp, WhatIsLeftOutIsTold) {
        {":17: *NSET: 1 node left out that the mesh does not have, first 77",
         ":19: *ELEMENT, TYPE=B31: left out", ":21: element set 'half': left out", ":23: *CREEP: left out",
         ":25: *EQUATION: left out", "1 node left out", "node set 'far': left out"})
-    EXPECT_TRUE(std::any_of(model.remarks.begin(), model.remarks.end(), [&](const std::string& remark) {
-      return remark.find(line) != std::string::npos;
-    })) << line;
+    EXPECT_TRUE(tells(model, line)) << line;
 }
 
 TEST(Inp, PartsOfOneInstanceAreFlat) {
@@ -269,9 +276,7 @@ TEST(Inp, DeckOfAStaticStep) {
   expectIn("stop: {load_factor: 1}");
   ASSERT_EQ(model.mesh.sideSets.size(), 1u);
   EXPECT_EQ(model.mesh.sideSets[0].sides[0].side, 5);  // the top
-  EXPECT_TRUE(std::any_of(model.remarks.begin(), model.remarks.end(), [](const std::string& r) {
-    return r.find(": *NODEPRINT: left out") != std::string::npos;
-  }));
+  EXPECT_TRUE(tells(model, ": *NODEPRINT: left out"));
 }
 
 TEST(Inp, DeckOfShells) {
@@ -323,8 +328,7 @@ TEST(Inp, DeckOfMembranesAndBars) {
 }
 
 TEST(Inp, Materials) {
-  const std::string begin = kCube + "*SOLID SECTION, ELSET=cube, MATERIAL=m\n*MATERIAL, NAME=m\n",
-                    end = "*BOUNDARY\n1, 1, 3\n*STEP\n*STATIC\n*CLOAD\n7, 1, 1.\n*END STEP\n";
+  const std::string &begin = kCubeOfM, &end = kPulled;
   const std::vector<std::pair<std::string, std::string>> laws{
       {"*HYPERELASTIC, NEO HOOKE\n3., .04\n", "law: mooney_rivlin, c1: 3, c2: 0, bulk_modulus: 50"},
       {"*HYPERELASTIC, MOONEY-RIVLIN\n3., 1., .04\n", "law: mooney_rivlin, c1: 3, c2: 1, bulk_modulus: 50"},
@@ -348,16 +352,8 @@ TEST(Inp, Materials) {
   expectRefused(begin + end, Deck::yes, ":14: material 'm' has neither");
 }
 
-/// Has a remark with these words.
-bool tells(const Model& model, const std::string& words) {
-  return std::any_of(model.remarks.begin(), model.remarks.end(),
-                     [&](const std::string& r) { return r.find(words) != std::string::npos; });
-}
-
 TEST(Inp, Plasticity) {
-  const std::string begin = kCube +
-                            "*SOLID SECTION, ELSET=cube, MATERIAL=m\n*MATERIAL, NAME=m\n*ELASTIC\n2e5, .3\n",
-                    end = "*BOUNDARY\n1, 1, 3\n*STEP\n*STATIC\n*CLOAD\n7, 1, 1.\n*END STEP\n";
+  const std::string begin = kCubeOfM + "*ELASTIC\n2e5, .3\n", &end = kPulled;
   const std::string law = "law: von_mises, youngs_modulus: 200000, poissons_ratio: 0.3, yield_stress: 250";
   const std::vector<std::pair<std::string, std::string>> keys{
       {"*PLASTIC\n250.\n", ", blocks"},
@@ -391,9 +387,7 @@ TEST(Inp, Plasticity) {
 
 // Tables of the law itself give its constants back, others a curve as near as the line says.
 TEST(Inp, HardeningCurves) {
-  const std::string begin = kCube +
-                            "*SOLID SECTION, ELSET=cube, MATERIAL=m\n*MATERIAL, NAME=m\n*ELASTIC\n2e5, .3\n",
-                    end = "*BOUNDARY\n1, 1, 3\n*STEP\n*STATIC\n*CLOAD\n7, 1, 1.\n*END STEP\n";
+  const std::string begin = kCubeOfM + "*ELASTIC\n2e5, .3\n", &end = kPulled;
   const auto hardened = [&](const std::string& parameters, const std::function<double(double)>& stress) {
     std::string rows;
     for (int i = 0; i <= 20; ++i) {

@@ -10,6 +10,9 @@
 /// is at the middle node follows the ends (docs/theory/shell_geometry.md, Shared edges).
 namespace atrapos::fem {
 
+/// Whether a shell's edges have nodes in the middle.
+bool hasMiddles(Topology topology);
+
 /// An edge of a shell with middle nodes that a shell without has too.
 struct SharedEdge {
   int block = 0;    ///< position in Mesh::blocks

@@ -18,15 +18,10 @@ enum class ShellStrains { compatible, assumedShear };
 /// fem::enhancedTerm at mitc6Points.
 std::unique_ptr<fem::PointLaw> sixNodeShellLaw(std::unique_ptr<fem::PointLaw> material);
 
-/// The same in shells of this many nodes, with lengths that grow (GrowthStages.hpp). growth, a stage: in: the
-/// load factor; out: e; data: x, y, z, zeta. Inputs: those of the Kinematics, the load factor, e; data: the
-/// Kinematics' in Cartesian axes, g, growth's, the unit tensor as the
-/// element's strains have it, 6.
-std::unique_ptr<fem::PointLaw> expandingShellLaw(ShellStrains strains, int nodesPerElement,
-                                                 std::unique_ptr<fem::PointLaw> material,
-                                                 std::unique_ptr<fem::PointLaw> growth);
-
-/// The term of that law. poissonsRatio: of the material at rest (mitc4Points).
+/// The term of a material, as ShellMaterialStage<Material>, whose lengths grow (GrowthStages.hpp), in shells
+/// of any number of nodes. growth, a stage: in: the load factor; out: e; data: x, y, z, zeta. Inputs of its
+/// law: those of the Kinematics, the load factor, e; data: the Kinematics' in Cartesian axes, g, growth's,
+/// the unit tensor as the element's strains have it, 6. poissonsRatio: of the material at rest (mitc4Points).
 std::unique_ptr<fem::Term> expandingShellTerm(const ShellElements& elements, ShellStrains strains,
                                               double poissonsRatio, std::unique_ptr<fem::PointLaw> material,
                                               std::unique_ptr<fem::PointLaw> growth,
