@@ -97,8 +97,8 @@ class MeshCheck {
       for (const auto& name : entry.blocks) {
         const int found = block(path, name);
         used.insert(found);
-        if (isThin(found)) {
-          fail(path, fmt::format("block '{}' has {}; balances are for solids and plane cells", name,
+        if (isThin(found) && !fem::isShell(mesh_.blocks[static_cast<std::size_t>(found)])) {
+          fail(path, fmt::format("block '{}' has {}; balances are for solids, plane cells and shells", name,
                                  kindOf(found)));
         }
         if (const auto* flow = std::get_if<FluidFlow>(&entry.law)) {
@@ -322,7 +322,9 @@ class MeshCheck {
         }
       }
     } else if (const auto* inflow = std::get_if<InflowLoad>(&load.load)) {
-      sides(path + "/set", inflow->set);
+      if (inflow->contact.empty()) {
+        sides(path + "/set", inflow->set);
+      }
     } else if (const auto* own = std::get_if<PluginLoad>(&load.load)) {
       sides(path + "/set", own->set);
     } else {

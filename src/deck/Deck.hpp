@@ -292,11 +292,11 @@ struct VolumeLoad {
   Vector3 force{};
 };
 
-/// What flows of a scalar field into a body through the sides of a set, per area.
+/// What flows of a scalar field into a body per area, through the sides of a set or through a contact.
 struct InflowLoad {
-  std::string set;
+  std::string set, contact;  ///< one of them is empty
   std::string field;
-  std::string amount;  ///< formula of the fields there, lambda, x, y, z
+  std::string amount;  ///< formula of the fields there, lambda, x, y, z; contact_pressure and contact_gap
 };
 
 /// A law of a plug-in on the sides of a set.

@@ -104,6 +104,30 @@ void checkInField(const Value& root, const Material& material, const Deck& deck)
   }
 }
 
+/// The way of an inflow: a set, or a contact whose pressure is a function of the gap.
+void checkWay(const Value& at, const InflowLoad& inflow, const Deck& deck) {
+  if (!at.has("set") && !at.has("contact")) {
+    at.failMissing("set", "a side set, or instead of it contact, the name of a contact");
+  }
+  if (!at.has("contact")) {
+    return;
+  }
+  const Value v = at.at("contact");
+  if (at.has("set")) {
+    v.fail("stands beside set; expected one of them");
+  }
+  const Contact& contact = find(v, inflow.contact, deck.contacts, "contact");
+  if (contact.points != Contact::Points::Quadrature || contact.law == Contact::Law::Hard ||
+      contact.unknown == Contact::Unknown::Curve) {
+    v.fail(fmt::format("the pressure of contact '{}' is no function of the gap at points of faces; expected "
+                       "points: quadrature, unknown: displacement and another law than hard",
+                       contact.name));
+  }
+  if (deck.path.sharpen) {
+    v.fail("not with path/sharpen, which changes the law of the contact");
+  }
+}
+
 /// Formulas of what a support prescribes.
 void checkPrescribed(const Value& at, const Support& support, const Deck& deck) {
   const auto check = [&](const std::string& key, const std::optional<Prescribed>& p) {
@@ -205,7 +229,8 @@ void checkPhysics(const Value& root, const Deck& deck) {
     if (const auto* inflow = std::get_if<InflowLoad>(&load.load)) {
       const Value at = root.at("loads").entries().at(load.name);
       requireField(at.at("field"), inflow->field, deck);
-      checkFormula(at.at("amount"), inflow->amount, deck, physics::Place::surface);
+      checkWay(at, *inflow, deck);
+      checkFormula(at.at("amount"), inflow->amount, deck, placeOf(*inflow));
       if (load.constant) {
         at.at("constant").fail("has no meaning with type: inflow, whose formula says lambda itself");
       }
@@ -395,10 +420,8 @@ void checkBifurcationStop(const Value& v, const Deck& deck) {
 }
 
 void checkHopf(const Value& v, const Deck& deck) {
-  if (!deck.materials.empty()) {
-    v.fail(
-        "is for balances and flows alone: displacements have accelerations, not rates; expected a deck "
-        "without materials");
+  if (deck.physics.empty()) {
+    v.fail("is for fields that have rates, which displacements do not; expected a deck with physics");
   }
   if (deck.path.criticalPoints == Path::Critical::Off) {
     v.fail("needs path/critical_points: automatic or every_step");

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "atrapos/physics/Formulas.hpp"
 #include "deck/Deck.hpp"
 #include "deck/Fields.hpp"
 #include "deck/Variants.hpp"
@@ -24,7 +25,8 @@ const Table<ThinSection>& membraneTable();
 const Table<ThinSection>& barTable();
 /// What names of fields and constants are like; follows "cannot be the name of a ...".
 constexpr const char* freeNames =
-    "expected letters, digits and _, no digit in front, and none of lambda, x, y, z, zeta, pi and the functions";
+    "expected letters, digits and _, no digit in front, and none of lambda, x, y, z, zeta, contact_pressure, "
+    "contact_gap, pi and the functions";
 /// The block `constants`, which a deck may not have.
 Field<Deck> constantsField();
 const Table<ScalarField>& scalarFieldTable();
@@ -33,6 +35,10 @@ const Table<ElectricField>& dielectricTable();
 /// The keys `expansion` and `dielectric` of materials.
 Field<Material> expansionField();
 Field<Material> dielectricField();
+/// Where the formula of an inflow stands.
+inline physics::Place placeOf(const InflowLoad& inflow) {
+  return inflow.contact.empty() ? physics::Place::surface : physics::Place::contact;
+}
 /// The load of type inflow.
 Alternative<decltype(Load::load)> inflowAlternative();
 Alternative<decltype(Load::load)> pluginLoadAlternative();

@@ -182,11 +182,13 @@ Field<Material> dielectricField() {
 
 Alternative<decltype(Load::load)> inflowAlternative() {
   return alternative<decltype(Load::load), InflowLoad>(
-      "inflow", {name("set", required, &InflowLoad::set, "a side set, name or id", "where it flows in"),
+      "inflow", {name("set", optional, &InflowLoad::set, "a side set, name or id", "where it flows in"),
+                 name("contact", optional, &InflowLoad::contact, "the name of a contact",
+                      "through which it flows in, instead of set"),
                  name("field", required, &InflowLoad::field, "the name of a field", "of what"),
                  formula("amount", required, &InflowLoad::amount,
-                         "per area: of the fields there, lambda, x, y, z; the load factor counts where it "
-                         "says lambda")});
+                         "per area: of the fields there, lambda, x, y, z, through a contact contact_pressure and "
+                         "contact_gap; the load factor counts where it says lambda")});
 }
 
 std::vector<std::string> scalarFields(const Deck& deck) {

@@ -6,6 +6,7 @@
 #include <regex>
 
 #include "atrapos/physics/Formulas.hpp"
+#include "deck/DeckTables.hpp"
 
 namespace atrapos::deck {
 namespace {
@@ -63,7 +64,7 @@ bool isDriven(const Load& load, const Formulas& formulas) {
   return std::visit(
       [&](const auto& of) {
         if constexpr (std::is_same_v<decltype(of), const InflowLoad&>) {
-          return formulas.haveLambda(of.amount, physics::Place::surface);
+          return formulas.haveLambda(of.amount, placeOf(of));
         } else if constexpr (std::is_same_v<decltype(of), const PluginLoad&>) {
           return true;  // its law may read the load factor
         } else {

@@ -42,6 +42,7 @@ SceneModel ModelMaker::make() {
   addPluginLoads();
   setInitialValues();
   addContacts();
+  addContactInflows();
   requireSupport();
   requireEffect();
   return std::move(made_);
@@ -122,7 +123,7 @@ void ModelMaker::addMaterials() {
           continue;
         }
         if (fem::isShell(block)) {
-          made_.bodies[b] = addShell(material, shells_.find(b));
+          made_.bodies[b] = addShell(material, b);
           continue;
         }
         const bool mixed = material.formulation == deck::Material::Formulation::Mixed;
@@ -156,20 +157,23 @@ fem::PointSet ModelMaker::materialPoints(const fem::Block& block, const fem::Tab
   return plane_ ? solid::planePoints(mesh_, block, cell, *plane_) : fem::volumePoints(mesh_, block, cell);
 }
 
-BodyBlock ModelMaker::addShell(const deck::Material& material, int shells) {
+BodyBlock ModelMaker::addShell(const deck::Material& material, int block) {
+  const int shells = shells_.find(block);
   BodyBlock body;
   body.term = static_cast<int>(made_.model.terms.size());
   body.shells = shells;
   body.toNodes = solid::shellPointsToNodes({}, shells_.elements[shells].nodesPerElement);
-  std::unique_ptr<fem::PointLaw> growth;
+  physics::ShellExpansion expansion;
   try {
-    if (!material.expansion.empty()) growth = physics::shellExpansion(material.expansion, deck_.constants);
+    if (!material.expansion.empty())
+      expansion = physics::shellExpansion(material.expansion, scalarFieldsOf(block), deck_.constants);
   } catch (const formula::FormulaError& e) {
-    fail("materials/" + material.name + "/expansion", fmt::format("in shells {}", e.what()));
+    fail("materials/" + material.name + "/expansion",
+         fmt::format("in block '{}' {}", mesh_.blocks[block].name, e.what()));
   }
   made_.model.terms.push_back(registry::shellTerm(material, shells_.elements[shells],
                                                   shells_.cubature[shells], shells_.shear[shells],
-                                                  std::move(growth)));
+                                                  std::move(expansion)));
   return body;
 }
 

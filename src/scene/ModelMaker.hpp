@@ -47,7 +47,7 @@ class ModelMaker {
   std::vector<fem::DofMap::Located> fields() const;                      ///< of the nodes of the mesh
   std::vector<int> nodesOfBlocks(const std::vector<int>& blocks) const;  ///< ascending
   void addMaterials();
-  BodyBlock addShell(const deck::Material& material, int shells);
+  BodyBlock addShell(const deck::Material& material, int block);
   BodyBlock addThin(const deck::Material& material, int block);
   fem::PointSet materialPoints(const fem::Block& block, const fem::Tabulation& cell) const;
   void giveRanks();
@@ -62,12 +62,17 @@ class ModelMaker {
   std::vector<std::string> scalarFieldsOf(const fem::SideSet& set) const;
   physics::Expansion expansionOf(const deck::Material& material, int block) const;
   bool isVelocity(const std::string& field) const;
-  std::vector<fem::DofMap::Located> flowFields() const;  ///< velocities and pressures
+  const solid::ShellElements* shellsOf(int block) const;  ///< null: it has none
+  std::vector<fem::DofMap::Located> flowFields() const;   ///< velocities and pressures
   void addBalances();
   void addFlows();
   void addPluginLaws();
   void addPluginLoads();
+  /// The fields of the blocks that these sides belong to, among which a load's must be.
+  std::vector<std::string> fieldsAt(const std::string& load, const std::string& sides,
+                                    const std::string& field) const;
   void addInflows();
+  void addContactInflows();  ///< once there are contacts
   void setInitialValues();
 
   // ModelCouplings.cpp

@@ -71,6 +71,11 @@ bool ModelMaker::isVelocity(const std::string& field) const {
   });
 }
 
+const solid::ShellElements* ModelMaker::shellsOf(int block) const {
+  const int shells = shells_.find(block);
+  return shells < 0 ? nullptr : &shells_.elements[shells];
+}
+
 void ModelMaker::addBalances() {
   for (std::size_t b = 0; b < mesh_.blocks.size(); ++b) {
     const fem::Block& block = mesh_.blocks[b];
@@ -93,6 +98,11 @@ void ModelMaker::addBalances() {
         }
       balances.push_back({law->field, law->conductivity, law->source, law->capacity});
       last = &entry;
+      if (shells_.find(static_cast<int>(b)) >= 0 && !shells_.geometry.followers.empty())
+        fail("physics/" + entry.name + "/blocks",
+             fmt::format("block '{}' has shells, some with middle nodes on edges that others have without; "
+                         "fields do not cross such edges",
+                         block.name));
       if (!isVelocity(law->field)) continue;
       if (made_.bodies[b].flow < 0)
         fail("physics/" + entry.name + "/blocks",
@@ -107,8 +117,8 @@ void ModelMaker::addBalances() {
                        physics::mostFields));
     try {
       made_.bodies[b].balances = static_cast<int>(made_.model.terms.size());
-      made_.model.terms.push_back(
-          physics::balanceTerm(mesh_, block, fields, balances, deck_.constants, plane_));
+      made_.model.terms.push_back(physics::balanceTerm(mesh_, block, fields, balances, deck_.constants,
+                                                       plane_, shellsOf(static_cast<int>(b))));
     } catch (const formula::FormulaError& e) {
       fail("physics/" + last->name, fmt::format("with all that acts in block '{}' {}", block.name, e.what()));
     } catch (const std::runtime_error& e) {
@@ -150,7 +160,7 @@ void ModelMaker::addPluginLaws() {
       made_.bodies[b].own.push_back(static_cast<int>(made_.model.terms.size()));
       made_.model.terms.push_back(made(path, [&] {
         return physics::fieldTerm(mesh_, mesh_.blocks[b], own->fields, plugins::lawOf(chosen), capacity,
-                                  plane_);
+                                  plane_, shellsOf(b));
       }));
     }
   }
@@ -198,16 +208,21 @@ std::vector<fem::DofMap::Located> ModelMaker::flowFields() const {
   return fields;
 }
 
+std::vector<std::string> ModelMaker::fieldsAt(const std::string& load, const std::string& sides,
+                                              const std::string& field) const {
+  std::vector<std::string> fields = scalarFieldsOf(mesh_.sideSets.at(fem::findSideSet(mesh_, sides)));
+  if (std::find(fields.begin(), fields.end(), field) == fields.end())
+    fail("loads/" + load + "/field",
+         fmt::format("a side of '{}' belongs to a block without the field '{}'", sides, field));
+  return fields;
+}
+
 void ModelMaker::addInflows() {
   for (const deck::Load& load : deck_.loads) {
     const auto* inflow = std::get_if<deck::InflowLoad>(&load.load);
-    if (inflow == nullptr) continue;
+    if (inflow == nullptr || !inflow->contact.empty()) continue;
+    const std::vector<std::string> fields = fieldsAt(load.name, inflow->set, inflow->field);
     const fem::SideSet& set = mesh_.sideSets.at(fem::findSideSet(mesh_, inflow->set));
-    const std::vector<std::string> fields = scalarFieldsOf(set);
-    if (std::find(fields.begin(), fields.end(), inflow->field) == fields.end())
-      fail("loads/" + load.name + "/field",
-           fmt::format("a side of '{}' belongs to a block without the field '{}'", inflow->set,
-                       inflow->field));
     try {
       for (auto& term : physics::inflowTerms(mesh_, set, fields, {{inflow->field, inflow->amount}},
                                              deck_.constants, plane_))
@@ -217,6 +232,35 @@ void ModelMaker::addInflows() {
     } catch (const std::runtime_error& e) {
       fail("loads/" + load.name, e.what());
     }
+  }
+}
+
+void ModelMaker::addContactInflows() {
+  for (const deck::Load& load : deck_.loads) {
+    const auto* inflow = std::get_if<deck::InflowLoad>(&load.load);
+    if (inflow == nullptr || inflow->contact.empty()) continue;
+    const auto named = [&](const auto& entry) { return entry.name == inflow->contact; };
+    const auto contact = std::find_if(deck_.contacts.begin(), deck_.contacts.end(), named);
+    const auto made = std::find_if(made_.contacts.begin(), made_.contacts.end(), named);
+    const std::vector<std::string> fields = fieldsAt(load.name, contact->set, inflow->field);
+    const auto into = std::find(fields.begin(), fields.end(), inflow->field) - fields.begin();
+    for (std::size_t t = 0; t < made->points.size(); ++t) try {
+        fem::PointSet points = made->points[t];
+        for (const std::string& field : fields) {
+          fem::Interpolation values = made->points[t];
+          values.field = field;
+          values.components = 1;
+          points.more.push_back(std::move(values));
+        }
+        contact::Passage passage{physics::contactInflow(inflow->amount, fields, deck_.constants),
+                                 static_cast<int>(fields.size()), static_cast<int>(into)};
+        made_.model.terms.push_back(
+            made->tool->passage(made->pressure.law, points, made->references[t], std::move(passage)));
+      } catch (const formula::FormulaError& e) {
+        fail("loads/" + load.name + "/amount", e.what());
+      } catch (const std::invalid_argument& e) {
+        fail("loads/" + load.name, e.what());
+      }
   }
 }
 

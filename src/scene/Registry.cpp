@@ -183,12 +183,12 @@ std::unique_ptr<fem::Term> shells(const Entry& entry, const solid::ShellElements
 template <class Entry>
 std::unique_ptr<fem::Term> expandingShells(const Entry& entry, const solid::ShellElements& elements,
                                            const solid::ShellCubature& cubature, deck::Shear shear,
-                                           std::unique_ptr<fem::PointLaw> growth) {
+                                           physics::ShellExpansion expansion) {
   if constexpr (inFields<Entry>) {
     const auto material = law(entry);
     return solid::expandingShellTerm(elements, strainsOf(shear), poissonsRatio(material),
                                      fem::pointLaw(solid::ShellMaterialStage<decltype(law(entry))>{material}),
-                                     std::move(growth), cubature);
+                                     std::move(expansion.stage), expansion.fields, cubature);
   } else {
     throw std::logic_error("registry: an expansion of another material");  // decks are checked
   }
@@ -248,10 +248,10 @@ std::unique_ptr<fem::Term> mixedTerm(const deck::Material& material, const fem::
 
 std::unique_ptr<fem::Term> shellTerm(const deck::Material& material, const solid::ShellElements& elements,
                                      const solid::ShellCubature& cubature, deck::Shear shear,
-                                     std::unique_ptr<fem::PointLaw> growth) {
+                                     physics::ShellExpansion expansion) {
   return std::visit(
       [&](const auto& entry) -> std::unique_ptr<fem::Term> {
-        if (growth) return expandingShells(entry, elements, cubature, shear, std::move(growth));
+        if (expansion.stage) return expandingShells(entry, elements, cubature, shear, std::move(expansion));
         return shells(entry, elements, cubature, shear);
       },
       material.law);

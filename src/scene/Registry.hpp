@@ -32,11 +32,11 @@ std::unique_ptr<fem::Term> mixedTerm(const deck::Material& material, const fem::
                                      const fem::Block& block, const fem::PointSet& points,
                                      const std::optional<solid::PlaneSection>& plane);
 
-/// The term of a material in shells; growth, which may be null: its expansion (physics::shellExpansion).
-/// Throws std::runtime_error where an element cannot be (solid::shellPoints).
+/// The term of a material in shells; the stage of its expansion may be null. Throws std::runtime_error where
+/// an element cannot be (solid::shellPoints).
 std::unique_ptr<fem::Term> shellTerm(const deck::Material& material, const solid::ShellElements& elements,
                                      const solid::ShellCubature& cubature, deck::Shear shear,
-                                     std::unique_ptr<fem::PointLaw> growth);
+                                     physics::ShellExpansion expansion);
 
 /// The term of a material in membranes, or in bars.
 std::unique_ptr<fem::Term> thinTerm(const deck::Material& material, bool bars,

@@ -115,9 +115,6 @@ TEST(SceneInput, ShellsAreNoSolids) {
   EXPECT_EQ(
       refusal(edited(plate, "poissons_ratio: 0.3", "poissons_ratio: 0.3, expansion: 1.0e-5*lambda*zeta")),
       "no error");
-  expectRefused(edited(plate, "shells:\n",
-                       "physics:\n  heat: {type: balance, field: T, blocks: [plate], source: 1}\nshells:\n"),
-                "physics/heat/blocks: block 'plate' has shells; balances are for solids and plane cells");
   expectRefused(edited(plate, "thickness: 0.1}", "thickness: 0.1, shear: 2}"),
                 "shells/sections/skin/shear: expected one of");
 }
@@ -302,6 +299,61 @@ TEST(SceneInput, ZonesThatCannotBe) {
   expectRefused(triangles, "is a triangle; zones of contact are found on lines across quadrilaterals");
 }
 
+TEST(SceneInput, InflowThroughContacts) {
+  const std::string rod = R"(mesh:
+  file: rod.exo
+  generate: {shape: rectangle, lengths: [1, 1], divisions: [1, 1], cell: QUAD8, block: body}
+plane: {kind: strain}
+materials: {m: {law: neo_hookean, youngs_modulus: 1, poissons_ratio: 0.3, blocks: [body], expansion: 0.01*T}}
+physics: {heat: {type: balance, field: T, blocks: [body], conductivity: 1}}
+tools: {wall: {type: plane, point: [0, 1.1, 0], normal: [0, -1, 0]}}
+contact: {end: {tool: wall, set: y_max, law: barrier, regularisation: 0.01}}
+loads: {heat: {type: inflow, contact: end, field: T, amount: contact_pressure*(lambda - T)}}
+supports: {clamp: {set: y_min, x: 0, y: 0}, cold: {set: y_min, field: T, value: 0}}
+path: {stop: {load_factor: 1}}
+)";
+  EXPECT_EQ(refusal(rod), "no error");
+  expectRefused(edited(rod, "contact: end,", "contact: ende,"),
+                "loads/heat/contact: no entry 'ende' in contact");
+  expectRefused(edited(rod, "contact: end,", "contact: end, set: y_max,"),
+                "loads/heat/contact: stands beside set; expected one of them");
+  expectRefused(edited(rod, "contact: end, ", ""), "loads/heat/set: is missing");
+  expectRefused(edited(rod, "contact: end,", "set: y_max,"), "loads/heat/amount: ");
+  expectRefused(edited(rod, "amount: contact_pressure", "amount: pressure"), "loads/heat/amount: ");
+  for (const char* law : {"law: hard", "law: linear, points: zones, stiffness: 10",
+                          "law: barrier, unknown: curve, regularisation: 0.01"})
+    expectRefused(edited(rod, "law: barrier, regularisation: 0.01", law),
+                  "loads/heat/contact: the pressure of contact 'end' is no function of the gap");
+  expectRefused(edited(rod, "path: {", "path: {sharpen: 0.01, "),
+                "loads/heat/contact: not with path/sharpen");
+  expectRefused(edited(rod, "physics: {", "constants: {contact_gap: 1}\nphysics: {"),
+                "constants/contact_gap: ");
+}
+
+TEST(SceneInput, FieldsInShells) {
+  const std::string panel = R"(mesh:
+  file: panel.exo
+  generate: {shape: shell_plate, length: 1, width: 1, divisions: [1, 1], block: panel}
+materials: {m: {law: neo_hookean, youngs_modulus: 1, poissons_ratio: 0.3, blocks: [panel], expansion: 0.01*(T + zeta*D)}}
+shells: {sections: {panel: {blocks: [panel], thickness: 0.1}}}
+physics:
+  heat: {type: balance, field: T, blocks: [panel], conductivity: 1, source: lambda}
+  difference: {type: balance, field: D, blocks: [panel], conductivity: 1/3, source: lambda - 400*D}
+supports: {clamp: {set: x_min, condition: clamped}, cold: {set: x_min, field: T, value: 0}}
+path: {stop: {load_factor: 1}}
+)";
+  EXPECT_EQ(refusal(panel), "no error");
+  expectRefused(edited(panel, "zeta*D", "zeta*d"), "materials/m/expansion: ");
+  const std::string membrane =
+      edited(edited(edited(panel, "shells: {sections: {panel: {blocks: [panel], thickness: 0.1}}}",
+                           "membranes: {panel: {blocks: [panel], thickness: 0.1}}"),
+                    ", expansion: 0.01*(T + zeta*D)", ""),
+             "condition: clamped", "x: 0, y: 0, z: 0");
+  expectRefused(membrane,
+                "physics/heat/blocks: block 'panel' has membranes; balances are for solids, plane "
+                "cells and shells");
+}
+
 TEST(SceneInput, PlaneBodiesNeedToolsThatGoOnAlongZ) {
   const std::string plane = R"(mesh:
   file: block.exo
@@ -322,7 +374,7 @@ TEST(SceneInput, StopsMonitorsAndImperfections) {
                 "path/stop/bifurcation: bifurcation points are found by the number of negative eigenvalues, "
                 "that needs solver/type: mumps");
   expectRefused(edited(bar, "path:\n", "path:\n  hopf: true\n"),
-                "path/hopf: is for balances and flows alone");
+                "path/hopf: is for fields that have rates, which displacements do not");
   expectRefused(bar + "output: {monitors: {f: {type: reaction, support: clamp}}}\n",
                 "output/monitors/f/component: is missing");
   const std::string model =

@@ -54,6 +54,15 @@ class Chain {
     return hn;
   }
 
+  /// -R n, R by h, n.
+  std::vector<int> press(const AnyPressure& pressure, const std::vector<int>& hn, int Delta) {
+    std::vector<int> f;
+    pressure.with([&](const auto& one) {
+      f = add(fem::pointLaw(PressureStage<std::decay_t<decltype(one)>>{one}), hn, {Delta});
+    });
+    return f;
+  }
+
   void show(int gap, int pressure) {
     plan_.observed = {{"contact_gap", gap, std::numeric_limits<double>::infinity()},
                       {"contact_pressure", pressure, 0.0}};
@@ -106,12 +115,28 @@ ToolStages stagesOf(const PatchTool& tool, const std::optional<Motion>& motion) 
 std::unique_ptr<fem::PointLaw> stagedContact(const ToolStages& tool, const AnyPressure& pressure) {
   Chain chain(tool.motion ? 4 : 3, 1 + (tool.patches ? patchData : 0), tool.symmetric);
   const auto hn = chain.project(tool, {0, 1, 2}, 3, tool.motion, 0, 1);
-  std::vector<int> f;
-  pressure.with([&](const auto& one) {
-    f = chain.add(fem::pointLaw(PressureStage<std::decay_t<decltype(one)>>{one}), hn, {0});
-  });
+  const auto f = chain.press(pressure, hn, 0);
   chain.show(hn[0], f[3]);
   return chain.law({f[0], f[1], f[2]});
+}
+
+std::unique_ptr<fem::PointLaw> stagedPassage(const ToolStages& tool, const AnyPressure& pressure,
+                                             Passage passage) {
+  constexpr int firstField = 3, Delta = 3, firstPatch = 4;
+  const int lambda = firstField + passage.fields;
+  Chain chain(lambda + 1, firstPatch + (tool.patches ? patchData : 0), false);
+  const auto hn = chain.project(tool, {0, 1, 2}, lambda, tool.motion, Delta, firstPatch);
+  const int R = chain.press(pressure, hn, Delta)[3];
+  // Of fields that there are none of a formula reads nothing: any wire stands for them.
+  std::vector<int> inputs(passage.amount->shape().inputs, firstField);
+  for (int f = 0; f < passage.fields; ++f) inputs[f] = firstField + f;
+  const int atContact[] = {lambda, R, hn[0]};
+  std::copy_n(atContact, 3, inputs.end() - 3);
+  const auto q = chain.add(std::move(passage.amount), inputs, {0, 1, 2});
+  const auto out = chain.add(fem::pointLaw(PassageStage{}), q, {tool.patches ? firstPatch : -1});
+  std::vector<int> outputs(firstField + passage.fields, out[0]);
+  outputs[firstField + passage.into] = out[1];
+  return chain.law(outputs);
 }
 
 std::unique_ptr<fem::PointLaw> stagedSharpenedContact(const ToolStages& tool,

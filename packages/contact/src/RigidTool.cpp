@@ -64,6 +64,23 @@ class StagedTool : public RigidTool {
                     pieces(points, 1, points.components));
   }
 
+  std::unique_ptr<fem::Term> passage(const AnyPressure& pressure, const fem::PointSet& points,
+                                     const std::vector<double>& referenceGaps,
+                                     Passage passage) const override {
+    const int D = points.components, lambda = D + passage.fields;
+    std::vector<double> data;
+    for (std::size_t p = 0; p < referenceGaps.size(); ++p) {
+      data.insert(data.end(), &points.positions[3 * p], &points.positions[3 * p] + 3);
+      data.push_back(referenceGaps[p]);
+    }
+    const auto search = pieces(lambda + 1, 4, [D, lambda](const double* in, const double*, double* x) {
+      for (int i = 0; i < 3; ++i) x[i] = i < D ? in[i] : 0;
+      x[3] = in[lambda];
+    });
+    return onPieces(forPoints(stagedPassage(stages_, pressure, std::move(passage)), points), points,
+                    withTool(data, 4), search);
+  }
+
   void addHard(fem::FeModel& model, const fem::PointSet& points) const override {
     const fem::UnilateralPoints own = fem::withMultipliers(model, points);
     addUnilateral(model, own);

@@ -220,15 +220,21 @@ void ElementArrays::addBlocks(int b, const double* jacobian, int outputs, int in
     const Part& row = parts_[r];
     for (std::size_t c = symmetric ? r + 1 : 0; c < parts_.size(); ++c) {
       if (c == r) continue;
-      addMixedBlocks(b, row, parts_[c], jacobian, outputs, inputs, false, sink);
-      if (symmetric) addMixedBlocks(b, row, parts_[c], jacobian, outputs, inputs, true, sink);
+      addMixedBlocks(b, row, parts_[c], jacobian, outputs, inputs, false, correction, sink);
+      if (symmetric) addMixedBlocks(b, row, parts_[c], jacobian, outputs, inputs, true, correction, sink);
     }
   }
   for (const Part& part : parts_) {
     part.kernels.moduli(part.view, b, subBlock(jacobian, inputs, part.firstInput, part.firstInput), outputs,
                         inputs, moduli);
-    part.kernels.blocks(part.view, b, moduli, symmetric, correction, blocks);
+    part.kernels.blocks(part.view, b, moduli, symmetric, ofPart(correction, part), blocks);
   }
+}
+
+BlockCorrection ElementArrays::ofPart(const BlockCorrection& correction, const Part& part) {
+  if (correction.rank == 0) return {};
+  const std::size_t first = static_cast<std::size_t>(part.firstDof) * correction.rank * kLanes;
+  return {correction.rank, correction.left + first, correction.right + first};
 }
 
 void ElementArrays::squares(int b, const double* force, double* sums) const {
@@ -281,13 +287,16 @@ bool ElementArrays::vanishes(const Part& row, const Part& column, const double* 
 // Blocks between two fields, or between values and gradients of one; any numbers of components: no kernels
 // are compiled for all the pairs, so the lanes are what the compiler finds to vectorise.
 void ElementArrays::addMixedBlocks(int b, const Part& row, const Part& column, const double* jacobian,
-                                   int outputs, int inputs, bool transposed, const TangentSink& sink) const {
-  // As between a flux and the value beside a constant conductivity.
-  if (vanishes(row, column, jacobian, outputs, inputs)) return;
+                                   int outputs, int inputs, bool transposed,
+                                   const BlockCorrection& correction, const TangentSink& sink) const {
   const int Dr = row.components, Dc = column.components, Cr = row.shapeComponents,
-            Cc = column.shapeComponents, Ir = row.inputs();
-  if (Ir > 9 || Dc > 3)
-    throw std::logic_error("ElementArrays: a field with too many components beside others");
+            Cc = column.shapeComponents, Ir = row.inputs(), rank = correction.rank;
+  const double *left = ofPart(correction, row).left, *right = ofPart(correction, column).right;
+  const bool corrected =
+      rank > 0 && std::any_of(left, left + static_cast<std::size_t>(row.view.N) * Dr * rank * kLanes,
+                              [](double value) { return value != 0; });
+  // As between a flux and the value beside a constant conductivity.
+  if (!corrected && vanishes(row, column, jacobian, outputs, inputs)) return;
   static thread_local std::vector<double> rowRoom, columnRoom, products;
   const double *rows = shapesAt(row, b, rowRoom), *columns = shapesAt(column, b, columnRoom), *w = weights(b);
   products.resize(static_cast<std::size_t>(Q_) * Ir * Dc * kLanes);
@@ -321,6 +330,11 @@ void ElementArrays::addMixedBlocks(int b, const Part& row, const Part& column, c
                   &products[((static_cast<std::size_t>(q) * Ir + i * Cr + k) * Dc + j) * kLanes];
               for (int lane = 0; lane < kLanes; ++lane) sum[lane] += shape[k * kLanes + lane] * by[lane];
             }
+          }
+          for (int k = 0; corrected && k < rank; ++k) {
+            const double *l = left + ((nr * Dr + i) * rank + k) * kLanes,
+                         *r = right + ((nc * Dc + j) * rank + k) * kLanes;
+            for (int lane = 0; lane < kLanes; ++lane) sum[lane] += l[lane] * r[lane];
           }
           for (int lane = 0; lane < lanes; ++lane) {
             const std::size_t entity = static_cast<std::size_t>(b) * kLanes + lane;

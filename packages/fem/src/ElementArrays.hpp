@@ -100,7 +100,10 @@ class ElementArrays {
   /// Whether a law's jacobian has nothing between two parts, at any point.
   bool vanishes(const Part& row, const Part& column, const double* jacobian, int outputs, int inputs) const;
   void addMixedBlocks(int b, const Part& row, const Part& column, const double* jacobian, int outputs,
-                      int inputs, bool transposed, const TangentSink& sink) const;
+                      int inputs, bool transposed, const BlockCorrection& correction,
+                      const TangentSink& sink) const;
+  /// What a correction by all dofs of an entity has for those of one part.
+  static BlockCorrection ofPart(const BlockCorrection& correction, const Part& part);
   std::vector<int> padded(const std::vector<int>& of, int count) const;
   std::vector<double> withoutPadding(std::vector<double> weights) const;
 

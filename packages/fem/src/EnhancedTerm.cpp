@@ -32,9 +32,9 @@ class EnhancedTerm final : public Term {
         p.strain.size() != static_cast<std::size_t>(p.points.numPoints()))
       throw std::logic_error("enhancedTerm: wrong number of parameters, modes or strains");
     strain_ = a_.elements.packed(p.strain, Q);
-    if (a_.elements.numFields() > 1) throw std::logic_error("enhancedTerm: points of one field only");
     const std::size_t dofs = localDofs() * kLanes, rank = M_;
-    a_.allocateScratch(dofs * (1 + 2 * rank) + a_.perBatch(3 * J + (I_ + 1) * J) + 3 * rank * rank * kLanes);
+    a_.allocateScratch(dofs * (1 + 2 * rank) + a_.perBatch(3 * J + (I_ + 1) * J) + 3 * rank * rank * kLanes +
+                       (a_.elements.numFields() > 1 ? a_.perBatch(I_ * I_) : 0));
     makeWorkspace();
   }
 
@@ -96,7 +96,7 @@ class EnhancedTerm final : public Term {
                             s.right + (n * M_ + k) * kLanes);
       }
       a_.elements.addBlocks(b, s.jacobian, I_ + 1, J_, a_.shape.symmetric, {M_, s.left, s.right}, sink,
-                            s.jacobian);
+                            s.moduli);
     });
   }
 
@@ -166,8 +166,10 @@ class EnhancedTerm final : public Term {
       product = out + t.a_.perBatch(J);
       jacobian = product + t.a_.perBatch(J);
       inverse = jacobian + t.a_.perBatch((t.I_ + 1) * J);
+      moduli = t.a_.elements.numFields() > 1 ? inverse + 3 * rank * rank * kLanes : jacobian;
     }
     double *force, *left, *right, *in, *out, *product, *jacobian, *inverse;
+    double* moduli;  ///< those of one field may take the jacobian's place
   };
 
   // Numbers of all lanes.

@@ -20,6 +20,7 @@ class StagedLaw final : public PointLaw {
           !within(stage.data, -1, plan_.data))
         throw std::logic_error("stagedLaw: a stage reads what is not there");
       if (s.variables > 0) setRemembering(stage, s);
+      sizes_ = sizes_ || s.sizes;
       numWires_ += s.outputs;
       widest_ = std::max({widest_, s.inputs, s.outputs, s.data});
       largest_ = std::max(largest_, s.inputs * s.outputs);
@@ -36,6 +37,7 @@ class StagedLaw final : public PointLaw {
       shape.variables = own.variables;
       shape.events = own.events;
     }
+    shape.sizes = sizes_;
     return shape;
   }
   // The memory of one stage stands behind that of another, for series and for scratch.
@@ -172,6 +174,19 @@ class StagedLaw final : public PointLaw {
     inputsAt(from, room.lastIn);
     inputsAt(to, room.lastOut);
     stage.law->carry(batchOf(stage, points, room), room.lastIn, room.lastOut, variables, failure);
+  }
+
+  // What stages behind one with sizes make of these.
+  void sizes(const PointBatch& points, const double* in, double* out) const override {
+    if (!sizes_) return PointLaw::sizes(points, in, out);
+    const Room room(*this, points.numPoints);
+    evaluate(points, in, room, [&](const PointLaw& law, const PointBatch& own, int, int) {
+      if (law.shape().sizes)
+        law.sizes(own, room.in, room.out);
+      else
+        law.value(own, room.in, room.out);
+    });
+    room.pick(plan_.outputs, room.wires, out);
   }
 
   std::vector<std::string> observedNames() const override {
@@ -312,6 +327,7 @@ class StagedLaw final : public PointLaw {
   StagedPlan plan_;
   int numWires_, widest_ = 1, largest_ = 1;
   int remembering_ = -1;  ///< the stage with internal variables
+  bool sizes_ = false;    ///< a stage has sizes of its own
 };
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "FormulaInputs.hpp"
 #include "atrapos/formula/Parse.hpp"
 #include "atrapos/physics/BalanceLaw.hpp"
+#include "atrapos/physics/ContactInflow.hpp"
 #include "atrapos/physics/FieldTerm.hpp"
 
 namespace atrapos::physics {
@@ -17,6 +18,12 @@ using detail::Layout, detail::layoutOf, detail::symbols;
 using formula::Builder;
 using formula::Operation;
 using formula::Symbols;
+
+void requireNumber(const std::vector<std::string>& fields) {
+  if (fields.empty() || static_cast<int>(fields.size()) > mostFields)
+    throw std::invalid_argument("between 1 and " + std::to_string(mostFields) +
+                                " scalar fields can meet, here are " + std::to_string(fields.size()));
+}
 
 /// The formulas of a law together: for each field the sums of what is said of it.
 struct Formulas {
@@ -29,9 +36,7 @@ struct Formulas {
       : layout(layoutOf(fields, place)),
         known(symbols(fields, constants, layout, builder)),
         results(fields.size() * each, builder.number(0)) {
-    if (fields.empty() || static_cast<int>(fields.size()) > mostFields)
-      throw std::invalid_argument("between 1 and " + std::to_string(mostFields) +
-                                  " scalar fields can meet, here are " + std::to_string(fields.size()));
+    requireNumber(fields);
   }
   void add(int result, const std::string& text) {
     results[result] = builder.binary(Operation::add, results[result], formula::parse(text, known, builder));
@@ -89,7 +94,8 @@ fem::Field scalarField(const std::string& name) { return {name, {""}, fem::Role:
 std::unique_ptr<fem::Term> balanceTerm(const fem::Mesh& mesh, const fem::Block& block,
                                        const std::vector<std::string>& fields,
                                        const std::vector<Balance>& balances, const Constants& constants,
-                                       const std::optional<solid::PlaneSection>& plane) {
+                                       const std::optional<solid::PlaneSection>& plane,
+                                       const solid::ShellElements* shells) {
   const int count = static_cast<int>(fields.size());
   Formulas formulas(fields, constants, Place::body, 2), stored(fields, constants, Place::body, 1);
   std::vector<char> isSaid(count, 0);
@@ -120,7 +126,7 @@ std::unique_ptr<fem::Term> balanceTerm(const fem::Mesh& mesh, const fem::Block& 
   const auto capacity = [program = stored.program()](const double* in, const double* data, double* c) {
     formula::evaluate<double>(program, in, data, c);
   };
-  return fieldTerm(mesh, block, fields, std::move(law), capacity, plane);
+  return fieldTerm(mesh, block, fields, std::move(law), capacity, plane, shells);
 }
 
 std::vector<std::unique_ptr<fem::Term>> inflowTerms(const fem::Mesh& mesh, const fem::SideSet& set,
@@ -142,6 +148,19 @@ std::vector<std::unique_ptr<fem::Term>> inflowTerms(const fem::Mesh& mesh, const
 
   return sideTerms(
       mesh, set, fields, [&] { return lawOf<InflowLaw>(count, programs); }, plane);
+}
+
+std::unique_ptr<fem::PointLaw> contactInflow(const std::string& amount,
+                                             const std::vector<std::string>& fields,
+                                             const Constants& constants) {
+  requireNumber(fields);
+  Builder builder;
+  const int q =
+      formula::parse(amount, symbols(fields, constants, layoutOf(fields, Place::contact), builder), builder);
+  ContactInflow law;
+  law.program = builder.program({q});
+  law.magnitudes = builder.program({builder.magnitude(q)});
+  return fem::pointLaw(law);
 }
 
 }  // namespace atrapos::physics

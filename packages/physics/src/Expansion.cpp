@@ -5,9 +5,11 @@
 
 namespace atrapos::physics {
 
+using formula::Builder;
+
 Expansion expansionOf(const std::string& text, const std::vector<std::string>& fields,
                       const Constants& constants) {
-  formula::Builder builder;
+  Builder builder;
   // Values and no gradients, as on a surface.
   const detail::Layout layout = detail::layoutOf(fields, Place::surface);
   const int lambda = layout.loadFactor();
@@ -31,11 +33,22 @@ Expansion expansionOf(const std::string& text, const std::vector<std::string>& f
   return expansion;
 }
 
-std::unique_ptr<fem::PointLaw> shellExpansion(const std::string& text, const Constants& constants) {
-  formula::Builder builder;
-  const detail::Layout layout = detail::layoutOf({}, Place::shell);
-  const int result = formula::parse(text, detail::symbols({}, constants, layout, builder), builder);
-  return fem::pointLaw(GrowthStage{builder.program({result})});
+ShellExpansion shellExpansion(const std::string& text, const std::vector<std::string>& fields,
+                              const Constants& constants) {
+  const auto readWith = [&](const std::vector<std::string>& known, Builder& builder) {
+    return formula::parse(
+        text, detail::symbols(known, constants, detail::layoutOf(known, Place::shell), builder), builder);
+  };
+  ShellExpansion expansion;
+  Builder all;
+  for (const int input : all.inputsOf(readWith(fields, all)))
+    if (input < static_cast<int>(fields.size())) expansion.fields.push_back(fields[input]);
+  if (static_cast<int>(expansion.fields.size()) > mostFields)
+    throw formula::FormulaError("depends on more than " + std::to_string(mostFields) + " fields");
+  Builder own;
+  const int e = readWith(expansion.fields, own);
+  expansion.stage = fem::pointLaw(GrowthStage{own.program({e})});
+  return expansion;
 }
 
 }  // namespace atrapos::physics

@@ -33,8 +33,10 @@ fem::Tabulation cellOf(fem::Topology topology) {
     case fem::Topology::Quad9:
     case fem::Topology::Hex20:
     case fem::Topology::Hex27:
+    case fem::Topology::Shell8:
       return fem::tabulate(topology, 5);
     case fem::Topology::Tri6:
+    case fem::Topology::Shell6:
     case fem::Topology::Tet10:
     case fem::Topology::Wedge15:
       return fem::tabulate(topology, 4);
@@ -44,7 +46,9 @@ fem::Tabulation cellOf(fem::Topology topology) {
 }
 
 fem::PointSet gradientPoints(const fem::Mesh& mesh, const fem::Block& block, const fem::Tabulation& cell,
-                             const std::optional<solid::PlaneSection>& plane) {
+                             const std::optional<solid::PlaneSection>& plane,
+                             const solid::ShellElements* shells) {
+  if (shells != nullptr) return solid::shellFieldPoints(*shells, cell);
   if (!plane) return fem::volumePoints(mesh, block, cell);
   const bool ring = plane->kind == solid::PlaneSection::Kind::axisymmetric;
   // A scalar has no part of its gradient around the axis.
@@ -112,15 +116,20 @@ void requireFieldLaw(const fem::PointLaw& law, int fields, int each) {
 std::unique_ptr<fem::Term> fieldTerm(const fem::Mesh& mesh, const fem::Block& block,
                                      const std::vector<std::string>& fields,
                                      std::unique_ptr<fem::PointLaw> law, const FieldCapacity& capacity,
-                                     const std::optional<solid::PlaneSection>& plane) {
+                                     const std::optional<solid::PlaneSection>& plane,
+                                     const solid::ShellElements* shells) {
   const int count = static_cast<int>(fields.size());
   requireFieldLaw(*law, count, 4);
   const fem::Tabulation cell = cellOf(block.topology);
-  fem::PointSet points = gradientPoints(mesh, block, cell, plane);
+  fem::PointSet points = gradientPoints(mesh, block, cell, plane, shells);
   points.components = 1;
+  const fem::Interpolation gradients = points;
   points.field = fields[0];
   for (int f = 0; f < count; ++f) {
-    if (f > 0) points.more.push_back(fem::gradientsOf(scalarField(fields[f]), points, cell));
+    if (f > 0) {
+      points.more.push_back(gradients);
+      points.more.back().field = fields[f];
+    }
     points.more.push_back(fem::valuesOf(scalarField(fields[f]), points, cell));
   }
   const std::vector<double> places = placesFor(*law, points);

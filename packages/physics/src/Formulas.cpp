@@ -1,5 +1,6 @@
 // Formulas by themselves: what is wrong with them, what they depend on, their values.
 #include <algorithm>
+#include <set>
 
 #include "FormulaInputs.hpp"
 #include "atrapos/formula/Parse.hpp"
@@ -11,8 +12,9 @@ using detail::Layout, detail::layoutOf, detail::symbols;
 using formula::Builder;
 
 bool isFreeName(const std::string& name) {
-  return formula::isName(name) && name != "lambda" && name != "x" && name != "y" && name != "z" &&
-         name != "zeta";
+  static const std::set<std::string> taken{"lambda",           "x",          "y", "z", "zeta",
+                                           "contact_pressure", "contact_gap"};
+  return formula::isName(name) && taken.count(name) == 0;
 }
 
 void checkFormula(const std::string& text, const std::vector<std::string>& fields, const Constants& constants,

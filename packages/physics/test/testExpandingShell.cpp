@@ -2,11 +2,17 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numeric>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "ShellChecks.hpp"
+#include "atrapos/physics/Balance.hpp"
 #include "atrapos/physics/Expansion.hpp"
 #include "atrapos/solid/MooneyRivlin.hpp"
 #include "atrapos/solid/ShellTerms.hpp"
+#include "support/Checks.hpp"
 #include "support/Meshes.hpp"
 
 using namespace atrapos;
@@ -24,12 +30,19 @@ ShellStrains strainsOf(Shear shear) {
 
 template <class Material>
 fem::FeModel expandingModel(const ShellGrid& grid, const Material& material, double poissonsRatio,
-                            const std::string& formula, Shear shear) {
+                            const std::string& formula, Shear shear,
+                            const std::vector<std::string>& fields = {}) {
   fem::FeModel model;
-  model.dofs = fem::DofMap::displacements(2 * grid.numNodes());
+  std::vector<int> mesh(grid.numNodes());
+  std::iota(mesh.begin(), mesh.end(), 0);
+  std::vector<fem::DofMap::Located> located{{fem::displacementField(), {}}};
+  for (const std::string& field : fields) located.push_back({physics::scalarField(field), mesh});
+  model.dofs = fem::DofMap(2 * grid.numNodes(), located);
+  auto expansion = physics::shellExpansion(formula, fields, {{"a", 0.05}});
+  EXPECT_EQ(expansion.fields, fields);
   model.terms.push_back(expandingShellTerm(grid.elements(), strainsOf(shear), poissonsRatio,
                                            fem::pointLaw(ShellMaterialStage<Material>{material}),
-                                           physics::shellExpansion(formula, {{"a", 0.05}})));
+                                           std::move(expansion.stage), expansion.fields));
   model.constantLoad.assign(model.dofs.numDofs(), 0.0);
   model.load.assign(model.dofs.numDofs(), 0.0);
   return model;
@@ -114,7 +127,77 @@ TEST(ExpandingShell, TopGrowsMoreThanBottom) {
   }
 }
 
+// Mean and difference of a temperature are fields: what displacements owe them, also through the enhanced
+// strain, which is condensed.
+TEST(ExpandingShell, FieldsTangentAndOrders) {
+  const auto stiff = SaintVenantKirchhoff::fromYoung(1, 0.3);
+  const fem::Topology topologies[] = {fem::Topology::Shell8, fem::Topology::Shell8, fem::Topology::Shell4,
+                                      fem::Topology::Shell3, fem::Topology::Shell6};
+  for (std::size_t k = 0; k < kinds.size(); ++k) {
+    SCOPED_TRACE(k);
+    const ShellGrid grid = arch(kinds[k]);
+    const std::vector<std::string> fields{"T", "D"};
+    const auto model = [&] {
+      fem::FeModel m =
+          expandingModel(grid, stiff, 0.3, "a*(T + zeta*D + 0.2*T*D) + 0.1*lambda*x", kinds[k], fields);
+      fem::Block block;
+      block.topology = topologies[k];
+      const ShellElements elements = grid.elements();
+      m.terms.push_back(physics::balanceTerm(
+          {}, block, fields, {{"T", "1 + 0.1*D", "lambda"}, {"D", "1/3", "T"}}, {}, {}, &elements));
+      hold(m, {0, 1}, "xyz");
+      for (const std::string& field : fields) m.prescribe(0, 0, 0.1, 0.2, field);
+      m.load = randomNumbers(m.dofs.numDofs(), 0.0005, 3);
+      return m;
+    };
+    EXPECT_FALSE(fem::FeProblem(model()).symmetric());
+    checkTangent(model());
+    checkOrders(model());
+  }
+}
+
+// On a cylinder of radius 1 the place x is a field with -div grad x = x.
+TEST(ShellFields, ConductionAlongACurvedSurface) {
+  const double thickness = 0.1;
+  for (std::size_t k = 1; k < kinds.size(); ++k) {
+    const auto error = [&](int n) {
+      const ShellGrid grid =
+          shellGrid(n, n, thickness, cylinder(1, 0, 1, 0, 1), undistorted, nodesOf(kinds[k]));
+      const ShellElements elements = grid.elements();
+      fem::Block block;
+      block.topology = std::vector{fem::Topology::Shell8, fem::Topology::Shell4, fem::Topology::Shell3,
+                                   fem::Topology::Shell6}[k - 1];
+      fem::FeModel model;
+      model.dofs = fem::DofMap(grid.numNodes(), {{physics::scalarField("T"), {}}});
+      model.terms.push_back(physics::balanceTerm({}, block, {"T"}, {{"T", "2", "2*x"}}, {}, {}, &elements));
+      for (const auto& line : {grid.lineI(0), grid.lineI(2 * n), grid.lineJ(0), grid.lineJ(2 * n)})
+        for (const int node : line)
+          if (!model.supports.fixed(node)) model.prescribe(node, 0, grid.x[node][0], 0, "T");
+      fem::FeProblem problem(std::move(model));
+      const Numbers u = equilibrium(problem, 0, Numbers(grid.numNodes(), 0.0), 1e-10).u;
+      double largest = 0;
+      for (int node = 0; node < grid.numNodes(); ++node)
+        largest = std::max(largest, std::abs(u[node] - grid.x[node][0]));
+      return largest;
+    };
+    const double coarse = error(4), fine = error(8);
+    const bool quadratic = nodesOf(kinds[k]) == 8 || nodesOf(kinds[k]) == 6;
+    EXPECT_LT(fine, quadratic ? 1e-4 : 1e-2);
+    EXPECT_GT(std::log2(coarse / fine), quadratic ? 2.8 : 1.75) << k;
+  }
+}
+
+TEST(ShellFields, WeightsAreThicknessTimesArea) {
+  const ShellGrid grid = shellGrid(3, 2, 0.1, cylinder(2, 0, 1, 0, 1), undistorted, 8);
+  const fem::PointSet points = shellFieldPoints(grid.elements(), fem::tabulate(fem::Topology::Shell8, 5));
+  // Parabolas in the place of arcs: 3e-5 of the area.
+  EXPECT_NEAR(std::accumulate(points.weights.begin(), points.weights.end(), 0.0), 0.1 * 2, 6e-6);
+  EXPECT_THROW(shellFieldPoints(grid.elements(), fem::tabulate(fem::Topology::Shell4, 2)), std::logic_error);
+}
+
 TEST(ExpandingShell, FormulasOfOtherThings) {
-  EXPECT_THROW(physics::shellExpansion("a*T", {{"a", 1}}), formula::FormulaError);
+  EXPECT_THROW(physics::shellExpansion("a*T", {}, {{"a", 1}}), formula::FormulaError);
+  EXPECT_THROW(physics::shellExpansion("a + b + c + d + e", {"a", "b", "c", "d", "e"}, {}),
+               formula::FormulaError);
   EXPECT_THROW(physics::expansionOf("lambda*zeta", {}, {}), formula::FormulaError);
 }

@@ -1,5 +1,7 @@
 #include "atrapos/solid/ShellPoints.hpp"
 
+#include <stdexcept>
+
 #include "ShellPlaces.hpp"
 
 namespace atrapos::solid {
@@ -65,6 +67,38 @@ void addAssumedShear(const Place& at, fem::EnhancedPoints& result) {
 }
 
 }  // namespace
+
+fem::PointSet shellFieldPoints(const ShellElements& elements, const fem::Tabulation& cell) {
+  const int N = elements.nodesPerElement;
+  if (cell.numNodes != N || cell.dim != 2)
+    throw std::logic_error("shellFieldPoints: a cell in the plane with the element's nodes is needed");
+  fem::PointSet p;
+  p.components = 1;
+  p.numEntities = elements.count();
+  p.nodesPerEntity = N;
+  p.pointsPerEntity = cell.numPoints;
+  p.shapeComponents = 3;
+  for (int e = 0; e < elements.count(); ++e) {
+    for (int a = 0; a < N; ++a) p.nodes.push_back(elements.node(e, a));
+    for (int q = 0; q < cell.numPoints; ++q) {
+      const detail::Base base = detail::baseAt(cell, q, 0, elements.R(e), elements.D(e));
+      // With the normal in the director's place gradients have no part across the surface.
+      const Vec3 area = detail::cross(base.g1, base.g2);
+      const Contravariant c({base.g1, base.g2, detail::unit(area)});
+      for (int a = 0; a < N; ++a) {
+        const double* d = detail::gradientAt(cell, q, a);
+        for (int i = 0; i < 3; ++i) p.shape.push_back((d[0] * c.c1[i] + d[1] * c.c2[i]) / c.j);
+      }
+      p.weights.push_back(2 * base.jacobian() * cell.weights[q]);
+      for (int i = 0; i < 3; ++i) {
+        double x = 0;
+        for (int a = 0; a < N; ++a) x += detail::valuesAt(cell, q)[a] * elements.R(e)[3 * a + i];
+        p.positions.push_back(x);
+      }
+    }
+  }
+  return p;
+}
 
 fem::EnhancedPoints shellPoints(const ShellElements& elements, const ShellCubature& cubature) {
   return detail::makeShellPoints(elements, cubature, 3, addGradients);

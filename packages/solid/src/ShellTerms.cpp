@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -32,13 +33,13 @@ constexpr int kBase = 3, kPlace = 4, kUnit = 6;
 /// Inputs x and e, data: the Kinematics', g; with `growth`, which may be null, those of expandingShellTerm.
 /// Cauchy stress is shown without the enhanced part in F.
 std::unique_ptr<fem::PointLaw> enhancedLaw(StagedParts parts, std::unique_ptr<fem::PointLaw> material,
-                                           std::unique_ptr<fem::PointLaw> growth = nullptr) {
+                                           std::unique_ptr<fem::PointLaw> growth = nullptr, int fields = 0) {
   const int n = parts.inputs;
   const std::vector<int> x = range(0, n), data = range(0, parts.data), g = range(parts.data, kBase);
   fem::StagedPlan plan;
-  plan.inputs = growth ? n + 2 : n + 1;
+  plan.inputs = growth ? n + fields + 2 : n + 1;
   plan.data = parts.data + kBase + (growth ? kPlace + kUnit : 0);
-  plan.symmetric = material->shape().symmetric;
+  plan.symmetric = material->shape().symmetric && fields == 0;
   int next = plan.inputs;
   // The first wire of a stage's outputs.
   const auto add = [&](std::unique_ptr<fem::PointLaw> law, std::vector<int> inputs, std::vector<int> from) {
@@ -50,8 +51,12 @@ std::unique_ptr<fem::PointLaw> enhancedLaw(StagedParts parts, std::unique_ptr<fe
   const int enhanced = plan.inputs - 1, strain = add(std::move(parts.strain), x, data);
   std::vector<int> ofMaterial = joined(range(strain, 6), {enhanced});
   int stress = 0;
+  std::vector<int> onFields;
   if (growth) {
-    const int e = add(std::move(growth), {n}, range(parts.data + kBase, kPlace));
+    std::vector<int> of(growth->shape().inputs, n + fields);  // the load factor, and what is not read
+    std::iota(of.begin(), of.begin() + fields, n);
+    const int e = add(std::move(growth), of, range(parts.data + kBase, kPlace));
+    onFields.assign(fields, e + 1);
     const int elastic = add(fem::pointLaw(ElasticStrainStage{}), joined(ofMaterial, {e}),
                             range(parts.data + kBase + kPlace, kUnit));
     const int own = add(std::move(material), range(elastic, 7), g);
@@ -60,7 +65,7 @@ std::unique_ptr<fem::PointLaw> enhancedLaw(StagedParts parts, std::unique_ptr<fe
     stress = add(std::move(material), std::move(ofMaterial), g);
   }
   const int forces = add(std::move(parts.forces), joined(x, range(stress, 6)), data);
-  plan.outputs = joined(range(forces, n), {stress + 6});
+  plan.outputs = joined(joined(range(forces, n), onFields), {stress + 6});
   plan.names = detail::stressNames();
   plan.show = [=, gradient = parts.gradient](const double* wires, const double* at, double* shown) {
     double F[9];
@@ -133,6 +138,26 @@ fem::EnhancedPoints pointsOf(double poisson, const ShellElements& elements, Shel
   }
 }
 
+/// The values of a field of the elements' own nodes at these points.
+fem::Interpolation fieldAt(const std::string& field, const ShellElements& elements,
+                           const ShellCubature& cubature) {
+  const int N = elements.nodesPerElement;
+  const detail::PlanePoints plane(cubature.inPlane, N);
+  fem::Interpolation values;
+  values.field = field;
+  values.components = values.shapeComponents = 1;
+  values.nodesPerEntity = N;
+  for (int e = 0; e < elements.count(); ++e) {
+    for (int a = 0; a < N; ++a) values.nodes.push_back(elements.node(e, a));
+    for (int q = 0; q < plane.count(); ++q)
+      for (int layer = 0; layer < cubature.throughThickness; ++layer) {
+        const double* shape = detail::valuesAt(plane.table, q);
+        values.shape.insert(values.shape.end(), shape, shape + N);
+      }
+  }
+  return values;
+}
+
 }  // namespace
 
 std::unique_ptr<fem::PointLaw> sixNodeShellLaw(std::unique_ptr<fem::PointLaw> material) {
@@ -142,6 +167,7 @@ std::unique_ptr<fem::PointLaw> sixNodeShellLaw(std::unique_ptr<fem::PointLaw> ma
 std::unique_ptr<fem::Term> expandingShellTerm(const ShellElements& elements, ShellStrains strains,
                                               double poissonsRatio, std::unique_ptr<fem::PointLaw> material,
                                               std::unique_ptr<fem::PointLaw> growth,
+                                              const std::vector<std::string>& fields,
                                               const ShellCubature& cubature) {
   const int N = elements.nodesPerElement;
   fem::EnhancedPoints points = pointsOf(poissonsRatio, elements, strains, cubature);
@@ -160,7 +186,10 @@ std::unique_ptr<fem::Term> expandingShellTerm(const ShellElements& elements, She
     parts.unit(&data[p * numData], &data[(p + 1) * numData - kUnit]);
   }
   points.data = std::move(data);
-  return fem::enhancedTerm(enhancedLaw(std::move(parts), std::move(material), std::move(growth)), points);
+  for (const std::string& field : fields) points.points.more.push_back(fieldAt(field, elements, cubature));
+  return fem::enhancedTerm(
+      enhancedLaw(std::move(parts), std::move(material), std::move(growth), static_cast<int>(fields.size())),
+      points);
 }
 
 std::unique_ptr<fem::PointLaw> shellMetalLaw(const Metal& metal, ShellStrains strains, int nodesPerElement) {

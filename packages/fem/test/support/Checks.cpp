@@ -94,8 +94,7 @@ void checkOrders(FeModel model) {
         if (supports.fixed(d)) {
           EXPECT_NEAR(values[d], supports.at(d, lambda), 1e-14);
         }
-      const auto r = residual(problem, values, lambda);
-      return norm(sum(r.r, -1, R0)) / r.norm.scale;
+      return norm(sum(residual(problem, values, lambda).r, -1, R0));
     };
     // Where the remainder is about 1e-8 of its size at the unit: far above rounding at a/2 too (1e-12 for
     // K = 10), and a small against the radius, so that order K+2 adds to the rate no more than about a/unit.

@@ -32,6 +32,19 @@ std::unique_ptr<fem::PointLaw> stagedContact(const ToolStages& tool, const AnyPr
 std::unique_ptr<fem::PointLaw> stagedHardContact(const ToolStages& tool);
 std::unique_ptr<fem::PointLaw> stagedCurveContact(const ToolStages& tool,
                                                   const RegularisedPressure& pressure);
+
+/// What flows into a body through its contact with a tool (docs/theory/balance.md, Through contacts).
+struct Passage {
+  /// A stage: values of fields, the load factor, R, h -> -q, per area; data: the undeformed place.
+  std::unique_ptr<fem::PointLaw> amount;
+  int fields = 0;  ///< that points have; the values behind them are not read
+  int into = 0;    ///< which of them q flows of
+};
+/// x, values of fields, load factor -> no force, -q in the place of its field; data: the undeformed place,
+/// Delta.
+std::unique_ptr<fem::PointLaw> stagedPassage(const ToolStages& tool, const AnyPressure& pressure,
+                                             Passage passage);
+
 /// Place (and load factor) -> h, n: the projection alone. Not of patches.
 std::unique_ptr<fem::PointLaw> stagedProjection(const ToolStages& tool);
 /// The tool stands where it is at `loadFactor`.

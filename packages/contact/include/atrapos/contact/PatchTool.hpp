@@ -118,9 +118,9 @@ struct PatchTool {
   }
 
   /// 1 where the point is over a patch, 0 where it is over none.
-  KOKKOS_INLINE_FUNCTION double carries(const double* data) const { return data[0] >= 0 ? 1 : 0; }
+  static KOKKOS_INLINE_FUNCTION double carries(const double* data) { return data[0] >= 0 ? 1 : 0; }
   template <int L>
-  KOKKOS_INLINE_FUNCTION taylor::Lanes<L> carries(const taylor::Lanes<L>* data) const {
+  static KOKKOS_INLINE_FUNCTION taylor::Lanes<L> carries(const taylor::Lanes<L>* data) {
     taylor::Lanes<L> on;
     for (int l = 0; l < L; ++l) on[l] = data[0][l] >= 0 ? 1 : 0;
     return on;

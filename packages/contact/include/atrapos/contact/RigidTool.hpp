@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "atrapos/contact/ContactStages.hpp"
 #include "atrapos/contact/MovingTool.hpp"
 #include "atrapos/contact/OneOf.hpp"
 #include "atrapos/contact/Overclosure.hpp"
@@ -42,6 +43,12 @@ class RigidTool {
   /// The term of a contact at face or node points; referenceGaps is [point], > 0.
   virtual std::unique_ptr<fem::Term> term(const AnyPressure& pressure, const fem::PointSet& points,
                                           const std::vector<double>& referenceGaps) const = 0;
+
+  /// What flows through such a contact: the points have the passage's fields, one component each, behind
+  /// their places.
+  virtual std::unique_ptr<fem::Term> passage(const AnyPressure& pressure, const fem::PointSet& points,
+                                             const std::vector<double>& referenceGaps,
+                                             Passage passage) const = 0;
 
   /// Adds hard contact of these points to the model: its last term, and a node behind the others for the
   /// multiplier of each.

@@ -135,6 +135,19 @@ struct OverclosureStage {
   }
 };
 
+/// q (1) -> 0, q (2): what flows through a contact does no work. data: as PatchTool, the patch; where the
+/// point is over no part of the tool nothing flows.
+struct PassageStage {
+  static constexpr bool stage = true, symmetric = false;
+  static constexpr int numInputs = 1, numOutputs = 2, numData = 1;
+
+  template <class T>
+  KOKKOS_INLINE_FUNCTION void operator()(const T* q, const taylor::Passive<T>* data, T* out) const {
+    out[0] = T(0.0);
+    out[1] = q[0] * PatchTool::carries(data);
+  }
+};
+
 /// n, r (4) -> -r n (3): the force of hard contact.
 struct HardStage {
   static constexpr bool stage = true, symmetric = false;

@@ -21,9 +21,14 @@ struct Expansion {
 Expansion expansionOf(const std::string& text, const std::vector<std::string>& fields,
                       const Constants& constants);
 
-/// The stage of an expansion in a shell, a formula of lambda, x, y, z and zeta (GrowthStage). Throws
-/// formula::FormulaError.
-std::unique_ptr<fem::PointLaw> shellExpansion(const std::string& text, const Constants& constants);
+/// The expansion of a material in a shell, a formula of the fields, lambda, x, y, z and zeta.
+struct ShellExpansion {
+  std::unique_ptr<fem::PointLaw> stage;  ///< GrowthStage of these
+  std::vector<std::string> fields;       ///< that it depends on, at most mostFields
+};
+/// Throws formula::FormulaError.
+ShellExpansion shellExpansion(const std::string& text, const std::vector<std::string>& fields,
+                              const Constants& constants);
 
 /// The law of a material of solids with an expansion. Its inputs are H, the value of the expansion's field
 /// where it has one, and the load factor; its data the place.

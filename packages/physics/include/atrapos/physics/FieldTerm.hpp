@@ -10,8 +10,10 @@
 #include "atrapos/fem/PointLaw.hpp"
 #include "atrapos/fem/Term.hpp"
 #include "atrapos/solid/PlaneBody.hpp"
+#include "atrapos/solid/ShellPoints.hpp"
 
-/// Terms of any law for scalar fields. `plane`: of plane cells, about an axis per full turn.
+/// Terms of any law for scalar fields. `plane`: of plane cells, about an axis per full turn. `shells`: of the
+/// elements of a block of shells, through whose thickness fields are the same.
 namespace atrapos::physics {
 
 /// What each field stores at a point by its value, c in c du/dt; `in` and `data` as a law in the block that
@@ -25,7 +27,8 @@ using FieldCapacity = std::function<void(const double* in, const double* data, d
 std::unique_ptr<fem::Term> fieldTerm(const fem::Mesh& mesh, const fem::Block& block,
                                      const std::vector<std::string>& fields,
                                      std::unique_ptr<fem::PointLaw> law, const FieldCapacity& capacity,
-                                     const std::optional<solid::PlaneSection>& plane);
+                                     const std::optional<solid::PlaneSection>& plane,
+                                     const solid::ShellElements* shells = nullptr);
 
 /// The same on the sides of a set, of values alone: a term for each kind of side, each with a law of its own.
 std::vector<std::unique_ptr<fem::Term>> sideTerms(const fem::Mesh& mesh, const fem::SideSet& set,

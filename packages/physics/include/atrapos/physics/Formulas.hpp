@@ -14,12 +14,14 @@ namespace atrapos::physics {
 
 using Constants = std::map<std::string, double>;
 
-/// Whether a formula may call something of one's own so: no function, and not lambda, x, y, z or zeta.
+/// Whether a formula may call something of one's own so: no function, and none of the names that mean
+/// something by themselves.
 bool isFreeName(const std::string& name);
 
 /// Where a formula stands, which says what it may refer to. `shell`: to zeta besides, from -1 at the bottom
-/// to 1 at the top of a shell, and to values of fields as on a surface.
-enum class Place { body, surface, shell, reference };
+/// to 1 at the top of a shell, and to values of fields as on a surface. `contact`: a surface that a tool
+/// touches, to contact_pressure and contact_gap besides.
+enum class Place { body, surface, contact, shell, reference };
 
 /// Throws formula::FormulaError where a formula cannot be read; `reference`: of the place and constants
 /// alone.

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "atrapos/fem/EnhancedTerm.hpp"
+#include "atrapos/fem/ReferenceCell.hpp"
 
 namespace atrapos::solid {
 
@@ -50,6 +51,10 @@ struct ShellCubature {
 inline int pointsInPlane(const ShellCubature& cubature, int nodesPerElement) {
   return isTriangle(nodesPerElement) ? 3 : cubature.inPlane * cubature.inPlane;
 }
+
+/// For scalars of the elements' own nodes, the same through the thickness: gradients along the middle
+/// surface, which a cell of its shape is tabulated for; weights: thickness times area.
+fem::PointSet shellFieldPoints(const ShellElements& elements, const fem::Tabulation& cell);
 
 /// For fem::enhancedTerm with the law ShellLaw<Material>: gradients of N_a and zeta N_a with respect to X = R
 /// + zeta D, volume weights, modes zeta {1, xi, eta, xi eta}

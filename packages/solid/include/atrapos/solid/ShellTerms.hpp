@@ -19,12 +19,14 @@ enum class ShellStrains { compatible, assumedShear };
 std::unique_ptr<fem::PointLaw> sixNodeShellLaw(std::unique_ptr<fem::PointLaw> material);
 
 /// The term of a material, as ShellMaterialStage<Material>, whose lengths grow (GrowthStages.hpp), in shells
-/// of any number of nodes. growth, a stage: in: the load factor; out: e; data: x, y, z, zeta. Inputs of its
-/// law: those of the Kinematics, the load factor, e; data: the Kinematics' in Cartesian axes, g, growth's,
+/// of any number of nodes. growth, a stage: in: values of fields, of which it reads `fields`, scalars of the
+/// elements' own nodes, and the load factor; out: e, 0; data: x, y, z, zeta. Inputs of its law: those of the
+/// Kinematics, the fields, the load factor, e; data: the Kinematics' in Cartesian axes, g, growth's,
 /// the unit tensor as the element's strains have it, 6. poissonsRatio: of the material at rest (mitc4Points).
 std::unique_ptr<fem::Term> expandingShellTerm(const ShellElements& elements, ShellStrains strains,
                                               double poissonsRatio, std::unique_ptr<fem::PointLaw> material,
                                               std::unique_ptr<fem::PointLaw> growth,
+                                              const std::vector<std::string>& fields = {},
                                               const ShellCubature& cubature = {});
 
 /// A metal in shells of this many nodes; kinematic hardening where it has a modulus. Inputs: those of the
