@@ -4,6 +4,7 @@
 
 #include "Augmented.hpp"
 #include "Modes.hpp"
+#include "Stability.hpp"
 #include "atrapos/path/Report.hpp"
 #include "atrapos/path/SeriesStep.hpp"
 
@@ -40,7 +41,8 @@ struct CriticalSearch {
   std::vector<LimitPoint> limits = {};   ///< of the load, in the step: an eigenvalue vanishes there too
   int watchedModes = 0;
   std::vector<CountedPlace> counts = {};  ///< at both ends of the step; empty where inertia does not tell
-  Observer* observer = nullptr;           ///< told of the search (Observer::onSearch); may be null
+  EigenProblem counted = EigenProblem::ofTangent;  ///< whose eigenvalues the numbers are of
+  Observer* observer = nullptr;                    ///< told of the search (Observer::onSearch); may be null
 };
 
 /// Where the eigenvalues followed vanish other than at limit points of lambda.

@@ -152,10 +152,19 @@ bool refineSimple(Calls& calls, const CriticalSearch& search, double guess, cons
   // on a branch that leaves a pitchfork.
   SecondOrder second(calls, state, system->psi());
   const double size = std::abs(system->H(0, 0)) + std::abs(system->H(0, 1)) + std::abs(system->H(1, 1));
-  const double rate = second(tangents[0], {system->phi(), 0}) * linear::dot(*system->psi(), *system->phi());
+  // psi . N phi > 0 would make it that of the eigenvalue; a symmetric tangent has psi = phi.
+  auto measured = calls.newVector();
+  if (calls.problem().symmetric())
+    measured->assign(*system->phi());
+  else
+    EigenMeasure(calls, state, search.counted).apply(*system->phi(), *measured);
+  const double rate = second(tangents[0], {system->phi(), 0});
+  const double sense = linear::dot(*system->psi(), *measured);
   constexpr double crosses = 1e-6;
   const double phiSize = std::sqrt(dot({system->phi(), 0}, {system->phi(), 0}, w));
-  point.negativeChange = std::abs(rate) < crosses * size * phiSize ? 0 : rate < 0 ? 1 : -1;
+  const bool still =
+      std::abs(rate) * system->psi()->norm2() * system->phi()->norm2() < crosses * size * phiSize;
+  point.negativeChange = still ? 0 : rate * sense < 0 ? 1 : -1;
   return true;
 }
 

@@ -24,18 +24,27 @@ bool endStable(const linear::NearestEigenvalues& found) {
 
 }  // namespace
 
+EigenMeasure::EigenMeasure(Calls& calls, const State& at, EigenProblem of)
+    : mass_(of == EigenProblem::ofRates ? calls.mass(at) : Teuchos::null),
+      weights_(mass_.is_null() ? calls.eigenvalueWeights(at) : Teuchos::null) {}
+
+void EigenMeasure::apply(const linear::MultiVector& x, linear::MultiVector& y) const {
+  if (!mass_.is_null())
+    mass_->apply(x, y);
+  else if (!weights_.is_null())
+    y.elementWiseMultiply(1, *weights_, x, 0);
+  else
+    y.assign(x);
+}
+
 std::optional<Unstable> countUnstable(Calls& calls, const State& at, int count, EigenProblem of) {
   if (calls.problem().constraintPivots() != 0) return std::nullopt;
   const auto sign = linear::determinantSign(calls.solver());
-  const auto mass = of == EigenProblem::ofRates ? calls.mass(at) : Teuchos::null;
-  const auto weights = mass.is_null() ? calls.eigenvalueWeights(at) : Teuchos::null;
+  const EigenMeasure measure(calls, at, of);
   const linear::Inverse inverse = [&](const linear::MultiVector& x, linear::MultiVector& y) {
-    if (mass.is_null() && weights.is_null()) return calls.solve(x, y);
+    if (measure.isOne()) return calls.solve(x, y);
     linear::MultiVector weighed(x.getMap(), x.getNumVectors());
-    if (weights.is_null())
-      mass->apply(x, weighed);
-    else
-      weighed.elementWiseMultiply(1, *weights, x, 0);
+    measure.apply(x, weighed);
     calls.solve(weighed, y);
   };
   // More would cost more than the step; the number is then not told.
@@ -43,7 +52,7 @@ std::optional<Unstable> countUnstable(Calls& calls, const State& at, int count, 
   for (int wanted = count; wanted <= most; wanted *= 2) {
     const auto found =
         linear::nearestEigenvalues(inverse, calls.problem().map(), wanted,
-                                   mass.is_null() ? linear::Mass::regular : linear::Mass::singular);
+                                   measure.isRegular() ? linear::Mass::regular : linear::Mass::singular);
     Unstable unstable;
     for (const auto& mu : found.values) {
       unstable.all += mu.real() < 0;

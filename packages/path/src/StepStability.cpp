@@ -55,8 +55,7 @@ void StepStability::count(EndTangent& tangent) {
   const bool hopf = options.hopfEigenvalues > 0;
   const int wanted = std::max(expected_ + options.watchedModes + 1, options.hopfEigenvalues);
   try {
-    const auto of = hopf ? EigenProblem::ofRates : EigenProblem::ofTangent;
-    if (auto unstable = countUnstable(calls, path_.here.state, wanted, of)) {
+    if (auto unstable = countUnstable(calls, path_.here.state, wanted, problem())) {
       counted_ = unstable->all;
       tangent.inertia = linear::Inertia{unstable->all, 0};
       tangent.real = unstable->real;
@@ -112,6 +111,7 @@ void StepStability::locateBifurcations(StepReport& report, const EndTangent& end
   search.limits = report.limitPoints;
   search.watchedModes = options.watchedModes;
   search.counts = counts;
+  search.counted = problem();
   search.observer = &observer;
   CriticalFound found = findCriticalPoints(path_.calls, search);
   path_.outcome.criticalFactorizations += found.factorizations;

@@ -2,6 +2,7 @@
 
 #include "EndTangent.hpp"
 #include "PathUnderWay.hpp"
+#include "Stability.hpp"
 
 namespace atrapos::path {
 
@@ -27,6 +28,9 @@ class StepStability {
 
  private:
   void count(EndTangent& tangent);
+  EigenProblem problem() const {
+    return path_.options.hopfEigenvalues > 0 ? EigenProblem::ofRates : EigenProblem::ofTangent;
+  }
   std::vector<Mode> modes(const PathTangent& along, double weight) const;
   void locateBifurcations(StepReport& report, const EndTangent& end, Observer& observer);
   void locateHopfPoints(StepReport& report, const EndTangent& end);

@@ -186,6 +186,44 @@ TEST(Hopf, DivergenceIsNone) {
   EXPECT_EQ(outcome.hopfFactorizations, 0);
 }
 
+/// Two velocities that a pressure p keeps equal, x' = (lambda - 1) x - x^3 + p - lambda, y' = -3 y - p +
+/// lambda, 0 = x - y: rest, with p = lambda, is stable up to lambda = 4. The pressure's part of the null
+/// vectors is larger than all others, with one sign on the left and the other on the right, and has no rate.
+struct Constrained : NoInternal {
+  int size() const { return 3; }
+  double scale() const { return 1; }
+  bool symmetric() const { return false; }
+  std::vector<double> rateWeights() const { return {1, 1, 0}; }
+  template <class S>
+  std::vector<S> residual(const std::vector<S>& u, const S& lambda) const {
+    const S &x = u[0], &y = u[1], &p = u[2];
+    return {S(x - lambda * x + x * x * x - p + lambda), S(3.0 * y + p - lambda), S(x - y)};
+  }
+};
+
+TEST(Hopf, SenseOfAPitchforkByWhatHasRates) {
+  JetProblem<Constrained> problem((Constrained()));
+  linear::TangentSolverOptions unsymmetric;
+  unsymmetric.symmetric = false;
+  const auto solver = linear::makeTangentSolver(unsymmetric);
+  for (const bool up : {true, false}) {
+    Options options = FollowedHopf::withHopf();
+    options.direction = up ? 1 : -1;
+    Stops stops;
+    stops.loadFactors = {up ? 5.0 : 3.0};
+    Record record;
+    const double start = up ? 3 : 5;
+    const auto outcome =
+        PathFollower(problem, *solver, options, stops).run({problem.vector({0, 0, start}), start}, record);
+    EXPECT_EQ(outcome.reason, EndReason::stopReached) << outcome.text;
+    const auto points = criticalPoints(record);
+    ASSERT_EQ(points.size(), 1u);
+    EXPECT_NEAR(points[0].state.lambda, 4, tolerance * 4);
+    EXPECT_EQ(points[0].negativeChange, up ? 1 : -1);
+    for (const auto& step : record.steps) EXPECT_EQ(step.unexplained, 0);
+  }
+}
+
 /// Not asked for: nothing is paid, and the pair is counted as before.
 TEST(Hopf, NotAskedFor) {
   Brusselators law;
