@@ -6,9 +6,11 @@
 #include <array>
 #include <cmath>
 #include <exception>
+#include <utility>
 
 #include "atrapos/linear/FactorCost.hpp"
 #include "scene/Extents.hpp"
+#include "scene/Revolution.hpp"
 
 namespace atrapos {
 namespace {
@@ -81,6 +83,23 @@ std::vector<std::string> describeAnswer(const Scene& scene, double size, double 
   return lines;
 }
 
+/// Solids that are turned around an axis and move alike all around it.
+std::string revolved(const Scene& scene, const std::vector<double>& answer) {
+  const auto& blocks = scene.mesh().blocks;
+  // What tools do is not in a linear answer.
+  if (!scene.contacts().empty() || !std::all_of(blocks.begin(), blocks.end(), [](const fem::Block& block) {
+        return fem::isSolid(block.topology);
+      }))
+    return {};
+  const auto axis = axisOfRevolution(scene.mesh(), scene.problem().model().dofs, answer);
+  if (!axis) return {};
+  return fmt::format(
+      "waste     the linear answer is the same all around {}: a plane body (plane: {{kind: axisymmetric}}) "
+      "has "
+      "it with the unknowns of one section, and all of the path but waves around the axis",
+      "xyz"[*axis]);
+}
+
 }  // namespace
 
 std::vector<std::string> describeFirstAnswer(Scene& scene, const path::State& start,
@@ -116,9 +135,11 @@ std::vector<std::string> describeFirstAnswer(Scene& scene, const path::State& st
     solver.factor(K);
     solver.solve(*F, *answer);
     answer->scale(loadFactor);
-    const Displacements u = displacementsIn(scene, model.dofs, fem::FeProblem::values(*answer));
+    const std::vector<double> values = fem::FeProblem::values(*answer);
+    const Displacements u = displacementsIn(scene, model.dofs, values);
     if (u.node >= 0)
       for (const std::string& line : describeAnswer(scene, size, loadFactor, u)) lines.push_back(line);
+    if (std::string line = revolved(scene, values); !line.empty()) lines.push_back(std::move(line));
   } catch (const std::exception& e) {
     // What touches at the start holds a body from the path's first event on.
     if (scene.contacts().empty())

@@ -69,5 +69,46 @@ TEST_F(FirstAnswer, OfDrivenSupportsAndTools) {
   expectIn(tool, "# forces    that stay");
 }
 
+// A quarter of a tube: what is the same all around its axis is told, and no other mesh or load.
+TEST_F(FirstAnswer, TellsOfBodiesOfRevolution) {
+  const std::string tube = R"(mesh:
+  file: m.exo
+  generate: {shape: cylinder_panel, mid_radius: 2, thickness: 1, theta: [0, 90], length: 1, divisions: [6, 1, 2], block: body}
+materials:
+  m: {law: saint_venant_kirchhoff, youngs_modulus: 1000, poissons_ratio: 0.3, blocks: [body]}
+supports:
+  a: {set: theta_min, condition: symmetry_x}
+  b: {set: theta_max, condition: symmetry_z}
+  c: {set: y_min, y: 0}
+loads:
+  inside: {type: surface, set: inner, pressure: 1}
+path:
+  stop: {load_factor: 1}
+)";
+  const std::string line = "# waste     the linear answer is the same all around y: a plane body";
+  expectIn(of(tube), line);
+  const auto expectNot = [&](const std::string& deck) {
+    const std::string text = of(deck);
+    EXPECT_NE(text.find("# linear"), std::string::npos) << text;
+    EXPECT_EQ(text.find("all around"), std::string::npos) << text;
+  };
+  expectNot(edited(tube, "c: {set: y_min, y: 0}", "c: {set: y_min, x: 0, y: 0}"));
+  // A bar in tension, of which corners and middles of sides move alike, but are no circle's.
+  expectNot(R"(mesh:
+  file: m.exo
+  generate: {shape: box, lengths: [2, 2, 4], divisions: [2, 2, 2], origin: [-1, -1, 0]}
+materials:
+  m: {law: saint_venant_kirchhoff, youngs_modulus: 1000, poissons_ratio: 0.3, blocks: [body]}
+supports:
+  clamp: {set: z_min, z: 0}
+  axis: {set: x_min_y_min_z_min, x: 0, y: 0}
+  turn: {set: x_max_y_min_z_min, y: 0}
+loads:
+  tip: {type: surface, set: z_max, total: [0, 0, 1]}
+path:
+  stop: {load_factor: 1}
+)");
+}
+
 }  // namespace
 }  // namespace atrapos::test
