@@ -14,6 +14,32 @@
 
 // Scalar fields of a scene: their balances, flows, what flows in, where they begin.
 namespace atrapos {
+namespace {
+
+/// Of rows of `each`, the first `kept` of each.
+template <class T>
+std::vector<T> firstOfRows(const std::vector<T>& rows, int each, int kept) {
+  std::vector<T> first;
+  for (std::size_t at = 0; at < rows.size(); at += each)
+    first.insert(first.end(), &rows[at], &rows[at] + kept);
+  return first;
+}
+
+/// Values of a field at the points of a contact. A shell's surface has directors, where no field is, behind
+/// its nodes.
+fem::Interpolation valuesAt(const fem::PointSet& points, const std::string& field, bool directors) {
+  fem::Interpolation values = points;
+  values.field = field;
+  values.components = 1;
+  if (!directors) return values;
+  const int all = points.nodesPerEntity;
+  values.nodesPerEntity = all / 2;
+  values.nodes = firstOfRows(points.nodes, all, all / 2);
+  values.shape = firstOfRows(points.shape, all, all / 2);
+  return values;
+}
+
+}  // namespace
 
 std::vector<std::string> ModelMaker::scalarFieldsOf(int block) const {
   const auto isIn = [&](const std::vector<std::string>& blocks) {
@@ -246,12 +272,8 @@ void ModelMaker::addContactInflows() {
     const auto into = std::find(fields.begin(), fields.end(), inflow->field) - fields.begin();
     for (std::size_t t = 0; t < made->points.size(); ++t) try {
         fem::PointSet points = made->points[t];
-        for (const std::string& field : fields) {
-          fem::Interpolation values = made->points[t];
-          values.field = field;
-          values.components = 1;
-          points.more.push_back(std::move(values));
-        }
+        for (const std::string& field : fields)
+          points.more.push_back(valuesAt(made->points[t], field, zetaOf(contact->at) != 0));
         contact::Passage passage{physics::contactInflow(inflow->amount, fields, deck_.constants),
                                  static_cast<int>(fields.size()), static_cast<int>(into)};
         made_.model.terms.push_back(

@@ -73,10 +73,7 @@ class StagedTool : public RigidTool {
       data.insert(data.end(), &points.positions[3 * p], &points.positions[3 * p] + 3);
       data.push_back(referenceGaps[p]);
     }
-    const auto search = pieces(lambda + 1, 4, [D, lambda](const double* in, const double*, double* x) {
-      for (int i = 0; i < 3; ++i) x[i] = i < D ? in[i] : 0;
-      x[3] = in[lambda];
-    });
+    const auto search = pieces(lambda + 1, 4, placeAmong(D, lambda));
     return onPieces(forPoints(stagedPassage(stages_, pressure, std::move(passage)), points), points,
                     withTool(data, 4), search);
   }
@@ -143,13 +140,15 @@ class StagedTool : public RigidTool {
   /// The same for inputs that begin with the place of these points and have the load factor, where the tool
   /// moves, at `loadFactor`.
   fem::PieceSearch pieces(const fem::PointSet& points, int before, int loadFactor) const {
-    const int D = points.components;
-    const bool moving = moves();
-    return pieces(loadFactor + (moving ? 1 : 0), before,
-                  [D, loadFactor, moving](const double* in, const double*, double* x) {
-                    for (int i = 0; i < 3; ++i) x[i] = i < D ? in[i] : 0;
-                    if (moving) x[3] = in[loadFactor];
-                  });
+    return pieces(loadFactor + (moves() ? 1 : 0), before, placeAmong(points.components, loadFactor));
+  }
+
+  /// The place in D dimensions at the head of inputs, and the load factor where the tool moves.
+  PlaceOf placeAmong(int D, int loadFactor) const {
+    return [D, loadFactor, moving = moves()](const double* in, const double*, double* x) {
+      for (int i = 0; i < 3; ++i) x[i] = i < D ? in[i] : 0;
+      if (moving) x[3] = in[loadFactor];
+    };
   }
 
   const std::optional<Motion>& motion() const { return motion_; }
