@@ -104,4 +104,44 @@ TEST(Truss, DomeAsCalculix) {
   EXPECT_NEAR(run.column("displacement").back(), -0.3177794, 1e-6);
 }
 
+// A ball on a membrane, contact by zones, as stiff as the least depth of a zone allows: the first zone begins
+// at the line's end on the axis of symmetry and leaves it at once, as the sheet bends around the ball. Its
+// force is what the edges hold, but for the corner, which belongs to both.
+TEST(Membrane, BallWhoseZoneLeavesTheLinesEnd) {
+  const TemporaryFolder folder;
+  writeFile(folder / "deck.yaml", R"(mesh:
+  file: sheet.exo
+  generate: {shape: shell_plate, length: 100, width: 100, divisions: [8, 8], block: sheet}
+materials:
+  m: {law: neo_hookean, youngs_modulus: 3, poissons_ratio: 0.45, blocks: [sheet]}
+membranes: {sheet: {blocks: [sheet], thickness: 1, prestress: 0.05}}
+supports:
+  right: {set: x_max, x: 0, y: 0, z: 0}
+  back: {set: y_max, x: 0, y: 0, z: 0}
+  left: {set: x_min, x: 0}
+  front: {set: y_min, y: 0}
+tools:
+  ball: {type: sphere, center: [0, 0, 30.5], radius: 30, motion: {shift: [0, 0, -1]}}
+contact:
+  ball: {tool: ball, set: top, points: zones, law: linear, stiffness: 1000}
+path: {stop: {load_factor: 5, steps: 80}}
+output:
+  monitors:
+    force: {type: contact_force, contact: ball, component: z}
+    right: {type: reaction, support: right, component: z}
+    back: {type: reaction, support: back, component: z}
+    middle: {type: displacement, set: x_min_y_min, component: z}
+)");
+  ASSERT_EQ(runAtrapos({"mesh", "-q", "deck.yaml"}, folder.path()).exitCode, 0);
+  const auto run = runAtrapos({"run", "-q", "-o", "results", "deck.yaml"}, folder.path());
+  ASSERT_EQ(run.exitCode, 0) << run.err;
+  const Table path((folder / "results/path.csv").string());
+  EXPECT_EQ(path.column("load_factor").back(), 5);
+  const double force = -path.column("force").back();
+  EXPECT_GT(force, 0.1);
+  EXPECT_NEAR(path.column("right").back() + path.column("back").back(), force, 0.02 * force);
+  // The ball has gone down by 4.5, and the sheet with it, of cells that are as large as the contact.
+  EXPECT_NEAR(path.column("middle").back(), -4.5, 0.3);
+}
+
 }  // namespace atrapos::test

@@ -224,9 +224,10 @@ class ZoneTerm final : public EventTerm {
     std::vector<double> c(laws_.coefficients() * L);
     gather(&e, 1, u, 1, c.data());
     const GapShape shape = gapShapes(laws_, c.data(), lambda)[0];
-    Extremum place{p == 0 ? -1.0 : 1.0, p < 2 ? shape.ends[p] : 0};
+    Extremum place;
     if (p < 2) {
       if (!bottoms(e, p, shape)) return {};
+      place = bottomAt(e, p, shape);
     } else {
       const Extremum* x = slotsOf(shape).of[p - 2];
       if (x == nullptr || !x->least || std::abs(x->xi) > 1) return {};
@@ -324,7 +325,7 @@ class ZoneTerm final : public EventTerm {
             if (!tells(e, p)) continue;
             double& own = all[conditionOf_[e * kPlaces + p]];
             if (p < 2)
-              own = near(shape.ends[p]) && bottoms(e, p, shape);
+              own = bottoms(e, p, shape) && near(bottomAt(e, p, shape).gap);
             else if (const Extremum* x = slots.of[p - 2])
               own = x->least && std::abs(x->xi) < 1 && endAt(e, *x, shape) < 0 && near(x->gap);
           }
@@ -452,6 +453,14 @@ class ZoneTerm final : public EventTerm {
   bool bottoms(int e, int end, const GapShape& shape) const {
     return std::any_of(shape.extrema.begin(), shape.extrema.end(),
                        [&](const Extremum& x) { return endAt(e, x, shape) == end; });
+  }
+  /// The deepest place there: that end, or a minimum inside the line that cannot be told from it. A zone that
+  /// has begun at the end may leave it while it lasts.
+  Extremum bottomAt(int e, int end, const GapShape& shape) const {
+    Extremum deepest{end == 0 ? -1.0 : 1.0, shape.ends[end]};
+    for (const Extremum& x : shape.extrema)
+      if (endAt(e, x, shape) == end && std::abs(x.xi) < 1 && x.gap < deepest.gap) deepest = x;
+    return deepest;
   }
   /// Whether a minimum is in contact, or a maximum is out of it.
   bool counts(int e, const Extremum& x, const Slots& slots, const GapShape& shape) const {
@@ -605,6 +614,10 @@ class ZoneTerm final : public EventTerm {
           hold[p * L + lane] = Hold::place;
           if (p < 2) {
             function = {isIn(e, p, shape.ends[p]) ? -1.0 : 1.0, bottoms(e, p, shape) ? -least(e) : 0.0};
+            if (const Extremum x = bottomAt(e, p, shape); std::abs(x.xi) < 1 && bottoms(e, p, shape)) {
+              xi[p * L + lane] = x.xi;
+              hold[p * L + lane] = Hold::extremum;
+            }
           } else if (const Extremum* x = slots.of[p - 2]) {
             xi[p * L + lane] = x->xi;
             hold[p * L + lane] = Hold::extremum;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include <Tpetra_Vector.hpp>
 
@@ -102,11 +103,27 @@ bool correctWithEvent(PathUnderWay& path, int event) {
   return true;
 }
 
+/// Of two states, in the metric of the path, which has its weight here.
+double distance(const PathUnderWay& path, const State& from, const State& to) {
+  const auto change = copy(*to.u);
+  change->update(-1, *from.u, 1);
+  const Augmented moved{change, to.lambda - from.lambda};
+  return std::sqrt(dot(path.calls.problem(), moved, moved, *path.here.weight));
+}
+
+PathError isNoSolution(const Position& here) {
+  return {EndReason::problemFailed,
+          line("at lambda = ", here.state.lambda,
+               ": the state does not solve the problem as an event has changed it (relative residual ",
+               here.residual, ')')};
+}
+
 /// The state does not quite solve the Problem that an event has changed: what its series left out of the
 /// event function, and rounding, are a residual there, which no shorter step would take away. Newton
 /// iterations in the plane normal to the new direction, or at fixed load where they would miss a stop, with
-/// one factorization; the series then has its own.
-void correctSideways(PathUnderWay& path) {
+/// one factorization; the series then has its own. Where the residual is large only a state that is `near`
+/// here counts, by the share of the last step.
+void correctSideways(PathUnderWay& path, std::optional<double> near = {}) {
   Calls& calls = path.calls;
   Position& here = path.here;
   auto F = calls.newVector(), Uhat = calls.newVector();
@@ -125,9 +142,11 @@ void correctSideways(PathUnderWay& path) {
         newtonAtHand(calls, state, *r, Uhat, border, path.correctAbove(), maxIterations).residual;
     best = std::min(best, residual);
     if (residual > path.bound() || passesStop(path.stops, here.state, state)) continue;
+    if (near && !(distance(path, here.state, state) <= *near * here.lastLength)) continue;
     here.moveTo(calls.settled(state), r, residual);
     return;
   }
+  if (near) throw isNoSolution(here);
   throw PathError(
       EndReason::stepTooSmall,
       line("at lambda = ", here.state.lambda, ": behind an event the relative residual ", here.residual,
@@ -160,15 +179,16 @@ void solveBehindEvents(PathUnderWay& path, const std::vector<int>& chosen) {
       throw PathError(EndReason::problemFailed,
                       line("at lambda = ", here.state.lambda, ": ", calls.breakText(i)));
   // What the orders left out of an event function, the gap of a contact that closes, is a residual that
-  // corrections take away; more is another state.
-  constexpr double largest = 1e-2;
-  if (!(here.residual <= (mayCorrect ? std::max(path.boundAtEvents(), largest) : path.boundAtEvents())))
-    throw PathError(EndReason::problemFailed,
-                    line("at lambda = ", here.state.lambda,
-                         ": the state does not solve the problem as an event has changed it (relative "
-                         "residual ",
-                         here.residual, ')'));
-  if (here.residual > path.bound() && mayCorrect) correctSideways(path);
+  // corrections take away; one that is large may be another state, or next to none beside stiff contacts.
+  constexpr double large = 1e-2, near = 1e-3;
+  if (!mayCorrect) {
+    if (!(here.residual <= path.boundAtEvents())) throw isNoSolution(here);
+    return;
+  }
+  if (here.residual <= path.bound()) return;
+  if (here.residual <= std::max(path.boundAtEvents(), large)) return correctSideways(path);
+  if (!std::isfinite(here.residual) || !here.weight) throw isNoSolution(here);
+  correctSideways(path, near);
 }
 
 }  // namespace atrapos::path
