@@ -95,8 +95,7 @@ std::string revolved(const Scene& scene, const std::vector<double>& answer) {
   if (!axis) return {};
   return fmt::format(
       "waste     the linear answer is the same all around {}: a plane body (plane: {{kind: axisymmetric}}) "
-      "has "
-      "it with the unknowns of one section, and all of the path but waves around the axis",
+      "has it with the unknowns of one section, and all of the path but waves around the axis",
       "xyz"[*axis]);
 }
 

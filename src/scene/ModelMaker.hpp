@@ -68,8 +68,8 @@ class ModelMaker {
   void addFlows();
   void addPluginLaws();
   void addPluginLoads();
-  /// The fields of the blocks that these sides belong to, among which a load's must be.
-  std::vector<std::string> fieldsAt(const std::string& load, const std::string& sides,
+  /// The fields of the blocks that these sides belong to, among which that of a load must be, at this key.
+  std::vector<std::string> fieldsAt(const std::string& key, const std::string& sides,
                                     const std::string& field) const;
   void addInflows();
   void addContactInflows();  ///< once there are contacts

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 
+#include "atrapos/fem/Rows.hpp"
 #include "atrapos/formula/Builder.hpp"
 #include "atrapos/physics/Balance.hpp"
 #include "atrapos/physics/BalanceLaw.hpp"
@@ -16,26 +17,19 @@
 namespace atrapos {
 namespace {
 
-/// Of rows of `each`, the first `kept` of each.
-template <class T>
-std::vector<T> firstOfRows(const std::vector<T>& rows, int each, int kept) {
-  std::vector<T> first;
-  for (std::size_t at = 0; at < rows.size(); at += each)
-    first.insert(first.end(), &rows[at], &rows[at] + kept);
-  return first;
-}
-
 /// Values of a field at the points of a contact. A shell's surface has directors, where no field is, behind
 /// its nodes.
 fem::Interpolation valuesAt(const fem::PointSet& points, const std::string& field, bool directors) {
-  fem::Interpolation values = points;
-  values.field = field;
-  values.components = 1;
+  fem::Interpolation values = physics::mapsOf(field, points);
   if (!directors) return values;
-  const int all = points.nodesPerEntity;
-  values.nodesPerEntity = all / 2;
-  values.nodes = firstOfRows(points.nodes, all, all / 2);
-  values.shape = firstOfRows(points.shape, all, all / 2);
+  const int half = values.nodesPerEntity /= 2;
+  const auto firstHalves = [half](const auto& all) {
+    std::vector<int> even;
+    for (std::size_t row = 0; row * half < all.size(); row += 2) even.push_back(static_cast<int>(row));
+    return fem::rowsOf(all, even, half);
+  };
+  values.nodes = firstHalves(values.nodes);
+  values.shape = firstHalves(values.shape);
   return values;
 }
 
@@ -199,11 +193,7 @@ void ModelMaker::addPluginLoads() {
     const std::string path = "loads/" + load.name;
     const auto chosen = plugins::loadOf(deck_, path, own->law);
     const fem::SideSet& set = mesh_.sideSets.at(fem::findSideSet(mesh_, own->set));
-    const std::vector<std::string> there = scalarFieldsOf(set);
-    for (const std::string& field : own->law.fields)
-      if (std::find(there.begin(), there.end(), field) == there.end())
-        fail(path + "/fields",
-             fmt::format("a side of '{}' belongs to a block without the field '{}'", own->set, field));
+    for (const std::string& field : own->law.fields) fieldsAt(path + "/fields", own->set, field);
     auto terms = made(path, [&] {
       return physics::sideTerms(
           mesh_, set, own->law.fields, [&] { return plugins::lawOf(chosen); }, plane_);
@@ -234,12 +224,11 @@ std::vector<fem::DofMap::Located> ModelMaker::flowFields() const {
   return fields;
 }
 
-std::vector<std::string> ModelMaker::fieldsAt(const std::string& load, const std::string& sides,
+std::vector<std::string> ModelMaker::fieldsAt(const std::string& key, const std::string& sides,
                                               const std::string& field) const {
   std::vector<std::string> fields = scalarFieldsOf(mesh_.sideSets.at(fem::findSideSet(mesh_, sides)));
   if (std::find(fields.begin(), fields.end(), field) == fields.end())
-    fail("loads/" + load + "/field",
-         fmt::format("a side of '{}' belongs to a block without the field '{}'", sides, field));
+    fail(key, fmt::format("a side of '{}' belongs to a block without the field '{}'", sides, field));
   return fields;
 }
 
@@ -247,7 +236,8 @@ void ModelMaker::addInflows() {
   for (const deck::Load& load : deck_.loads) {
     const auto* inflow = std::get_if<deck::InflowLoad>(&load.load);
     if (inflow == nullptr || !inflow->contact.empty()) continue;
-    const std::vector<std::string> fields = fieldsAt(load.name, inflow->set, inflow->field);
+    const std::vector<std::string> fields =
+        fieldsAt("loads/" + load.name + "/field", inflow->set, inflow->field);
     const fem::SideSet& set = mesh_.sideSets.at(fem::findSideSet(mesh_, inflow->set));
     try {
       for (auto& term : physics::inflowTerms(mesh_, set, fields, {{inflow->field, inflow->amount}},
@@ -265,17 +255,18 @@ void ModelMaker::addContactInflows() {
   for (const deck::Load& load : deck_.loads) {
     const auto* inflow = std::get_if<deck::InflowLoad>(&load.load);
     if (inflow == nullptr || inflow->contact.empty()) continue;
-    const auto named = [&](const auto& entry) { return entry.name == inflow->contact; };
-    const auto contact = std::find_if(deck_.contacts.begin(), deck_.contacts.end(), named);
-    const auto made = std::find_if(made_.contacts.begin(), made_.contacts.end(), named);
-    const std::vector<std::string> fields = fieldsAt(load.name, contact->set, inflow->field);
+    const auto made = std::find_if(made_.contacts.begin(), made_.contacts.end(),
+                                   [&](const ContactPoints& c) { return c.name == inflow->contact; });
+    const deck::Contact& contact = deck_.contacts[made - made_.contacts.begin()];  // made in their order
+    const std::vector<std::string> fields =
+        fieldsAt("loads/" + load.name + "/field", contact.set, inflow->field);
     const auto into = std::find(fields.begin(), fields.end(), inflow->field) - fields.begin();
     for (std::size_t t = 0; t < made->points.size(); ++t) try {
         fem::PointSet points = made->points[t];
         for (const std::string& field : fields)
-          points.more.push_back(valuesAt(made->points[t], field, zetaOf(contact->at) != 0));
+          points.more.push_back(valuesAt(made->points[t], field, zetaOf(contact.at) != 0));
         contact::Passage passage{physics::contactInflow(inflow->amount, fields, deck_.constants),
-                                 static_cast<int>(fields.size()), static_cast<int>(into)};
+                                 static_cast<int>(into)};
         made_.model.terms.push_back(
             made->tool->passage(made->pressure.law, points, made->references[t], std::move(passage)));
       } catch (const formula::FormulaError& e) {

@@ -30,7 +30,7 @@ struct ContactRod {
   }
 };
 
-/// Where sign * f is largest between two gaps: golden section of their logarithms.
+/// Where f is largest between two gaps: golden section of their logarithms.
 template <class F>
 double largestBetween(double low, double high, const F& f) {
   const double ratio = (std::sqrt(5.0) - 1) / 2;

@@ -121,20 +121,20 @@ std::unique_ptr<fem::PointLaw> stagedContact(const ToolStages& tool, const AnyPr
 }
 
 std::unique_ptr<fem::PointLaw> stagedPassage(const ToolStages& tool, const AnyPressure& pressure,
-                                             Passage passage) {
+                                             Passage passage, int fields) {
   constexpr int firstField = 3, Delta = 3, firstPatch = 4;
-  const int lambda = firstField + passage.fields;
+  const int lambda = firstField + fields;
   Chain chain(lambda + 1, firstPatch + (tool.patches ? patchData : 0), false);
   const auto hn = chain.project(tool, {0, 1, 2}, lambda, tool.motion, Delta, firstPatch);
   const int R = chain.press(pressure, hn, Delta)[3];
   // Of fields that there are none of a formula reads nothing: any wire stands for them.
   std::vector<int> inputs(passage.amount->shape().inputs, firstField);
-  for (int f = 0; f < passage.fields; ++f) inputs[f] = firstField + f;
+  for (int f = 0; f < fields; ++f) inputs[f] = firstField + f;
   const int atContact[] = {lambda, R, hn[0]};
   std::copy_n(atContact, 3, inputs.end() - 3);
   const auto q = chain.add(std::move(passage.amount), inputs, {0, 1, 2});
   const auto out = chain.add(fem::pointLaw(PassageStage{}), q, {tool.patches ? firstPatch : -1});
-  std::vector<int> outputs(firstField + passage.fields, out[0]);
+  std::vector<int> outputs(firstField + fields, out[0]);
   outputs[firstField + passage.into] = out[1];
   return chain.law(outputs);
 }

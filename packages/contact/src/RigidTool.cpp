@@ -67,14 +67,15 @@ class StagedTool : public RigidTool {
   std::unique_ptr<fem::Term> passage(const AnyPressure& pressure, const fem::PointSet& points,
                                      const std::vector<double>& referenceGaps,
                                      Passage passage) const override {
-    const int D = points.components, lambda = D + passage.fields;
+    const int fields = static_cast<int>(points.more.size());
+    const int D = points.components, lambda = D + fields;
     std::vector<double> data;
     for (std::size_t p = 0; p < referenceGaps.size(); ++p) {
       data.insert(data.end(), &points.positions[3 * p], &points.positions[3 * p] + 3);
       data.push_back(referenceGaps[p]);
     }
     const auto search = pieces(lambda + 1, 4, placeAmong(D, lambda));
-    return onPieces(forPoints(stagedPassage(stages_, pressure, std::move(passage)), points), points,
+    return onPieces(forPoints(stagedPassage(stages_, pressure, std::move(passage), fields), points), points,
                     withTool(data, 4), search);
   }
 

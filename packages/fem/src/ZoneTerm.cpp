@@ -226,8 +226,9 @@ class ZoneTerm final : public EventTerm {
     const GapShape shape = gapShapes(laws_, c.data(), lambda)[0];
     Extremum place;
     if (p < 2) {
-      if (!bottoms(e, p, shape)) return {};
-      place = bottomAt(e, p, shape);
+      const auto bottom = bottomAt(e, p, shape);
+      if (!bottom) return {};
+      place = *bottom;
     } else {
       const Extremum* x = slotsOf(shape).of[p - 2];
       if (x == nullptr || !x->least || std::abs(x->xi) > 1) return {};
@@ -324,10 +325,12 @@ class ZoneTerm final : public EventTerm {
           for (int p = 0; p < kPlaces; ++p) {
             if (!tells(e, p)) continue;
             double& own = all[conditionOf_[e * kPlaces + p]];
-            if (p < 2)
-              own = bottoms(e, p, shape) && near(bottomAt(e, p, shape).gap);
-            else if (const Extremum* x = slots.of[p - 2])
+            if (p < 2) {
+              const auto bottom = bottomAt(e, p, shape);
+              own = bottom && near(bottom->gap);
+            } else if (const Extremum* x = slots.of[p - 2]) {
               own = x->least && std::abs(x->xi) < 1 && endAt(e, *x, shape) < 0 && near(x->gap);
+            }
           }
         },
         true);
@@ -448,20 +451,19 @@ class ZoneTerm final : public EventTerm {
         return end;
     return -1;
   }
-  /// Whether an end is the deepest place of its gap: there, as at a minimum, a zone has no series at the gap
-  /// zero. Its condition is then that of the minimum too.
-  bool bottoms(int e, int end, const GapShape& shape) const {
-    return std::any_of(shape.extrema.begin(), shape.extrema.end(),
-                       [&](const Extremum& x) { return endAt(e, x, shape) == end; });
-  }
-  /// The deepest place there: that end, or a minimum inside the line that cannot be told from it. A zone that
-  /// has begun at the end may leave it while it lasts.
-  Extremum bottomAt(int e, int end, const GapShape& shape) const {
-    Extremum deepest{end == 0 ? -1.0 : 1.0, shape.ends[end]};
-    for (const Extremum& x : shape.extrema)
-      if (endAt(e, x, shape) == end && std::abs(x.xi) < 1 && x.gap < deepest.gap) deepest = x;
+  /// The deepest place at an end that a minimum cannot be told from: the end, or that minimum where it lies
+  /// inside the line, for a zone that has begun at the end may leave it while it lasts. There, as at a
+  /// minimum, a zone has no series at the gap zero, and the end's condition is that of the minimum too.
+  std::optional<Extremum> bottomAt(int e, int end, const GapShape& shape) const {
+    std::optional<Extremum> deepest;
+    for (const Extremum& x : shape.extrema) {
+      if (endAt(e, x, shape) != end) continue;
+      if (!deepest) deepest = Extremum{end == 0 ? -1.0 : 1.0, shape.ends[end]};
+      if (std::abs(x.xi) < 1 && x.gap < deepest->gap) deepest = x;
+    }
     return deepest;
   }
+  bool bottoms(int e, int end, const GapShape& shape) const { return bottomAt(e, end, shape).has_value(); }
   /// Whether a minimum is in contact, or a maximum is out of it.
   bool counts(int e, const Extremum& x, const Slots& slots, const GapShape& shape) const {
     const double depth = x.least ? -x.gap : x.gap;
@@ -613,9 +615,10 @@ class ZoneTerm final : public EventTerm {
           xi[p * L + lane] = p == 0 ? -1 : 1;
           hold[p * L + lane] = Hold::place;
           if (p < 2) {
-            function = {isIn(e, p, shape.ends[p]) ? -1.0 : 1.0, bottoms(e, p, shape) ? -least(e) : 0.0};
-            if (const Extremum x = bottomAt(e, p, shape); std::abs(x.xi) < 1 && bottoms(e, p, shape)) {
-              xi[p * L + lane] = x.xi;
+            const auto bottom = bottomAt(e, p, shape);
+            function = {isIn(e, p, shape.ends[p]) ? -1.0 : 1.0, bottom ? -least(e) : 0.0};
+            if (bottom && std::abs(bottom->xi) < 1) {
+              xi[p * L + lane] = bottom->xi;
               hold[p * L + lane] = Hold::extremum;
             }
           } else if (const Extremum* x = slots.of[p - 2]) {

@@ -100,6 +100,12 @@ std::vector<double> placesFor(const fem::PointLaw& law, const fem::PointSet& poi
 
 }  // namespace
 
+fem::Interpolation mapsOf(const std::string& field, fem::Interpolation same) {
+  same.field = field;
+  same.components = 1;
+  return same;
+}
+
 void requireFieldLaw(const fem::PointLaw& law, int fields, int each) {
   const fem::LawShape shape = law.shape();
   const int values = each * fields;
@@ -123,13 +129,9 @@ std::unique_ptr<fem::Term> fieldTerm(const fem::Mesh& mesh, const fem::Block& bl
   const fem::Tabulation cell = cellOf(block.topology);
   fem::PointSet points = gradientPoints(mesh, block, cell, plane, shells);
   points.components = 1;
-  const fem::Interpolation gradients = points;
   points.field = fields[0];
   for (int f = 0; f < count; ++f) {
-    if (f > 0) {
-      points.more.push_back(gradients);
-      points.more.back().field = fields[f];
-    }
+    if (f > 0) points.more.push_back(mapsOf(fields[f], points));
     points.more.push_back(fem::valuesOf(scalarField(fields[f]), points, cell));
   }
   const std::vector<double> places = placesFor(*law, points);
@@ -149,11 +151,7 @@ std::vector<std::unique_ptr<fem::Term>> sideTerms(const fem::Mesh& mesh, const f
        plane ? solid::planeEdgePoints(mesh, set, *plane, degree) : fem::facePoints(mesh, set, degree)) {
     points.components = 1;
     points.field = fields[0];
-    for (std::size_t f = 1; f < fields.size(); ++f) {
-      fem::Interpolation of = points;
-      of.field = fields[f];
-      points.more.push_back(std::move(of));
-    }
+    for (std::size_t f = 1; f < fields.size(); ++f) points.more.push_back(mapsOf(fields[f], points));
     auto own = law();
     requireFieldLaw(*own, static_cast<int>(fields.size()), 1);
     const std::vector<double> places = placesFor(*own, points);

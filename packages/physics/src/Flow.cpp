@@ -6,6 +6,7 @@
 
 #include "atrapos/fem/LawTerm.hpp"
 #include "atrapos/physics/Balance.hpp"
+#include "atrapos/physics/FieldTerm.hpp"
 #include "atrapos/physics/FlowLaw.hpp"
 #include "atrapos/solid/MixedBody.hpp"
 
@@ -40,11 +41,7 @@ std::unique_ptr<fem::Term> flowTerm(const fem::Mesh& mesh, const fem::Block& blo
       plane ? solid::planePoints(mesh, block, cell, *plane) : fem::volumePoints(mesh, block, cell);
   points.components = 1;
   points.field = flow.velocity[0];
-  for (std::size_t i = 1; i < components; ++i) {
-    fem::Interpolation gradients = points;
-    gradients.field = flow.velocity[i];
-    points.more.push_back(std::move(gradients));
-  }
+  for (std::size_t i = 1; i < components; ++i) points.more.push_back(mapsOf(flow.velocity[i], points));
   for (const std::string& name : flow.velocity)
     points.more.push_back(fem::valuesOf(scalarField(name), points, cell));
   points.more.push_back(solid::pressureValues(scalarField(flow.pressure), points, block, cell));

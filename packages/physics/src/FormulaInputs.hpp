@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "atrapos/formula/Parse.hpp"
-#include "atrapos/physics/BalanceLaw.hpp"
 #include "atrapos/physics/Formulas.hpp"
 
 /// The inputs of laws as formulas know them.

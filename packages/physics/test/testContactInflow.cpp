@@ -12,6 +12,7 @@
 #include "atrapos/fem/LawTerm.hpp"
 #include "atrapos/fem/StructuredPlane.hpp"
 #include "atrapos/physics/Balance.hpp"
+#include "atrapos/physics/FieldTerm.hpp"
 #include "atrapos/solid/SaintVenantKirchhoff.hpp"
 #include "support/Checks.hpp"
 #include "support/Meshes.hpp"
@@ -36,12 +37,7 @@ fem::DofMap dofsOf(const fem::Mesh& mesh, int dimension, const std::vector<std::
 }
 
 fem::PointSet withFields(fem::PointSet points, const std::vector<std::string>& fields) {
-  const fem::Interpolation places = points;
-  for (const std::string& field : fields) {
-    points.more.push_back(places);
-    points.more.back().field = field;
-    points.more.back().components = 1;
-  }
+  for (const std::string& field : fields) points.more.push_back(mapsOf(field, points));
   return points;
 }
 
@@ -50,7 +46,7 @@ std::unique_ptr<fem::Term> passage(const contact::RigidTool& tool, const fem::Po
                                    const std::vector<std::string>& fields, const std::string& amount) {
   const std::vector<double> gaps(places.numPoints(), reference);
   return tool.passage(contact::AnyPressure(pressure), withFields(places, fields), gaps,
-                      {contactInflow(amount, fields, {{"c", 0.3}}), static_cast<int>(fields.size()), 0});
+                      {contactInflow(amount, fields, {{"c", 0.3}}), 0});
 }
 
 /// A block of `count` fields whose lower face a tool touches; its top is held.
@@ -135,15 +131,9 @@ TEST(ContactInflow, AmountTimesArea) {
   plane.point[1] = -gap;
   plane.normal[1] = 1;
   plane.normal[2] = 0;
-  double R = 0;  // R (c R + h) = eta (Delta - h), by bisection
-  {
-    const auto excess = [&](double r) {
-      return r * (pressure.compliance * r + gap) - pressure.eta * (reference - gap);
-    };
-    double low = 0, high = 10;
-    for (int i = 0; i < 60; ++i) (excess((low + high) / 2) > 0 ? high : low) = (low + high) / 2;
-    R = low;
-  }
+  // R (c R + h) = eta (Delta - h)
+  const double c = pressure.compliance;
+  const double R = (std::sqrt(gap * gap + 4 * c * pressure.eta * (reference - gap)) - gap) / (2 * c);
   ASSERT_GT(R, 0.1);
   const double amount = (1 + 0.3 * R + gap) * 5;
   const auto inflow = [](const fem::Mesh& of, int dimension, std::unique_ptr<fem::Term> term) {

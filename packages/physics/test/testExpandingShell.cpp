@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 #include <numeric>
 #include <string>
 #include <utility>
@@ -46,6 +47,20 @@ fem::FeModel expandingModel(const ShellGrid& grid, const Material& material, dou
   model.constantLoad.assign(model.dofs.numDofs(), 0.0);
   model.load.assign(model.dofs.numDofs(), 0.0);
   return model;
+}
+
+/// Balances in the shells of a grid.
+std::unique_ptr<fem::Term> balanceTerm(const ShellGrid& grid, Shear shear,
+                                       const std::vector<std::string>& fields,
+                                       const std::vector<physics::Balance>& balances) {
+  const ShellElements elements = grid.elements();
+  const int nodes = nodesOf(shear);
+  fem::Block block;
+  block.topology = nodes == 3   ? fem::Topology::Shell3
+                   : nodes == 4 ? fem::Topology::Shell4
+                   : nodes == 6 ? fem::Topology::Shell6
+                                : fem::Topology::Shell8;
+  return physics::balanceTerm({}, block, fields, balances, {}, {}, &elements);
 }
 
 ShellGrid arch(Shear shear, double thickness = 0.2) {
@@ -131,8 +146,6 @@ TEST(ExpandingShell, TopGrowsMoreThanBottom) {
 // strain, which is condensed.
 TEST(ExpandingShell, FieldsTangentAndOrders) {
   const auto stiff = SaintVenantKirchhoff::fromYoung(1, 0.3);
-  const fem::Topology topologies[] = {fem::Topology::Shell8, fem::Topology::Shell8, fem::Topology::Shell4,
-                                      fem::Topology::Shell3, fem::Topology::Shell6};
   for (std::size_t k = 0; k < kinds.size(); ++k) {
     SCOPED_TRACE(k);
     const ShellGrid grid = arch(kinds[k]);
@@ -140,11 +153,8 @@ TEST(ExpandingShell, FieldsTangentAndOrders) {
     const auto model = [&] {
       fem::FeModel m =
           expandingModel(grid, stiff, 0.3, "a*(T + zeta*D + 0.2*T*D) + 0.1*lambda*x", kinds[k], fields);
-      fem::Block block;
-      block.topology = topologies[k];
-      const ShellElements elements = grid.elements();
-      m.terms.push_back(physics::balanceTerm(
-          {}, block, fields, {{"T", "1 + 0.1*D", "lambda"}, {"D", "1/3", "T"}}, {}, {}, &elements));
+      m.terms.push_back(
+          balanceTerm(grid, kinds[k], fields, {{"T", "1 + 0.1*D", "lambda"}, {"D", "1/3", "T"}}));
       hold(m, {0, 1}, "xyz");
       for (const std::string& field : fields) m.prescribe(0, 0, 0.1, 0.2, field);
       m.load = randomNumbers(m.dofs.numDofs(), 0.0005, 3);
@@ -163,13 +173,9 @@ TEST(ShellFields, ConductionAlongACurvedSurface) {
     const auto error = [&](int n) {
       const ShellGrid grid =
           shellGrid(n, n, thickness, cylinder(1, 0, 1, 0, 1), undistorted, nodesOf(kinds[k]));
-      const ShellElements elements = grid.elements();
-      fem::Block block;
-      block.topology = std::vector{fem::Topology::Shell8, fem::Topology::Shell4, fem::Topology::Shell3,
-                                   fem::Topology::Shell6}[k - 1];
       fem::FeModel model;
       model.dofs = fem::DofMap(grid.numNodes(), {{physics::scalarField("T"), {}}});
-      model.terms.push_back(physics::balanceTerm({}, block, {"T"}, {{"T", "2", "2*x"}}, {}, {}, &elements));
+      model.terms.push_back(balanceTerm(grid, kinds[k], {"T"}, {{"T", "2", "2*x"}}));
       for (const auto& line : {grid.lineI(0), grid.lineI(2 * n), grid.lineJ(0), grid.lineJ(2 * n)})
         for (const int node : line)
           if (!model.supports.fixed(node)) model.prescribe(node, 0, grid.x[node][0], 0, "T");

@@ -83,8 +83,7 @@ fem::PointSet shellFieldPoints(const ShellElements& elements, const fem::Tabulat
     for (int q = 0; q < cell.numPoints; ++q) {
       const detail::Base base = detail::baseAt(cell, q, 0, elements.R(e), elements.D(e));
       // With the normal in the director's place gradients have no part across the surface.
-      const Vec3 area = detail::cross(base.g1, base.g2);
-      const Contravariant c({base.g1, base.g2, detail::unit(area)});
+      const Contravariant c({base.g1, base.g2, detail::unit(detail::cross(base.g1, base.g2))});
       for (int a = 0; a < N; ++a) {
         const double* d = detail::gradientAt(cell, q, a);
         for (int i = 0; i < 3; ++i) p.shape.push_back((d[0] * c.c1[i] + d[1] * c.c2[i]) / c.j);

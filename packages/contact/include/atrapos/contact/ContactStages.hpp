@@ -37,13 +37,12 @@ std::unique_ptr<fem::PointLaw> stagedCurveContact(const ToolStages& tool,
 struct Passage {
   /// A stage: values of fields, the load factor, R, h -> -q, per area; data: the undeformed place.
   std::unique_ptr<fem::PointLaw> amount;
-  int fields = 0;  ///< that points have; the values behind them are not read
-  int into = 0;    ///< which of them q flows of
+  int into = 0;  ///< which of the fields q flows of
 };
-/// x, values of fields, load factor -> no force, -q in the place of its field; data: the undeformed place,
-/// Delta.
+/// x, values of so many fields (what the amount has inputs for besides is not read), load factor -> no force,
+/// -q in the place of its field; data: the undeformed place, Delta.
 std::unique_ptr<fem::PointLaw> stagedPassage(const ToolStages& tool, const AnyPressure& pressure,
-                                             Passage passage);
+                                             Passage passage, int fields);
 
 /// Place (and load factor) -> h, n: the projection alone. Not of patches.
 std::unique_ptr<fem::PointLaw> stagedProjection(const ToolStages& tool);

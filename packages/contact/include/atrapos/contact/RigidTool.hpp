@@ -44,8 +44,7 @@ class RigidTool {
   virtual std::unique_ptr<fem::Term> term(const AnyPressure& pressure, const fem::PointSet& points,
                                           const std::vector<double>& referenceGaps) const = 0;
 
-  /// What flows through such a contact: the points have the passage's fields, one component each, behind
-  /// their places.
+  /// What flows through such a contact: the points have fields, one component each, behind their places.
   virtual std::unique_ptr<fem::Term> passage(const AnyPressure& pressure, const fem::PointSet& points,
                                              const std::vector<double>& referenceGaps,
                                              Passage passage) const = 0;

@@ -2,11 +2,9 @@
 
 #include "atrapos/fem/PointLaw.hpp"
 #include "atrapos/formula/Program.hpp"
+#include "atrapos/physics/Formulas.hpp"
 
 namespace atrapos::physics {
-
-/// How many scalar fields can meet at a point.
-constexpr int mostFields = 4;
 
 /// Balances of scalar fields u_f in a body (docs/theory/balance.md):
 ///

@@ -16,6 +16,9 @@
 /// elements of a block of shells, through whose thickness fields are the same.
 namespace atrapos::physics {
 
+/// The same maps for a scalar field of the same nodes.
+fem::Interpolation mapsOf(const std::string& field, fem::Interpolation same);
+
 /// What each field stores at a point by its value, c in c du/dt; `in` and `data` as a law in the block that
 /// reads the load factor and the place has them; what the law does not read is zero.
 using FieldCapacity = std::function<void(const double* in, const double* data, double* c)>;

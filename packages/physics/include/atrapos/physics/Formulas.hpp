@@ -14,6 +14,9 @@ namespace atrapos::physics {
 
 using Constants = std::map<std::string, double>;
 
+/// How many scalar fields can meet at a point.
+constexpr int mostFields = 4;
+
 /// Whether a formula may call something of one's own so: no function, and none of the names that mean
 /// something by themselves.
 bool isFreeName(const std::string& name);

@@ -2,7 +2,7 @@
 
 #include "atrapos/fem/PointLaw.hpp"
 #include "atrapos/formula/Program.hpp"
-#include "atrapos/physics/BalanceLaw.hpp"
+#include "atrapos/physics/Formulas.hpp"
 
 namespace atrapos::physics {
 
