@@ -19,15 +19,18 @@ namespace atrapos {
 
 namespace {
 
-/// Whether there is plastic strain in one of the material's blocks.
+/// Whether there is plastic strain in one of the material's blocks: at a smoothed yield surface, of which
+/// something flows at any stress, by what counts beside elastic strains.
 bool hasYielded(const Scene& scene, const deck::Material& material, const SceneState& state) {
+  const auto& law = std::get<deck::VonMises>(material.law);
+  const double counts = law.yieldWidth > 0 ? 1e-3 * law.yieldStress / law.youngsModulus : 0;
   for (const std::string& name : material.blocks) {
     const fem::PointValues& values = state.observed(scene.bodies()[fem::findBlock(scene.mesh(), name)].term);
     const auto at = std::find(values.names.begin(), values.names.end(), "equivalent_plastic_strain");
     if (at == values.names.end()) continue;
     const std::size_t width = values.names.size();
     for (std::size_t i = at - values.names.begin(); i < values.values.size(); i += width)
-      if (values.values[i] > 0) return true;
+      if (values.values[i] > counts) return true;
   }
   return false;
 }

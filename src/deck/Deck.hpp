@@ -94,6 +94,7 @@ struct VonMises {
   double exponent = 0;          ///< of Voce's hardening, by plastic strain, >= 0
   double kinematicModulus = 0;  ///< Armstrong and Frederick, >= 0
   double recall = 0;            ///< of the backstress, >= 0; 0: Prager
+  double yieldWidth = 0;        ///< of a smoothed yield surface, a share of its size, 0 to 0.5; 0: sharp
 };
 
 /// A field is an electric potential in the material, an ideal dielectric.

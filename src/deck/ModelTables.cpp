@@ -8,6 +8,8 @@
 namespace atrapos::deck {
 namespace {
 
+const Check yieldWidth{[](double x) { return x >= 0 && x <= 0.5; }, "0 to 0.5"};
+
 constexpr const char* setOfNodes = "a node set or side set, name or id";
 
 Field<NodalLoad> nodalForce(const std::string& key, bool perNode, std::string meaning) {
@@ -268,6 +270,10 @@ const Variants<Material, decltype(Material::law)>& materialVariants() {
                  "C of Armstrong and Frederick's backstress, a pressure"),
             real("recall", optional, &VonMises::recall, check::natural,
                  "b of the backstress; 0: Prager's rule"),
+            real("yield_width", optional, &VonMises::yieldWidth, yieldWidth,
+                 "w, from which share 1 - w of its yield stress on a point flows noticeably, without an "
+                 "event; "
+                 "0: it yields at the yield stress, which is one"),
             choice("strains", optional, &VonMises::strains, strains,
                    "small: with rotations of any size; finite: elastic and plastic parts multiply")},
            [](const Value& map, const VonMises& m) {

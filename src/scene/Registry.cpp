@@ -87,6 +87,7 @@ solid::Metal metal(const deck::VonMises& m) {
   plastic.exponent = m.exponent;
   plastic.kinematicModulus = m.kinematicModulus;
   plastic.recall = m.recall;
+  plastic.width = m.yieldWidth;
   return solid::metalFromYoung(m.youngsModulus, m.poissonsRatio, plastic);
 }
 

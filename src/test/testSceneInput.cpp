@@ -255,6 +255,7 @@ TEST(SceneInput, MetalsThatAreNone) {
   };
   expectRefused(metal(", strains: finite, kinematic_modulus: 10"),
                 "materials/steel/kinematic_modulus: is for strains: small");
+  expectRefused(metal(", yield_width: 0.6"), "materials/steel/yield_width: must be 0 to 0.5, got 0.6");
   expectRefused(metal(", saturation: -1, exponent: 5"),
                 "materials/steel/saturation: must leave some of the yield stress 1, got -1");
 }

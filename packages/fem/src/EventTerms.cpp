@@ -1,6 +1,7 @@
 #include "EventTerms.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <sstream>
 #include <stdexcept>
@@ -166,6 +167,13 @@ std::vector<int> EventTerms::beside(const std::vector<int>& indices, const Const
   std::vector<int> all;
   for (const Entry& entry : entries_) {
     const int end = entry.first + entry.term->eventCount();
+    if (entry.term->mayBeIndifferent()) {
+      std::vector<double> free(count(), 0.0);
+      ranks_.together([&] { put(entry, entry.term->indifferent(u, lambda), free); });
+      ranks_.sum(free);
+      for (int c = entry.first; c < end; ++c)
+        if (free[c] > 0) all.push_back(c);
+    }
     const auto own = [&](int i) { return i >= entry.first && i < end; };
     if (!entry.term->renews() || std::none_of(indices.begin(), indices.end(), own)) continue;
     std::vector<double> near(count(), 0.0);
@@ -184,11 +192,16 @@ std::vector<int> EventTerms::beside(const std::vector<int>& indices, const Const
 std::vector<int> EventTerms::growing(const std::vector<int>& conditions) const {
   std::vector<int> all;
   for (const Entry& entry : entries_) {
-    if (!entry.term->activeGrow()) continue;
+    const bool grows[] = {entry.term->grows(false), entry.term->grows(true)};
     for (int c = entry.first; c < entry.first + entry.term->eventCount(); ++c)
-      if (conditions[c] == 1) all.push_back(c);
+      if (grows[conditions[c]]) all.push_back(c);
   }
   return all;
+}
+
+double EventTerms::negligibleFall(int condition) const {
+  const auto behind = [condition](const Entry& entry) { return entry.first > condition; };
+  return std::prev(std::find_if(entries_.begin(), entries_.end(), behind))->term->negligibleFall();
 }
 
 bool EventTerms::renews() const {

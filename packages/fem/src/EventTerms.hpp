@@ -36,6 +36,7 @@ class EventTerms {
   void setConditions(const std::vector<int>& conditions);  ///< the same ones on every rank
   /// path::Problem::growingAt with these conditions.
   std::vector<int> growing(const std::vector<int>& conditions) const;
+  double negligibleFall(int condition) const;  ///< path::Problem::negligibleFall
   int constraintPivots() const;
   /// path::Problem::eventsBeside.
   std::vector<int> beside(const std::vector<int>& indices, const ConstDofView& u, double lambda) const;

@@ -934,8 +934,9 @@ std::vector<int> FeProblem::growingAt(const path::State& state) const {
   return impl_->events->growing(impl_->conditionsOf(state.memory.get()));
 }
 
+double FeProblem::negligibleFall(int event) const { return impl_->events->negligibleFall(event); }
+
 std::vector<int> FeProblem::eventsBeside(const std::vector<int>& indices, const path::State& state) {
-  if (!impl_->events->renews()) return {};
   return impl_->events->beside(indices, onRank(state), state.lambda);
 }
 

@@ -36,6 +36,7 @@ class StagedLaw final : public PointLaw {
       const LawShape own = plan_.stages[remembering_].law->shape();
       shape.variables = own.variables;
       shape.events = own.events;
+      shape.freeGrow = own.freeGrow;
     }
     shape.sizes = sizes_;
     return shape;

@@ -74,7 +74,7 @@ std::vector<double> SwitchedTerm::eventOrder(int k, const ConstDofView& Uk, doub
   std::vector<double> all = k == 0 ? start_ : known_;
   if (k == 0) {
     for (std::size_t i = 0; i < all.size(); ++i)
-      if (active_[i] != 0) all[i] = 0;  // its growth counts
+      if (grows(active_[i] != 0)) all[i] = 0;
     return all;
   }
   const int Q = a_.elements.numPoints(), J = a_.shape.inputs;
@@ -93,20 +93,34 @@ std::vector<double> SwitchedTerm::eventOrder(int k, const ConstDofView& Uk, doub
   return all;
 }
 
-EventTerm::MeanGaps SwitchedTerm::gapsAt(const ConstDofView& u, double lambda) const {
-  MeanGaps gaps{std::vector<double>(active_.size(), 0.0), std::vector<double>(active_.size(), 1.0)};
-  std::vector<double> room;
+/// The event functions of all own points at a state.
+std::vector<double> SwitchedTerm::functionsAt(const ConstDofView& u, double lambda) const {
+  std::vector<double> values(active_.size(), 0.0), room;
   const double* data = dataAt(u, lambda, room);
-  forEachBatch("gapsAt", batches(), [&](int b) {
+  forEachBatch("functionsAt", batches(), [&](int b) {
     const ThreadMemory::Held held(a_.memory());
     const Scratch s(*this, held);
     inputs(b, u, lambda, true, s.in);
     a_.law->value(a_.batch(b, data, held.data()), s.in, s.out);
-    put(b, s.out, gaps.sum);
+    put(b, s.out, values);
   });
+  return values;
+}
+
+EventTerm::MeanGaps SwitchedTerm::gapsAt(const ConstDofView& u, double lambda) const {
+  const std::vector<double> covered(active_.size(), 1.0);
+  if (grows(false)) return {covered, covered};  // no border to be at
+  MeanGaps gaps{functionsAt(u, lambda), covered};
   for (std::size_t i = 0; i < active_.size(); ++i)
     if (active_[i] != 0) gaps.sum[i] = 0;
   return gaps;
+}
+
+/// Active points of such a law, whose function is the share that would change, as next to nothing does.
+std::vector<double> SwitchedTerm::indifferent(const ConstDofView& u, double lambda) const {
+  std::vector<double> told = functionsAt(u, lambda);
+  for (std::size_t i = 0; i < told.size(); ++i) told[i] = active_[i] != 0 && -told[i] < negligibleFall();
+  return told;
 }
 
 std::vector<double> SwitchedTerm::moved(const ConstDofView&, double) const {

@@ -21,7 +21,11 @@ class SwitchedTerm final : public LawTermOf<EventTerm> {
   int eventCount() const override { return count_; }
   const std::vector<int>& eventNumbers() const override { return numbers_; }
   std::string eventText(int number) const override;
-  bool activeGrow() const override { return true; }
+  bool grows(bool active) const override { return active || a_.shape.freeGrow; }
+  // Where free points grow, too, their law is smooth by a width that is an error of 1e-2 or more.
+  double negligibleFall() const override { return a_.shape.freeGrow ? 1e-5 : 1e-10; }
+  std::vector<double> indifferent(const ConstDofView& u, double lambda) const override;
+  bool mayBeIndifferent() const override { return a_.shape.freeGrow; }
   std::vector<double> eventOrder(int k, const ConstDofView& Uk, double lambdaK) const override;
   std::vector<double> covered() const override { return std::vector<double>(active_.size(), 1.0); }
   MeanGaps gapsAt(const ConstDofView& u, double lambda) const override;
@@ -42,6 +46,7 @@ class SwitchedTerm final : public LawTermOf<EventTerm> {
   int eventOutput() const { return O_ - a_.shape.variables - 1; }
   void number(const std::vector<int>& entities);
   void put(int batch, const double* out, std::vector<double>& values) const;
+  std::vector<double> functionsAt(const ConstDofView& u, double lambda) const;
 
   int count_ = 0;
   std::vector<int> numbers_;  ///< [own entity][point]

@@ -32,7 +32,7 @@ std::vector<int> together(const std::vector<int>& a, const std::vector<int>& b, 
 
 }  // namespace
 
-EventChoice::EventChoice(PathUnderWay& path, StepReport& report)
+EventChoice::EventChoice(PathUnderWay& path, StepReport& report, Due due)
     : path_(path),
       report_(report),
       due_(takeDue()),
@@ -42,7 +42,8 @@ EventChoice::EventChoice(PathUnderWay& path, StepReport& report)
       senses_(path.here.tangent ? 2 : 1) {
   // Behind the end of growth alone rates go on as they were: the functions that begin there have none yet,
   // but for what the series left out.
-  smooth_ = path.here.tangent && std::includes(growing_.begin(), growing_.end(), due_.begin(), due_.end());
+  smooth_ = due == Due::fellToZero && path.here.tangent &&
+            std::includes(growing_.begin(), growing_.end(), due_.begin(), due_.end());
   // The old sense comes first where something grows: a body that yields can always unload the way it came.
   anySense_ = growing_.empty();
   countStanding();

@@ -18,9 +18,12 @@ struct PathUnderWay;
 /// is asked of it.
 class EventChoice {
  public:
+  /// How functions that are due came to be: at the end of a step, or by falling from the start of a series.
+  enum class Due { fellToZero, fallFromHere };
+
   /// Takes over what is due at the position. Throws PathError, eventsCycle, where events follow one another
   /// for ever. The report counts what is tried in vain.
-  EventChoice(PathUnderWay& path, StepReport& report);
+  EventChoice(PathUnderWay& path, StepReport& report, Due due = Due::fellToZero);
 
   /// The series behind the events, which are then applied. Throws PathError, noAdmissibleDirection and
   /// others, with the same due as before.

@@ -41,6 +41,15 @@ bool rises(const std::vector<double>& c, double sense, double length, double noi
   return true;  // stays zero: nothing is violated
 }
 
+/// Whether a function that is known by its growth falls at a = 0, by what counts before it turns.
+bool fallsFromTheStart(const std::vector<double>& c, double reach, double negligible) {
+  if (!(c[1] * reach < -1e-9 * size(c, reach))) return false;
+  // What is small grows exponentially, and a rational series reaches farther.
+  const double length = 2 * reach;
+  const bool turns = c.size() > 2 && c[2] > 0 && -c[1] < 2 * c[2] * length;
+  return (turns ? 0.25 * c[1] * c[1] / c[2] : size(c, within(c, length))) > negligible;
+}
+
 /// The length on which senses are looked at. At a start no step says how long steps are, and a series that is
 /// a polynomial (bars that unload) reaches as far as one likes, where first derivatives are lost beside
 /// higher ones: there the nearest load factor that is a stop says it.
@@ -84,8 +93,10 @@ std::vector<int> falling(const PathUnderWay& path, const Series& series, const s
   std::vector<int> violated;
   for (const int i : candidates) {
     if (i < functions) {
+      const auto c = series.eventCoefficients(i);
+      if (series.eventGrows(i) && size(c, within(c, reach)) <= series.negligibleFall(i)) continue;
       const std::size_t first = std::binary_search(flat.begin(), flat.end(), i) ? 2 : 1;
-      if (!rises(series.eventCoefficients(i), sense, reach, rounding * largest, first)) violated.push_back(i);
+      if (!rises(c, sense, reach, rounding * largest, first)) violated.push_back(i);
       continue;
     }
     if (place.u.is_null())
@@ -101,7 +112,8 @@ std::vector<int> overdue(const PathUnderWay& path, const Series& series) {
   for (int i = 0; i < series.eventCount(); ++i) {
     const Polynomial p = eventPolynomial(series, i, path.here.applied);
     const auto& c = p.coefficients();
-    if (series.eventGrows(i) ? c[1] * reach < -1e-9 * size(c, reach) : c[0] < 0 && !rises(c, 1, reach, 0))
+    if (series.eventGrows(i) ? fallsFromTheStart(c, reach, series.negligibleFall(i))
+                             : c[0] < 0 && !rises(c, 1, reach, 0))
       due.push_back(i);
   }
   return due;

@@ -140,7 +140,11 @@ double Series::convergenceOfGrowth(int k) const {
     for (const int i : growing_) sum += events_[i][j] * events_[i][j];
     return std::sqrt(sum);
   };
-  return growing_.empty() ? std::numeric_limits<double>::infinity() : ratio(k, growth(1), growth(k));
+  if (growing_.empty()) return std::numeric_limits<double>::infinity();
+  // Functions are of size 1: where next to nothing grows it need not be right to more digits than that.
+  constexpr double little = 1e-3;
+  const double last = growth(k);
+  return std::max(ratio(k, growth(1), last), last > 0 ? std::pow(little / last, 1.0 / k) : 0);
 }
 
 double Series::convergenceOfUnknowns(int k) const {

@@ -79,7 +79,7 @@ Series buildSeries(Calls& calls, const State& start, const SeriesRequest& reques
 
   Series series(start, w);
   series.appendEvents(calls.eventOrder(0));
-  series.setGrowing(problem.growingAt(start));
+  for (const int i : problem.growingAt(start)) series.addGrowing(i, problem.negligibleFall(i));
   for (int k = 1; k <= request.order; ++k) {
     auto V = calls.newVector();
     // Order 1 of an exact solution has no right-hand side.

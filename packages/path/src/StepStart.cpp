@@ -57,7 +57,7 @@ Series StepStart::series(StepReport& report) {
     ++path_.outcome.eventTrials;
     ++report.restarts;
     here.due = due;
-    series = EventChoice(path_, report).series();
+    series = EventChoice(path_, report, EventChoice::Due::fallFromHere).series();
   }
   return series;
 }

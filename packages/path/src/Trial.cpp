@@ -14,19 +14,33 @@ namespace atrapos::path {
 
 namespace {
 
+/// Where a function that is known by its growth begins to fall, on (0, end]: a root of its derivative behind
+/// which it falls by what counts, on the way to `horizon` at least; infinity where it does not. What falls at
+/// 0 has been looked at (overdue).
+double endOfGrowth(const Rational& f, double end, double horizon, double negligible) {
+  const std::vector<double> turns = f.derivative().roots(end);
+  for (std::size_t t = 0; t < turns.size(); ++t) {
+    const auto falls = [&](double to) { return f(turns[t]) - f(to) > negligible; };
+    if (t + 1 < turns.size() ? falls(turns[t + 1]) : falls(1.5 * turns[t]) || falls(std::max(end, horizon)))
+      return turns[t];
+  }
+  return std::numeric_limits<double>::infinity();
+}
+
 /// Where each event function falls through zero first on (0, end]; infinity where it does not, or is one of
-/// `untold`.
-std::vector<double> falls(const Series& series, double end, const std::vector<int>& zero,
+/// `untold`. The step that is looked for is `horizon` long at most.
+std::vector<double> falls(const Series& series, double end, double horizon, const std::vector<int>& zero,
                           const std::vector<int>& untold) {
   std::vector<double> at(series.eventCount(), std::numeric_limits<double>::infinity());
   for (int i = 0; i < series.eventCount(); ++i) {
     if (std::find(untold.begin(), untold.end(), i) != untold.end()) continue;
     const Polynomial p = eventPolynomial(series, i, zero);
     Rational g = series.scalar(p.coefficients());
-    if (series.eventGrows(i))
-      g = g.derivative();
-    else if (p.coefficients()[0] == 0)
-      g = g.withoutRootAtZero();
+    if (series.eventGrows(i)) {
+      at[i] = endOfGrowth(g, end, horizon, series.negligibleFall(i));
+      continue;
+    }
+    if (p.coefficients()[0] == 0) g = g.withoutRootAtZero();
     const auto slope = g.numerator().derivative();  // the root taken out at 0 does not change its sign
     for (const double a : g.roots(end))
       if (slope(a) <= 0) {
@@ -58,10 +72,11 @@ void limit(const PathUnderWay& path, const Series& series, Trial& trial, const s
   if (series.eventCount() == 0) return;
   // Far beyond the radius (a series that all but terminates) the high orders are rounding and hide the roots:
   // what is found last lies within what was searched last.
-  double first = trial.a;
+  const double horizon = trial.a;
+  double first = horizon;
   std::vector<double> at;
   for (double end = 1.001 * trial.a;; end = 1.001 * first) {
-    at = falls(series, end, zero, untold);
+    at = falls(series, end, horizon, zero, untold);
     const double next = *std::min_element(at.begin(), at.end());
     if (!(next < 0.9 * first)) {
       first = next;

@@ -19,6 +19,7 @@ Metal metalFromYoung(double E, double nu, const Metal& plastic) {
   for (const double x : {m.modulus, m.saturation, m.exponent, m.kinematicModulus, m.recall})
     require(std::isfinite(x), "hardening must be finite");
   require(m.exponent >= 0, "the exponent of Voce's hardening must not be negative");
+  require(m.width >= 0 && m.width <= 0.5, "the width of a smoothed yield surface must be 0 to 0.5");
   require(m.kinematicModulus >= 0 && m.recall >= 0, "kinematic hardening must not be negative");
   require(m.modulus >= 0 && m.yieldStress + m.saturation > 0,
           "isotropic hardening must not use up the yield stress");

@@ -28,6 +28,7 @@ class RoundedProblem final : public path::Problem {
   }
   int eventCount() const override { return exact_.eventCount(); }
   std::vector<int> growingAt(const path::State& state) const override { return exact_.growingAt(state); }
+  double negligibleFall(int event) const override { return exact_.negligibleFall(event); }
   void eventOrder(int k, std::vector<double>& g) const override { exact_.eventOrder(k, g); }
   bool eventGradient(int index, const path::State& state, double& value, path::Vector& byU,
                      double& byLambda) override {

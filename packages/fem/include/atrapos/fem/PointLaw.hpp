@@ -49,6 +49,10 @@ struct LawShape {
   /// point while it is free, and never falls along the path at an active one while it is active.
   int events = 0;
   bool sizes = false;  ///< outputs have sizes of their own (PointLaw::sizes)
+  /// With events, of a law that is smooth but for the sense of its path: the function never falls at a free
+  /// point either, and of an active one it is minus the share of flow that it would have if it were free.
+  /// Where that is next to nothing a point may be either.
+  bool freeGrow = false;
 };
 
 /// A law in batches of points: compiled once, whatever loops it stands in. Virtual once a batch.

@@ -12,7 +12,8 @@
 ///     void observe(const double* in, const double* data, double* observed) const;
 /// keeps internal variables as its last data and last outputs where it says `static constexpr int
 /// numVariables` (their rates by taylor::solveRate), changes at events with `static constexpr int numEvents =
-/// 1` (LawShape::events), has sizes (PointLaw::sizes) by
+/// 1` (LawShape::events) and, where it has one, bool freeGrow() const (LawShape::freeGrow), has sizes
+/// (PointLaw::sizes) by
 ///     void sizes(const double* in, const double* data, double* out) const;
 /// says `static constexpr bool symmetric` when d out/d in is symmetric, and, where it
 /// may have nothing to act on at a point, bool exists(const double* data) const.
@@ -31,6 +32,11 @@ template <class Law, class = void>
 struct NumEvents : std::integral_constant<int, 0> {};
 template <class Law>
 struct NumEvents<Law, std::void_t<decltype(Law::numEvents)>> : std::integral_constant<int, Law::numEvents> {};
+
+template <class Law, class = void>
+struct HasFreeGrow : std::false_type {};
+template <class Law>
+struct HasFreeGrow<Law, std::void_t<decltype(std::declval<const Law&>().freeGrow())>> : std::true_type {};
 
 template <class Law, class = void>
 struct HasNames : std::false_type {};
@@ -61,6 +67,8 @@ class PointLawOf final : public PointLaw {
         })) {}
 
   LawShape shape() const override {
+    bool freeGrow = false;
+    if constexpr (detail::HasFreeGrow<Law>::value) freeGrow = law_.freeGrow();
     return {Law::numInputs,
             Law::numOutputs,
             Law::numData,
@@ -68,7 +76,8 @@ class PointLawOf final : public PointLaw {
             detail::NumObserved<Law>::value,
             detail::NumVariables<Law>::value,
             detail::NumEvents<Law>::value,
-            detail::HasSizes<Law>::value};
+            detail::HasSizes<Law>::value,
+            freeGrow};
   }
   std::size_t seriesDoubles(const SeriesOrder& order) const override {
     const bool scratch = order.maxOrder == 0 && detail::NumVariables<Law>::value > 0;

@@ -90,6 +90,10 @@ class Problem {
   /// order 0 is not looked at.
   virtual std::vector<int> growingAt(const State& /*state*/) const { return {}; }
 
+  /// How far one of those may fall without an event, beside its size of 1: rounding, or what makes no
+  /// difference (flow back at a smoothed yield surface, next to no stress).
+  virtual double negligibleFall(int /*event*/) const { return 1e-10; }
+
   /// The event functions that are zero at a state from which a path starts, to the rounding of the state:
   /// they may have to be applied at once. Throws where one is below zero.
   virtual std::vector<int> eventsAt(const State& /*state*/) { return {}; }
@@ -111,7 +115,8 @@ class Problem {
   }
 
   /// Further event functions that are due where these fall to zero, at this state: what symmetry brings
-  /// together and only rounding, or the bound of the residual, tells apart.
+  /// together and only rounding, or the bound of the residual, tells apart; what may change here as well as
+  /// later.
   virtual std::vector<int> eventsBeside(const std::vector<int>& /*indices*/, const State& /*state*/) {
     return {};
   }

@@ -88,9 +88,16 @@ class Series {
   /// leads.
   bool hidesGrowth() const;
 
-  /// Problem::growingAt of its start.
-  void setGrowing(std::vector<int> events) { growing_ = std::move(events); }
+  /// One of Problem::growingAt of its start, in ascending order, and its Problem::negligibleFall.
+  void addGrowing(int event, double negligibleFall) {
+    growing_.push_back(event);
+    negligibleFalls_.push_back(negligibleFall);
+  }
   bool eventGrows(int i) const { return std::binary_search(growing_.begin(), growing_.end(), i); }
+  /// Problem::negligibleFall of one that grows.
+  double negligibleFall(int i) const {
+    return negligibleFalls_[std::lower_bound(growing_.begin(), growing_.end(), i) - growing_.begin()];
+  }
 
   /// The same path with a replaced by -a.
   Series reversed() const;
@@ -120,6 +127,7 @@ class Series {
   std::vector<double> norm_;
   std::vector<std::vector<double>> events_;     ///< coefficients of each event function
   std::vector<int> growing_;                    ///< event functions known by their growth, ascending
+  std::vector<double> negligibleFalls_;         ///< of these
   std::shared_ptr<const Memory> memory_;        ///< at the start
   std::vector<std::vector<double>> variables_;  ///< coefficients of the internal variables, [k][variable]
 };

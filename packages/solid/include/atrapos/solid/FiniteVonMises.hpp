@@ -48,7 +48,7 @@ struct ElasticPart {
   }
 };
 
-/// Rates of (gamma; G - I) of an active point, zero of a free one; data: active or not.
+/// Rates of (gamma; G - I); data: which condition the point has (Metal::flows).
 struct FiniteFlowRule {
   static constexpr int numVariables = 7;
   Metal metal;
@@ -56,12 +56,10 @@ struct FiniteFlowRule {
   template <class T, class P, class R>
   KOKKOS_INLINE_FUNCTION void operator()(const T* E, const T* z, const P* data, const R* dE, const R* dz,
                                          R* g) const {
-    using std::sqrt;
     const ElasticPart<T> e(metal.mu, E, z);
     const T m2 = e.m * e.m;
-    // A free point may be without stress: its q is any positive number.
-    const P beyond = (metal.yieldStress * metal.yieldStress) * (1.0 - data[0]);
-    const T q = sqrt(1.5 * (m2 * e.square) + beyond);
+    const T squareOfQ = 1.5 * (m2 * e.square);
+    const Yielding<T> y(metal, squareOfQ, z[0], data[0]);
     // M = G D and tr(D C G D).
     T M[6];
     T cubic = (1.0 + e.mean) * e.square;
@@ -74,20 +72,20 @@ struct FiniteFlowRule {
         for (int k = 0; k < 3; ++k) sum = sum + z[1 + taylor::symmetricIndex(i, k)] * e.D[3 * k + j];
         M[taylor::symmetricIndex(i, j)] = sum;
       }
-    const T perStress = e.m / q;
-    const T resistance = metal.hardening(z[0]) + 4.5 * (perStress * perStress * e.m * cubic);
-    const T share = data[0] / resistance;
+    const T perStress = e.m / y.size;
+    const T resistance = y.hardening + 4.5 * (perStress * perStress * e.m * cubic);
+    const T share = y.share / resistance;
     const T ofM = 1.5 * (e.m * perStress);
-    const T ofInverse = (1.0 / 3) * q;
-    g[0] = dz[0];
+    const T ofInverse = (1.0 / 3) * (squareOfQ / y.size);
+    // K, the size of flow.
+    R flow = 0.0 * dE[0];
     for (int n = 0; n < 6; ++n) {
       T normal = ofM * M[n] - ofInverse * e.inverse[n];
       if (n < 3) normal = normal - ofInverse;
-      const T pushed = (n < 3 ? 2.0 : 4.0) * (share * normal);
-      g[0] = g[0] - pushed * dE[n];
-      const T flow = 3.0 * (perStress * M[n]);
-      g[1 + n] = dz[1 + n] + flow * dz[0];
+      flow = flow + (n < 3 ? 2.0 : 4.0) * (share * normal) * dE[n];
     }
+    g[0] = dz[0] - y.ratio * flow;
+    for (int n = 0; n < 6; ++n) g[1 + n] = dz[1 + n] + (3.0 * (perStress * M[n])) * flow;
   }
 };
 
@@ -109,6 +107,8 @@ struct FiniteVonMises {
   static constexpr int numInputs = 9, numOutputs = 10 + numVariables, numData = 1 + numVariables;
   static constexpr bool symmetric = true;
   Metal metal;
+
+  bool freeGrow() const { return metal.isSmoothed(); }
 
   template <class T>
   KOKKOS_INLINE_FUNCTION void operator()(const T* in, const taylor::Passive<T>* data, T* out) const {

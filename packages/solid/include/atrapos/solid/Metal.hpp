@@ -20,6 +20,7 @@ struct Metal {
   double exponent = 0;          ///< beta, of its Voce part
   double kinematicModulus = 0;  ///< C of Armstrong and Frederick's backstress, stress units
   double recall = 0;            ///< b of it; 0: Prager's linear rule
+  double width = 0;             ///< w of a smoothed yield surface, as a share of R; 0: a sharp one
 
   /// R = yieldStress + H gamma + Q (1 - exp(-beta gamma)).
   template <class T>
@@ -35,15 +36,35 @@ struct Metal {
     const T decay = exp(-exponent * gamma);
     return modulus + (saturation * exponent) * decay;
   }
-  /// The event function of a point: (R^2 - q^2)/R0^2 where it is free, its growing gamma where it yields.
+  bool isSmoothed() const { return width > 0; }
+  /// Of a point's datum: 1 where it may flow, 0 where it is elastic. The points of a smoothed surface start
+  /// as ones that flow, those of a sharp one as elastic ones.
+  template <class P>
+  KOKKOS_FORCEINLINE_FUNCTION P flows(const P& datum) const {
+    return width > 0 ? 1.0 - datum : 1.0 * datum;
+  }
+  /// G: 1 of a sharp surface, exp((q^2/R^2 - 1)/(2 w)) of a smoothed one.
+  template <class T>
+  KOKKOS_FORCEINLINE_FUNCTION T nearness(const T& ratioSquared) const {
+    using std::exp;
+    const double steepness = width > 0 ? 0.5 / width : 0;
+    const T exponent = steepness * (ratioSquared - 1.0);
+    return exp(exponent);
+  }
+  /// The event function of a point: the growing gamma where it flows; of an elastic one (R^2 - q^2)/R0^2 at a
+  /// sharp surface, minus its share of flow at a smoothed one.
   template <class T>
   KOKKOS_FORCEINLINE_FUNCTION T event(const T& squareOfQ, const T& gamma,
-                                      const taylor::Passive<T>& active) const {
+                                      const taylor::Passive<T>& datum) const {
     const T relative = strength(gamma) * (1 / yieldStress);
-    const T within = relative * relative - squareOfQ * (1 / (yieldStress * yieldStress));
-    const taylor::Passive<T> free = 1.0 - active;
-    const taylor::Passive<T> grows = (3 * mu / yieldStress) * active;
-    return free * within + grows * gamma;
+    const T bound = relative * relative, reached = squareOfQ * (1 / (yieldStress * yieldStress));
+    const T ratio = reached / bound;
+    const T share = ratio * nearness(ratio);
+    const double sharp = width > 0 ? 0 : 1;
+    const taylor::Passive<T> flow = flows(datum);
+    const taylor::Passive<T> within = sharp * (1.0 - flow), leaves = (1 - sharp) * (1.0 - flow),
+                             grows = (3 * mu / yieldStress) * flow;
+    return within * (bound - reached) - leaves * share + grows * gamma;
   }
 
   /// What a point shows: Cauchy stress, and gamma.
@@ -65,8 +86,32 @@ Metal metalFromYoung(double E, double nu, const Metal& plastic);
 
 namespace detail {
 
-/// Rates of (gamma; plastic strain; backstress) of an active point, zero of a free one; data: active or not.
-/// In plane stress E_zz is what follows from the others and the plastic strain, in place of E[2].
+/// How a point yields at q^2 and gamma, for all rules of flow: K, the size of flow, is share (...)/D.
+template <class T>
+struct Yielding {
+  T size;       ///< q, at a smoothed surface R: what directions and shares are made of
+  T hardening;  ///< dR/d gamma
+  T ratio;      ///< q^2/R^2, at a sharp surface 1: gamma'/K (R gamma' is the power of what yields)
+  T share;      ///< 0 of an elastic point, G of others
+
+  KOKKOS_FORCEINLINE_FUNCTION Yielding(const Metal& metal, const T& squareOfQ, const T& gamma,
+                                       const taylor::Passive<T>& datum) {
+    using std::sqrt;
+    const double smooth = metal.width > 0 ? 1 : 0, sharp = 1 - smooth;
+    const taylor::Passive<T> flows = metal.flows(datum);
+    // An elastic point at a sharp surface may be without stress: its q is any positive number.
+    const taylor::Passive<T> beyond = (sharp * metal.yieldStress * metal.yieldStress) * (1.0 - flows);
+    const T strength = metal.strength(gamma);
+    const T bound = strength * strength;
+    size = sqrt(sharp * squareOfQ + smooth * bound + beyond);
+    hardening = metal.hardening(gamma);
+    ratio = smooth * (squareOfQ / bound) + sharp;
+    share = flows * metal.nearness(ratio);
+  }
+};
+
+/// Rates of (gamma; plastic strain; backstress); data: which condition the point has (Metal::flows). In plane
+/// stress E_zz is what follows from the others and the plastic strain, in place of E[2].
 template <bool kinematic, bool planeStress>
 struct FlowRule {
   static constexpr int numVariables = kinematic ? 13 : 7;
@@ -103,37 +148,38 @@ struct FlowRule {
   template <class T, class P, class R>
   KOKKOS_INLINE_FUNCTION void operator()(const T* E, const T* z, const P* data, const R* dE, const R* dz,
                                          R* g) const {
-    using std::sqrt;
     T xi[6];
     relativeStress(E, z, xi);
-    // A free point may be without stress: its q is any positive number.
-    const P beyond = (metal.yieldStress * metal.yieldStress) * (1.0 - data[0]);
-    const T q = sqrt(square(xi) + beyond);
-    T resistance = metal.hardening(z[0]) + (3 * metal.mu + metal.kinematicModulus);
+    const Yielding<T> y(metal, square(xi), z[0], data[0]);
+    T resistance = y.hardening + (3 * metal.mu + metal.kinematicModulus);
     if constexpr (kinematic) {
       const T along =
           xi[0] * z[7] + xi[1] * z[8] + xi[2] * z[9] + 2.0 * (xi[3] * z[10] + xi[4] * z[11] + xi[5] * z[12]);
-      resistance = resistance - (1.5 * metal.recall) * (along / q);
+      resistance = resistance - (1.5 * metal.recall) * (along / y.size);
     }
     if constexpr (planeStress) {
-      const T lateral = xi[2] / q;
-      resistance = resistance - (4.5 * metal.mu * thinning()) * (lateral * lateral);
+      const T lateral = xi[2] / y.size;
+      resistance = resistance - (4.5 * metal.mu * thinning()) * (y.share * (lateral * lateral));
     }
-    const T share = (3 * metal.mu) * data[0] / (q * resistance);
-    const T direction = 1.5 / q;
-    g[0] = dz[0];
-    for (int i = 0; i < 6; ++i) {
-      const T normal = xi[i] * direction;
-      const T pushed = (i < 3 ? 1.0 : 2.0) * (share * xi[i]);
+    const T pushed = (3 * metal.mu) * y.share / (y.size * resistance);
+    const T direction = 1.5 / y.size;
+    // K, the size of flow.
+    const double lateralShare = metal.lambda / (metal.lambda + 2 * metal.mu);
+    R flow = (pushed * xi[0]) * dE[0];
+    for (int i = 1; i < 6; ++i) {
+      const T by = (i < 3 ? 1.0 : 2.0) * (pushed * xi[i]);
       if constexpr (planeStress) {
         if (i == 2)
-          g[0] = g[0] + (metal.lambda / (metal.lambda + 2 * metal.mu)) * (pushed * (dE[0] + dE[1]));
+          flow = flow - lateralShare * (by * (dE[0] + dE[1]));
         else
-          g[0] = g[0] - pushed * dE[i];
+          flow = flow + by * dE[i];
       } else {
-        g[0] = g[0] - pushed * dE[i];
+        flow = flow + by * dE[i];
       }
-      g[1 + i] = dz[1 + i] - normal * dz[0];
+    }
+    g[0] = dz[0] - y.ratio * flow;
+    for (int i = 0; i < 6; ++i) {
+      g[1 + i] = dz[1 + i] - (xi[i] * direction) * flow;
       if constexpr (kinematic)
         g[7 + i] =
             dz[7 + i] - (2.0 / 3 * metal.kinematicModulus) * dz[1 + i] + metal.recall * z[7 + i] * dz[0];

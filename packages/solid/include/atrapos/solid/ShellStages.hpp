@@ -66,6 +66,8 @@ struct ShellMetalStage {
 
   Metal metal;
 
+  bool freeGrow() const { return metal.isSmoothed(); }
+
   template <class T>
   KOKKOS_INLINE_FUNCTION void operator()(const T* in, const taylor::Passive<T>* data, T* out) const {
     T E[6];

@@ -8,7 +8,7 @@ namespace atrapos::solid {
 namespace detail {
 
 /// Rates of (gamma; plastic strain along the bar; chi) under uniaxial stress, chi = 3/2 X_11: those of
-/// FlowRule there. data: active or not.
+/// FlowRule there.
 template <bool kinematic>
 struct BarFlowRule {
   static constexpr int numVariables = kinematic ? 3 : 2;
@@ -28,17 +28,17 @@ struct BarFlowRule {
   template <class T, class P, class R>
   KOKKOS_INLINE_FUNCTION void operator()(const T* E, const T* z, const P* data, const R* dE, const R* dz,
                                          R* g) const {
-    using std::sqrt;
     const T xi = relativeStress(E, z);
-    // A free point may be without stress: its q is any positive number.
-    const P beyond = (metal.yieldStress * metal.yieldStress) * (1.0 - data[0]);
-    const T q = sqrt(xi * xi + beyond);
-    const T sign = xi / q;
-    T resistance = metal.hardening(z[0]) + (youngsModulus() + metal.kinematicModulus);
-    if constexpr (kinematic) resistance = resistance - metal.recall * (sign * z[2]);
-    const T pushed = (youngsModulus() * data[0]) * (sign / resistance);
-    g[0] = dz[0] - pushed * dE[0];
-    g[1] = dz[1] - sign * dz[0];
+    const Yielding<T> y(metal, T(xi * xi), z[0], data[0]);
+    const T direction = xi / y.size;
+    // FlowRule's D with what moves across put in: E takes the place of 3 mu where all flows.
+    T resistance = y.hardening + (3 * metal.mu + metal.kinematicModulus) -
+                   (3 * metal.mu - youngsModulus()) * (y.share * y.ratio);
+    if constexpr (kinematic) resistance = resistance - metal.recall * (direction * z[2]);
+    const T pushed = youngsModulus() * (y.share * direction) / resistance;
+    const R flow = pushed * dE[0];
+    g[0] = dz[0] - y.ratio * flow;
+    g[1] = dz[1] - direction * flow;
     if constexpr (kinematic) g[2] = dz[2] - metal.kinematicModulus * dz[1] + metal.recall * z[2] * dz[0];
   }
 };
@@ -56,6 +56,8 @@ struct BarMetalStage {
 
   Metal metal;
 
+  bool freeGrow() const { return metal.isSmoothed(); }
+
   template <class T>
   KOKKOS_INLINE_FUNCTION void operator()(const T* in, const taylor::Passive<T>* data, T* out) const {
     T* const z = out + 7;
@@ -72,10 +74,11 @@ struct BarMetalStage {
 
 }  // namespace atrapos::solid
 
-#define ATRAPOS_THIN_STAGES(MACRO)                                                                        \
-  ATRAPOS_SHELL_STAGES(MACRO, MembraneKinematics<true>)                                                   \
-  ATRAPOS_SHELL_STAGES(MACRO, MembraneKinematics<false>) ATRAPOS_SHELL_STAGES(MACRO, BarKinematics<true>) \
-      ATRAPOS_SHELL_STAGES(MACRO, BarKinematics<false>) MACRO(atrapos::solid::BarMetalStage<false>)       \
-          MACRO(atrapos::solid::BarMetalStage<true>)
+#define ATRAPOS_THIN_STAGES(MACRO)                       \
+  ATRAPOS_SHELL_STAGES(MACRO, MembraneKinematics<true>)  \
+  ATRAPOS_SHELL_STAGES(MACRO, MembraneKinematics<false>) \
+  ATRAPOS_SHELL_STAGES(MACRO, BarKinematics<true>)       \
+  ATRAPOS_SHELL_STAGES(MACRO, BarKinematics<false>)      \
+  MACRO(atrapos::solid::BarMetalStage<false>) MACRO(atrapos::solid::BarMetalStage<true>)
 
 ATRAPOS_THIN_STAGES(ATRAPOS_DECLARE_POINT_LAW)

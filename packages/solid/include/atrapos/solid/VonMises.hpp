@@ -32,6 +32,8 @@ struct VonMises {
   static constexpr bool symmetric = true;
   Metal metal;
 
+  bool freeGrow() const { return metal.isSmoothed(); }
+
   template <class T>
   KOKKOS_INLINE_FUNCTION void operator()(const T* in, const taylor::Passive<T>* data, T* out) const {
     const taylor::Matrix3<T> H(in);
