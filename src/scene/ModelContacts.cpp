@@ -119,6 +119,8 @@ void ModelMaker::addZones(const deck::Contact& contact, ContactPoints& entry) {
   const std::string key = "contact/" + contact.name + "/points";
   fem::ZoneOptions options;
   options.events = deck_.path.series();
+  // Thin bodies press on a tool with next to nothing of E.
+  options.mostDepth = entry.pressure.overclosure->depthOf(1e-8 * deck::largestYoungsModulus(deck_));
   for (const fem::LineSet& lines : entry.lines) try {
       entry.terms.push_back(static_cast<int>(made_.model.terms.size()));
       made_.model.terms.push_back(entry.tool->zones(*entry.pressure.overclosure, lines, options));

@@ -123,7 +123,7 @@ supports:
 tools:
   ball: {type: sphere, center: [0, 0, 30.5], radius: 30, motion: {shift: [0, 0, -1]}}
 contact:
-  ball: {tool: ball, set: top, points: zones, law: linear, stiffness: 1000}
+  ball: {tool: ball, set: top, points: zones, law: linear, stiffness: 10000}
 path: {stop: {load_factor: 5, steps: 80}}
 output:
   monitors:

@@ -435,7 +435,10 @@ class ZoneTerm final : public EventTerm {
 
   /// The depth from which on a zone counts that does not reach an end of its line: well above the rounding of
   /// coordinates, of which a gap is a difference.
-  double least(int e) const { return std::max(1e-7 * lengths_[e], 1e-11 * extent_); }
+  double least(int e) const {
+    const double length = lengths_[e];
+    return std::max({std::min(1e-7 * length, options_.mostDepth), 1e-8 * length, 1e-11 * extent_});
+  }
   /// Next to zero the condition says on which side an end is: gaps there are as good as event functions are.
   /// The zone that lies wrong has a depth below it.
   double border(int e) const { return 1e-4 * lengths_[e]; }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <stdexcept>
 
 #include "atrapos/contact/Requirements.hpp"
@@ -11,6 +12,9 @@ namespace atrapos::contact {
 struct Overclosure {
   double stiffness = 1;  ///< alpha > 0: pressure per length^m
   int exponent = 1;      ///< m, 1 to 8
+
+  /// Where the pressure is this.
+  double depthOf(double pressure) const { return std::pow(pressure / stiffness, 1.0 / exponent); }
 
   void validate() const {
     detail::requirePositive("overclosure", "stiffness", stiffness);

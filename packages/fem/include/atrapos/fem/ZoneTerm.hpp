@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -31,6 +32,9 @@ struct ZoneOptions {
   /// Ends of lines change sides at events of the path alone; false: wherever the state says so (paths without
   /// events).
   bool events = true;
+  /// A zone counts from 1e-7 of its line's length on, and from this depth on where that is less, down to 1e-8
+  /// of the length: where its pressure begins to be one of the body's.
+  double mostDepth = std::numeric_limits<double>::infinity();
 };
 
 /// Pressure p(h) on the zones of lines where h < 0, integrated between their limits, which move with the
