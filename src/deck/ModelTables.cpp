@@ -271,9 +271,8 @@ const Variants<Material, decltype(Material::law)>& materialVariants() {
             real("recall", optional, &VonMises::recall, check::natural,
                  "b of the backstress; 0: Prager's rule"),
             real("yield_width", optional, &VonMises::yieldWidth, yieldWidth,
-                 "w, from which share 1 - w of its yield stress on a point flows noticeably, without an "
-                 "event; "
-                 "0: it yields at the yield stress, which is one"),
+                 "w of a smoothed yield surface: flow begins at about 1 - w of the yield stress, without "
+                 "events; 0: a sharp one"),
             choice("strains", optional, &VonMises::strains, strains,
                    "small: with rotations of any size; finite: elastic and plastic parts multiply")},
            [](const Value& map, const VonMises& m) {

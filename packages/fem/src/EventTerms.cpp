@@ -41,6 +41,14 @@ std::vector<double> EventTerms::list(double none, const Of& ofTerm) const {
   return all;
 }
 
+template <class Of>
+std::vector<double> EventTerms::sum(const Entry& entry, const Of& ofTerm) const {
+  std::vector<double> all(count(), 0.0);
+  ranks_.together([&] { put(entry, ofTerm(*entry.term), all); });
+  ranks_.sum(all);
+  return all;
+}
+
 void EventTerms::put(const Entry& entry, const std::vector<double>& told, std::vector<double>& all) {
   const auto& numbers = entry.term->eventNumbers();
   for (std::size_t c = 0; c < numbers.size(); ++c) all[entry.first + numbers[c]] = told[c];
@@ -162,23 +170,24 @@ std::optional<EventTerm::Gradient> EventTerms::gradient(int index, const ConstDo
   return EventTerm::Gradient{sums[0], sums[1], sums[2]};
 }
 
+bool EventTerms::changeTogether() const {
+  return std::any_of(entries_.begin(), entries_.end(),
+                     [](const Entry& entry) { return entry.term->renews() || entry.term->grows(false); });
+}
+
 std::vector<int> EventTerms::beside(const std::vector<int>& indices, const ConstDofView& u,
                                     double lambda) const {
   std::vector<int> all;
   for (const Entry& entry : entries_) {
     const int end = entry.first + entry.term->eventCount();
-    if (entry.term->mayBeIndifferent()) {
-      std::vector<double> free(count(), 0.0);
-      ranks_.together([&] { put(entry, entry.term->indifferent(u, lambda), free); });
-      ranks_.sum(free);
+    if (entry.term->grows(false)) {
+      const auto free = sum(entry, [&](const EventTerm& term) { return term.indifferent(u, lambda); });
       for (int c = entry.first; c < end; ++c)
         if (free[c] > 0) all.push_back(c);
     }
     const auto own = [&](int i) { return i >= entry.first && i < end; };
     if (!entry.term->renews() || std::none_of(indices.begin(), indices.end(), own)) continue;
-    std::vector<double> near(count(), 0.0);
-    ranks_.together([&] { put(entry, entry.term->nearChange(u, lambda), near); });
-    ranks_.sum(near);
+    const auto near = sum(entry, [&](const EventTerm& term) { return term.nearChange(u, lambda); });
     // What begins with what is due, and what ends with it.
     for (int c = entry.first; c < end; ++c)
       if (near[c] > 0 && std::any_of(indices.begin(), indices.end(), [&](int i) {
@@ -213,9 +222,7 @@ void EventTerms::renew(const ConstDofView& u, double lambda) {
   std::vector<int> now = conditions_;
   for (const Entry& entry : entries_) {
     if (!entry.term->renews()) continue;
-    std::vector<double> on(count(), 0.0);
-    ranks_.together([&] { put(entry, entry.term->renewed(u, lambda), on); });
-    ranks_.sum(on);
+    const auto on = sum(entry, [&](const EventTerm& term) { return term.renewed(u, lambda); });
     for (int c = entry.first; c < entry.first + entry.term->eventCount(); ++c) now[c] = on[c] > 0;
   }
   setConditions(now);

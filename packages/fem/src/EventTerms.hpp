@@ -38,6 +38,8 @@ class EventTerms {
   std::vector<int> growing(const std::vector<int>& conditions) const;
   double negligibleFall(int condition) const;  ///< path::Problem::negligibleFall
   int constraintPivots() const;
+  /// Whether some conditions may change beside others.
+  bool changeTogether() const;
   /// path::Problem::eventsBeside.
   std::vector<int> beside(const std::vector<int>& indices, const ConstDofView& u, double lambda) const;
   /// path::Problem::eventGradient, this rank's part of byU; nothing where there is none.
@@ -58,6 +60,9 @@ class EventTerms {
   /// The list of what every term tells of its own conditions, `none` for others; on this rank.
   template <class Of>
   std::vector<double> list(double none, const Of& ofTerm) const;
+  /// What a term tells of its own conditions, of all ranks together, 0 for others.
+  template <class Of>
+  std::vector<double> sum(const Entry& entry, const Of& ofTerm) const;
   static void put(const Entry& entry, const std::vector<double>& told, std::vector<double>& all);
   /// The mean gaps at a state; infinity of conditions that are not free or have nothing to touch.
   std::vector<double> gapsAt(const ConstDofView& u, double lambda) const;

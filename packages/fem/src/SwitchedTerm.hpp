@@ -25,7 +25,6 @@ class SwitchedTerm final : public LawTermOf<EventTerm> {
   // Where free points grow, too, their law is smooth by a width that is an error of 1e-2 or more.
   double negligibleFall() const override { return a_.shape.freeGrow ? 1e-5 : 1e-10; }
   std::vector<double> indifferent(const ConstDofView& u, double lambda) const override;
-  bool mayBeIndifferent() const override { return a_.shape.freeGrow; }
   std::vector<double> eventOrder(int k, const ConstDofView& Uk, double lambdaK) const override;
   std::vector<double> covered() const override { return std::vector<double>(active_.size(), 1.0); }
   MeanGaps gapsAt(const ConstDofView& u, double lambda) const override;

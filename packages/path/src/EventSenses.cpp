@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include <Tpetra_Vector.hpp>
 
@@ -80,12 +81,14 @@ std::vector<int> falling(const PathUnderWay& path, const Series& series, const s
                          double sense, const std::vector<int>& flat) {
   const double reach = reachOf(path, series);
   const int functions = series.eventCount();
-  double largest = 0;
+  std::map<int, double> sizes;  ///< of the functions
   for (const int i : candidates)
     if (i < functions) {
       const auto c = series.eventCoefficients(i);
-      largest = std::max(largest, size(c, within(c, reach)));
+      sizes[i] = size(c, within(c, reach));
     }
+  double largest = 0;
+  for (const auto& [i, own] : sizes) largest = std::max(largest, own);
   constexpr double rounding = 1e-12;
   // Far enough to tell the pieces apart, near enough for the sense that the path starts in.
   constexpr double ahead = 1e-3;
@@ -93,10 +96,9 @@ std::vector<int> falling(const PathUnderWay& path, const Series& series, const s
   std::vector<int> violated;
   for (const int i : candidates) {
     if (i < functions) {
-      const auto c = series.eventCoefficients(i);
-      if (series.eventGrows(i) && size(c, within(c, reach)) <= series.negligibleFall(i)) continue;
+      if (series.eventGrows(i) && sizes[i] <= series.negligibleFall(i)) continue;
       const std::size_t first = std::binary_search(flat.begin(), flat.end(), i) ? 2 : 1;
-      if (!rises(c, sense, reach, rounding * largest, first)) violated.push_back(i);
+      if (!rises(series.eventCoefficients(i), sense, reach, rounding * largest, first)) violated.push_back(i);
       continue;
     }
     if (place.u.is_null())

@@ -29,6 +29,12 @@ inline Metal metal(double modulus, double saturation, double exponent, double ki
   return metalFromYoung(E, nu, m);
 }
 
+/// The same with a smoothed yield surface.
+inline Metal smoothed(Metal m, double width) {
+  m.width = width;
+  return m;
+}
+
 /// The start of every point: free, without plastic strain.
 inline std::vector<double> virgin(const fem::PointSet& points, const fem::PointLaw& law) {
   return std::vector<double>(static_cast<std::size_t>(points.numPoints()) * law.shape().data, 0.0);

@@ -23,11 +23,6 @@ using namespace atrapos::solid::test;
 
 namespace {
 
-Metal smoothed(Metal m, double width) {
-  m.width = width;
-  return m;
-}
-
 /// The law under uniaxial stress (docs/theory/plasticity.md), integrated by Runge and Kutta in steps of the
 /// strain; what moves against the stress is elastic.
 struct Integration {
@@ -150,8 +145,8 @@ TEST(SmoothedYield, BarsAreFreeAcross) {
       const double strain = plastic + elastic, across = -plastic / 2 - nu * elastic;
       const double inBar[] = {elasticOnly, gamma, plastic, chi};
       Fad E1[6], bar[BarMetalStage<true>::numOutputs];
-      for (int i = 0; i < 6; ++i) E1[i] = Fad(3, i == 0 ? strain : 0.0);
       E1[0] = Fad(3, 0, strain);
+      for (int i = 1; i < 6; ++i) E1[i] = Fad(3, 0.0);
       BarMetalStage<true>{m}(E1, inBar, bar);
 
       const double inSpace[] = {elasticOnly, gamma, plastic,     -plastic / 2, -plastic / 2, 0,

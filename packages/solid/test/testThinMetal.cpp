@@ -50,9 +50,9 @@ struct InPlane {
 
 }  // namespace
 
-// The law in plane stress is the one in space with S_zz = 0: stress, rates and event functions, by Fad.
 namespace {
 
+/// The law in plane stress is the one in space with S_zz = 0: stress, rates and event functions, by Fad.
 void expectPlaneStress(const Metal& metal) {
   const VonMises<true> inSpace{metal};
   const VonMises<true, true> plane{metal};
@@ -81,9 +81,7 @@ void expectPlaneStress(const Metal& metal) {
 
 TEST(ThinMetal, PlaneStressIsTheLawInSpaceFreeAcross) {
   expectPlaneStress(hardening);
-  Metal smoothed = hardening;
-  smoothed.width = 0.05;
-  expectPlaneStress(smoothed);
+  expectPlaneStress(smoothed(hardening, 0.05));
 }
 
 // In a shell the axes are the point's own: turned ones, with the variables in them, give the same stress.

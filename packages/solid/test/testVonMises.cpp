@@ -118,7 +118,7 @@ namespace {
 
 // Bent over by its end: points yield one after the other. The tangent behind all of these events is the
 // derivative along a chord that goes on: an error of first order.
-void tangentAlongThePath(const Metal& metal, int leastEvents) {
+void tangentAlongThePath(const Metal& metal, int leastEvents, int mostEvents) {
   const fem::Mesh mesh = box(fem::Topology::Hex8, {6, 2, 2}, {4, 1, 1});
   const fem::PointSet points = fem::volumePoints(mesh, mesh.blocks[0], fem::tabulate(fem::Topology::Hex8));
   fem::FeModel model;
@@ -133,6 +133,7 @@ void tangentAlongThePath(const Metal& metal, int leastEvents) {
   const Followed out(problem, {problem.initialState(0), 0.0}, 0.04);
   ASSERT_EQ(out.outcome.reason, path::EndReason::stopReached) << out.outcome.text;
   EXPECT_GE(out.outcome.events, leastEvents);
+  EXPECT_LE(out.outcome.events, mostEvents);
   const auto& last = out.steps.series.back();
   const path::State at = out.outcome.final;
   const Tangent K = tangent(problem, fem::FeProblem::values(*at.u), at.lambda, at.memory);
@@ -158,11 +159,9 @@ void tangentAlongThePath(const Metal& metal, int leastEvents) {
 
 }  // namespace
 
-TEST(VonMises, TangentAlongThePath) { tangentAlongThePath(metal(300, 60, 150, 30e3, 250), 11); }
+TEST(VonMises, TangentAlongThePath) { tangentAlongThePath(metal(300, 60, 150, 30e3, 250), 11, 1000); }
 TEST(VonMises, TangentAlongThePathOfASmoothedSurface) {
-  Metal m = metal(300, 60, 150, 30e3, 250);
-  m.width = 0.03;
-  tangentAlongThePath(m, 0);
+  tangentAlongThePath(smoothed(metal(300, 60, 150, 30e3, 250), 0.03), 0, 0);
 }
 
 // Hill's solution of the thick sphere. First yield at (2/3)(1 - a^3/b^3) of the yield stress; the strains are

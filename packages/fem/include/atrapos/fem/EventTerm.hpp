@@ -26,12 +26,11 @@ class EventTerm : public Term {
   virtual bool grows(bool /*active*/) const { return false; }
   /// path::Problem::negligibleFall of these.
   virtual double negligibleFall() const { return 1e-10; }
-  /// Not 0 of own conditions that may change at a state without effect, in parts that sum over all ranks.
+  /// Not 0 of own conditions that may change at a state without effect, in parts that sum over all ranks;
+  /// asked where free ones grow.
   virtual std::vector<double> indifferent(const ConstDofView& /*u*/, double /*lambda*/) const {
     return std::vector<double>(eventNumbers().size(), 0.0);
   }
-  /// Whether there are such conditions.
-  virtual bool mayBeIndifferent() const { return false; }
   /// Coefficient k of the own conditions' event functions on the series under way: the part that sums over
   /// all ranks, and is to be divided by `covered`, too. k = 0 after beginSeries; k >= 1 after addOrder(k),
   /// with U_k and lambda_k given.
