@@ -32,7 +32,7 @@ void printCheck(const deck::Deck& deck, Scene& scene, std::ostream& out) {
     out << fmt::format("# shells    {} elements in block '{}'\n", block.numElements(),
                        scene.mesh().blocks[block.block].name);
   if (!shells.blocks.empty()) out << fmt::format("# directors {}\n", shells.numDirectors());
-  for (const std::string& line : describe(scene.mesh(), scene.shells())) out << "# " << line << '\n';
+  for (const std::string& line : scene.remarks()) out << "# " << line << '\n';
   for (const ContactPoints& contact : scene.contacts()) {
     out << fmt::format("# contact   {}: {} points, smallest gap {:.6g}, {}\n", contact.name, contact.count,
                        contact.smallestGap, contact.pressure.text);

@@ -102,7 +102,7 @@ std::unique_ptr<PathCase> SceneCase::under(const deck::Deck& deck, const path::S
 }
 
 std::vector<std::string> SceneCase::remarks() const {
-  std::vector<std::string> lines = describe(scene_.mesh(), scene_.shells());
+  std::vector<std::string> lines = scene_.remarks();
   for (const ContactPoints& contact : scene_.contacts())
     lines.push_back(fmt::format("contact {}: {}", contact.name, contact.pressure.text));
   for (const std::string& line : lockingCells(scene_.deck(), scene_.mesh()))

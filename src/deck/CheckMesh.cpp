@@ -256,6 +256,11 @@ class MeshCheck {
 
   void coupling(const Coupling& coupling) const {
     const std::string path = "couplings/" + coupling.name;
+    if (coupling.kind == Coupling::Kind::Tie) {
+      sides(path + "/set", coupling.set);
+      sides(path + "/to", coupling.to);
+      return;
+    }
     nodes(path + "/set", coupling.set);
     if (coupling.kind == Coupling::Kind::ShellOnSolid && !hasShells(coupling.set)) {
       fail(path + "/set", fmt::format("no node of '{}' belongs to shells", coupling.set));
@@ -325,6 +330,8 @@ class MeshCheck {
       if (inflow->contact.empty()) {
         sides(path + "/set", inflow->set);
       }
+    } else if (std::holds_alternative<MomentLoad>(load.load)) {
+      return;  // of a coupling, which is checked by itself
     } else if (const auto* own = std::get_if<PluginLoad>(&load.load)) {
       sides(path + "/set", own->set);
     } else {

@@ -180,7 +180,7 @@ struct ShellJoint {
     Hinge   ///< they share the displacement alone
   };
   std::string name;
-  std::string set;  ///< node set, else side set
+  std::string set;  ///< node set, else side set; of a tie a side set
   Kind kind = Kind::Rigid;
 };
 
@@ -234,16 +234,21 @@ bool holds(Support::Condition condition, std::size_t axis, bool director);
 /// Nodes of a set that move together.
 struct Coupling {
   enum class Kind {
-    Equal,        ///< every component as that of the set's first node
-    Plane,        ///< a common displacement along `normal`; directors of shells stay in the plane
-    Rigid,        ///< a rigid body of finite rotations, directors of shells with it
-    ShellOnSolid  ///< nodes of shells follow the nodes of a solid at the top and bottom of their directors
+    Equal,         ///< every component as that of the set's first node
+    Plane,         ///< a common displacement along `normal`; directors of shells stay in the plane
+    Rigid,         ///< a rigid body of finite rotations, directors of shells with it
+    ShellOnSolid,  ///< nodes of shells follow the nodes of a solid at the top and bottom of their directors
+    Tie            ///< a surface follows another one, whose mesh need not fit
   };
   std::string name;
   std::string set;  ///< node set, else side set
   Kind kind = Kind::Rigid;
-  std::optional<Vector3> normal;  ///< plane only, not zero, any length
-  std::string reference;          ///< rigid only, a node set of one node; empty: none
+  std::optional<Vector3> normal;    ///< plane only, not zero, any length
+  std::string reference;            ///< rigid only, a node set of one node; empty: none
+  std::optional<Vector3> axis;      ///< rigid only: the body turns about this direction alone; not zero
+  std::optional<Prescribed> angle;  ///< with axis: how far, in degrees, numbers alone; empty: it turns freely
+  std::string to;                   ///< tie only, a side set
+  std::optional<double> reach;      ///< tie only: of the faces' size, > 0; empty: fem::TieOptions
 };
 
 // ---------------------------------------------------------------------------------------------- loads
@@ -293,6 +298,12 @@ struct VolumeLoad {
   Vector3 force{};
 };
 
+/// A moment about the axis of a rigid coupling.
+struct MomentLoad {
+  std::string coupling;
+  double moment = 0;
+};
+
 /// What flows of a scalar field into a body per area, through the sides of a set or through a contact.
 struct InflowLoad {
   std::string set, contact;  ///< one of them is empty
@@ -309,7 +320,7 @@ struct PluginLoad {
 struct Load {
   std::string name;
   bool constant = false;  ///< not multiplied by the load factor
-  std::variant<NodalLoad, SurfaceLoad, VolumeLoad, EdgeLoad, InflowLoad, PluginLoad> load;
+  std::variant<NodalLoad, SurfaceLoad, VolumeLoad, EdgeLoad, MomentLoad, InflowLoad, PluginLoad> load;
 };
 
 // ------------------------------------------------------------------------------------ tools, contact
@@ -614,10 +625,21 @@ struct ReactionMonitor {
   std::optional<Component> component;  ///< of a support of displacements alone
 };
 
+/// The angle of a rigid coupling with an axis, in degrees.
+struct RotationMonitor {
+  std::string coupling;
+};
+
+/// The moment that drives the angle of a rigid coupling.
+struct MomentMonitor {
+  std::string coupling;
+};
+
 struct Monitor {
   std::string name;
   std::variant<DisplacementMonitor, ContactForceMonitor, ContactAreaMonitor, ContactPressureMonitor,
-               ContactCenterMonitor, ContactSpreadMonitor, ReactionMonitor, FieldMonitor>
+               ContactCenterMonitor, ContactSpreadMonitor, ReactionMonitor, FieldMonitor, RotationMonitor,
+               MomentMonitor>
       quantity;
 };
 

@@ -104,6 +104,17 @@ void checkInField(const Value& root, const Material& material, const Deck& deck)
   }
 }
 
+/// A rigid body that turns about an axis.
+const Coupling& hingedBody(const Value& v, const std::string& name, const Deck& deck) {
+  const Coupling& coupling = find(v, name, deck.couplings, "couplings");
+  if (!coupling.axis) {
+    v.fail(fmt::format(
+        "coupling '{}' has no axis, about which its body turns; expected one of kind: rigid with axis",
+        name));
+  }
+  return coupling;
+}
+
 /// The way of an inflow: a set, or a contact whose pressure is a function of the gap.
 void checkWay(const Value& at, const InflowLoad& inflow, const Deck& deck) {
   if (!at.has("set") && !at.has("contact")) {
@@ -119,9 +130,10 @@ void checkWay(const Value& at, const InflowLoad& inflow, const Deck& deck) {
   const Contact& contact = find(v, inflow.contact, deck.contacts, "contact");
   if (contact.points != Contact::Points::Quadrature || contact.law == Contact::Law::Hard ||
       contact.unknown == Contact::Unknown::Curve) {
-    v.fail(fmt::format("the pressure of contact '{}' is no function of the gap at points of faces; expected "
-                       "points: quadrature, unknown: displacement and another law than hard",
-                       contact.name));
+    v.fail(
+        fmt::format("the pressure of contact '{}' is no function of the gap at points of faces; expected "
+                    "points: quadrature, unknown: displacement and another law than hard",
+                    contact.name));
   }
   if (deck.path.sharpen) {
     v.fail("not with path/sharpen, which changes the law of the contact");
@@ -233,6 +245,14 @@ void checkPhysics(const Value& root, const Deck& deck) {
       checkFormula(at.at("amount"), inflow->amount, deck, placeOf(*inflow));
       if (load.constant) {
         at.at("constant").fail("has no meaning with type: inflow, whose formula says lambda itself");
+      }
+    }
+    if (const auto* moment = std::get_if<MomentLoad>(&load.load)) {
+      const Value at = root.at("loads").entries().at(load.name).at("coupling");
+      const Coupling& coupling = hingedBody(at, moment->coupling, deck);
+      if (coupling.angle) {
+        at.fail(fmt::format("coupling '{}' has its angle given; a moment turns a body whose angle is free",
+                            coupling.name));
       }
     }
     if (const auto* own = std::get_if<PluginLoad>(&load.load)) {
@@ -364,6 +384,15 @@ void checkMonitor(const Value& v, const Monitor& monitor, const Deck& deck) {
     find(v.at("contact"), spread->contact, deck.contacts, "contact");
   } else if (const auto* field = std::get_if<FieldMonitor>(&monitor.quantity)) {
     requireField(v.at("field"), field->field, deck);
+  } else if (const auto* rotation = std::get_if<RotationMonitor>(&monitor.quantity)) {
+    hingedBody(v.at("coupling"), rotation->coupling, deck);
+  } else if (const auto* moment = std::get_if<MomentMonitor>(&monitor.quantity)) {
+    if (!hingedBody(v.at("coupling"), moment->coupling, deck).angle) {
+      v.at("coupling")
+          .fail(fmt::format(
+              "the body of coupling '{}' turns freely: no moment drives it; expected one with angle",
+              moment->coupling));
+    }
   } else if (const auto* reaction = std::get_if<ReactionMonitor>(&monitor.quantity)) {
     const auto& support = find(v.at("support"), reaction->support, deck.supports, "supports");
     if (!support.field.empty()) {
@@ -389,8 +418,10 @@ void checkStop(const Value& stop, const Stop& read, const Deck& deck) {
     const Value v = stop.at(older ? "displacement" : "monitor").at(name);
     const auto& monitor = find(v, name, deck.output.monitors, "output/monitors");
     if (!std::holds_alternative<DisplacementMonitor>(monitor.quantity) &&
-        (older || !std::holds_alternative<FieldMonitor>(monitor.quantity))) {
-      v.fail(fmt::format("the monitor '{}' is not of type displacement{}", name, older ? "" : " or field"));
+        (older || (!std::holds_alternative<FieldMonitor>(monitor.quantity) &&
+                   !std::holds_alternative<RotationMonitor>(monitor.quantity)))) {
+      v.fail(fmt::format("the monitor '{}' is not of type displacement{}", name,
+                         older ? "" : ", rotation or field"));
     }
   }
 }

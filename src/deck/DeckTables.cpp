@@ -133,6 +133,16 @@ const Table<Deck>& deckTable() {
         if (c.kind != Coupling::Kind::Rigid && !c.reference.empty()) {
           v.at(c.name).at("reference").fail("is for kind: rigid alone");
         }
+        if (c.kind != Coupling::Kind::Rigid && c.axis)
+          v.at(c.name).at("axis").fail("is for kind: rigid alone");
+        if (c.angle && !c.axis)
+          v.at(c.name).failMissing("axis", "the direction that the angle is about, a list of 3 numbers");
+        const bool tie = c.kind == Coupling::Kind::Tie;
+        if (tie && c.to.empty()) {
+          v.at(c.name).failMissing("to", "the side set of the surface that leads");
+        }
+        if (!tie && !c.to.empty()) v.at(c.name).at("to").fail("is for kind: tie alone");
+        if (!tie && c.reach) v.at(c.name).at("reach").fail("is for kind: tie alone");
       }
     };
     auto shells =

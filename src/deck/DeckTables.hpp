@@ -45,6 +45,9 @@ Alternative<decltype(Load::load)> pluginLoadAlternative();
 Field<Deck> pluginsField();
 const Table<Support>& supportTable();
 const Table<Coupling>& couplingTable();
+/// A number, a formula of x, y, z or a map with value and per_load_factor.
+Prescribed prescribed(const Value& v);
+Node printed(const Prescribed& p);
 const Variants<Load, decltype(Load::load)>& loadVariants();
 const Variants<Tool, decltype(Tool::surface)>& toolVariants();
 const Table<ToolMotion>& motionTable();

@@ -361,6 +361,10 @@ const Variants<Load, decltype(Load::load)>& loadVariants() {
            [](const Value& map, const EdgeLoad&) {
              requireExactlyOne(map, {"total", "force", "moment", "follower_force", "follower_moment"});
            }),
+       alternative<V, MomentLoad>(
+           "moment", {name("coupling", required, &MomentLoad::coupling,
+                           "the name of a rigid coupling with an axis", "the body that it turns"),
+                      real("moment", required, &MomentLoad::moment, check::any, "about the axis")}),
        inflowAlternative(), pluginLoadAlternative()},
       {flag("constant", &Load::constant, "true: not multiplied by the load factor")}};
   return variants;

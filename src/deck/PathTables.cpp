@@ -479,7 +479,13 @@ const Variants<Monitor, decltype(Monitor::quantity)>& monitorVariants() {
            {name("field", required, &FieldMonitor::field, "the name of a field", "which field"),
             name("set", required, &FieldMonitor::set, "a node set or side set, name or id", "its nodes"),
             choice("reduce", optional, &FieldMonitor::reduce, reductions, "over the set's nodes"),
-            nearestPoint<FieldMonitor>("only the set's node nearest to this place of the undeformed body")})},
+            nearestPoint<FieldMonitor>("only the set's node nearest to this place of the undeformed body")}),
+       alternative<V, RotationMonitor>(
+           "rotation", {name("coupling", required, &RotationMonitor::coupling,
+                             "the name of a rigid coupling with an axis", "whose angle, in degrees")}),
+       alternative<V, MomentMonitor>(
+           "moment", {name("coupling", required, &MomentMonitor::coupling,
+                           "the name of a rigid coupling with an angle", "whose moment about the axis")})},
       {}};
   return variants;
 }

@@ -24,6 +24,7 @@ bool isZero(const EdgeLoad& load) {
   return load.kind == EdgeLoad::Kind::FollowerMoment ? load.moment == 0 : isZero(load.vector);
 }
 bool isZero(const VolumeLoad& load) { return isZero(load.force); }
+bool isZero(const MomentLoad& load) { return load.moment == 0; }
 
 void scale(Vector3& v, double factor) {
   for (double& x : v) {
@@ -41,6 +42,7 @@ void scale(EdgeLoad& load, double factor) {
   load.moment *= factor;
 }
 void scale(VolumeLoad& load, double factor) { scale(load.force, factor); }
+void scale(MomentLoad& load, double factor) { load.moment *= factor; }
 
 /// A formula with a number in place of the load factor.
 std::string atLoadFactor(const std::string& formula, double loadFactor) {
@@ -145,6 +147,8 @@ void hold(Deck& deck, const Driven& entry, double loadFactor) {
     }
     case Driven::Kind::Support:
       return forEachPrescribed(deck.supports[entry.index], [&](Prescribed& p) { hold(p, loadFactor); });
+    case Driven::Kind::Coupling:
+      return hold(*deck.couplings[entry.index].angle, loadFactor);
     case Driven::Kind::Tool:
       deck.tools[entry.index].motion.heldAt = loadFactor;
       return;
@@ -194,6 +198,8 @@ std::vector<Driven> drivenOf(const Deck& deck) {
   };
   look(deck.loads, Driven::Kind::Load, [&](const Load& l) { return isDriven(l, formulas); });
   look(deck.supports, Driven::Kind::Support, [](const Support& s) { return isDriven(s); });
+  look(deck.couplings, Driven::Kind::Coupling,
+       [](const Coupling& c) { return c.angle && c.angle->driven(); });
   look(deck.tools, Driven::Kind::Tool, [&](const Tool& t) { return isDriven(t, deck); });
   look(deck.materials, Driven::Kind::Material,
        [&](const Material& m) { return formulas.haveLambda(m.expansion, physics::Place::shell); });

@@ -9,14 +9,14 @@ namespace atrapos::deck {
 
 /// An entry of a deck that the load factor acts on.
 struct Driven {
-  enum class Kind { Load, Support, Tool, Material, Physics };
+  enum class Kind { Load, Support, Coupling, Tool, Material, Physics };
   Kind kind = Kind::Load;
   std::size_t index = 0;  ///< in the deck's list of that kind
   std::string name;
 };
 
-/// All of them: loads that are neither constant nor zero, supports with a part per load factor, tools of
-/// contacts that move, formulas with lambda.
+/// All of them: loads that are neither constant nor zero, supports and angles with a part per load factor,
+/// tools of contacts that move, formulas with lambda.
 std::vector<Driven> drivenOf(const Deck& deck);
 
 /// Those that a stage drives: the named ones, without names all; none where it releases.

@@ -71,23 +71,6 @@ const Table<Prescribed>& prescribedTable() {
 constexpr const char* prescribedText =
     "a number or a formula of x, y, z, or a map with value, per_load_factor";
 
-Prescribed prescribed(const Value& v) {
-  Prescribed p;
-  if (v.isMap() && !v.isEmptyMap()) {
-    read(prescribedTable(), v, p);
-  } else if (v.isText()) {
-    p.valueFormula = v.text();
-  } else {
-    p.value = v.real();
-  }
-  return p;
-}
-
-Node printed(const Prescribed& p) {
-  const bool plain = !p.driven() && p.valueFormula.empty();
-  return plain ? Node{yaml(p.value), {}} : print(prescribedTable(), p);
-}
-
 Field<Support> fieldValue() {
   return {"value",
           false,
@@ -122,6 +105,23 @@ Field<Support> component(std::size_t axis, bool director) {
 }
 
 }  // namespace
+
+Prescribed prescribed(const Value& v) {
+  Prescribed p;
+  if (v.isMap() && !v.isEmptyMap()) {
+    read(prescribedTable(), v, p);
+  } else if (v.isText()) {
+    p.valueFormula = v.text();
+  } else {
+    p.value = v.real();
+  }
+  return p;
+}
+
+Node printed(const Prescribed& p) {
+  const bool plain = !p.driven() && p.valueFormula.empty();
+  return plain ? Node{yaml(p.value), {}} : print(prescribedTable(), p);
+}
 
 bool holds(Support::Condition condition, std::size_t axis, bool director) {
   switch (condition) {

@@ -169,7 +169,25 @@ class DeckMaker {
       std::string keys = fmt::format("kind: {}, set: {}", c.turns ? "rigid" : "equal", deck::yaml(set));
       if (c.reference >= 0)
         keys += ", reference: " + deck::yaml(mesh_.nodeSet({c.reference}, "reference_" + number));
-      couplings_.add(set, keys);
+      if (c.axis >= 0) {
+        std::array<int, 3> axis{};
+        axis[static_cast<std::size_t>(c.axis)] = 1;
+        keys += fmt::format(", axis: [{}, {}, {}]", axis[0], axis[1], axis[2]);
+      }
+      if (c.angle != 0) keys += fmt::format(", angle: {{per_load_factor: {}}}", c.angle);
+      const std::string name = couplings_.add(set, keys);
+      if (c.moment != 0)
+        loads_.add(name, fmt::format("type: moment, coupling: {}, moment: {}", name, c.moment));
+      if (c.axis >= 0) monitor(name + "_angle", fmt::format("type: rotation, coupling: {}", name));
+      if (c.angle != 0) monitor(name + "_moment", fmt::format("type: moment, coupling: {}", name));
+      loaded_ = loaded_ || c.moment != 0 || c.angle != 0;
+    }
+    for (const InpTied& tie : model_.tied) {
+      const std::string follows = mesh_.sideSet(*model_.surfaces.find(tie.follows), tie.follows),
+                        leads = mesh_.sideSet(*model_.surfaces.find(tie.leads), tie.leads);
+      if (follows.empty() || leads.empty()) continue;  // of elements that were left out
+      couplings_.add(follows,
+                     fmt::format("kind: tie, set: {}, to: {}", deck::yaml(follows), deck::yaml(leads)));
     }
   }
 

@@ -74,6 +74,12 @@ struct InpRigidBody {
   int rotation = -1;  ///< node whose components 1 to 3 are the body's turns; -1: 4 to 6 of the reference are
 };
 
+/// *TIE of surfaces whose meshes do not fit, by names.
+struct InpTied {
+  InpPlace place;
+  std::string follows, leads;  ///< surfaces
+};
+
 /// The part of an input file before its steps, elements and nodes by their position.
 struct InpModel {
   const std::string* file = nullptr;  ///< of the first card
@@ -91,6 +97,7 @@ struct InpModel {
   InpNamed<InpMaterial> materials;
   std::vector<InpRigidBody> rigidBodies;
   int ties = 0;                            ///< pairs of surfaces in *TIE
+  std::vector<InpTied> tied;               ///< of them
   std::vector<const InpCard*> boundaries;  ///< *BOUNDARY before the first step
   std::vector<const InpCard*> transforms;  ///< *TRANSFORM
   std::vector<const InpCard*> steps;       ///< from the first *STEP on

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 
 namespace atrapos::importer {
@@ -41,29 +42,51 @@ void InpRigidMotions::add(const InpRigidBody& body, InpStep& step) {
     for (std::size_t d = 0; d < 3; ++d)
       if (own[d]) turns[d] = own[d];
     step.supports.erase(body.rotation);
-    if (step.forces.erase(body.rotation) > 0)
-      body.place.fail("*RIGID BODY: a moment on its ROT NODE, which decks do not have");
+    if (const auto own = step.forces.find(body.rotation); own != step.forces.end()) {
+      auto& moments = step.moments[body.reference];
+      for (std::size_t d = 0; d < 3; ++d) moments[d] += own->second[d];
+      step.forces.erase(own);
+    }
   }
-  for (const auto& turn : turns)
-    if (turn.value_or(0) != 0)
-      body.place.fail("*RIGID BODY: a turn of it is driven, which decks do not have");
+  const auto moments = step.moments.find(body.reference);
+  const std::array<double, 3> moment =
+      moments == step.moments.end() ? std::array<double, 3>{} : moments->second;
+  const bool loaded = moment != std::array<double, 3>{};
+  const auto driven = [](const auto& turn) { return turn.value_or(0) != 0; };
+  const auto numDriven = std::count_if(turns.begin(), turns.end(), driven);
   if (heldOf(turns) == 0) {
+    if (loaded)
+      body.place.fail(
+          "*RIGID BODY: a moment on a body that turns in all directions; decks have moments about an axis");
     couplings_.push_back({true, body.nodes, body.reference});
     return;
   }
-  if (heldOf(turns) < 3)
+  // About one axis: the others' turns are held.
+  const bool isFree = heldOf(turns) == 2 && numDriven == 0;
+  if (isFree || (heldOf(turns) == 3 && numDriven == 1)) {
+    Coupling c{true, body.nodes, body.reference};
+    const auto at = isFree ? std::find(turns.begin(), turns.end(), std::nullopt)
+                           : std::find_if(turns.begin(), turns.end(), driven);
+    c.axis = static_cast<int>(at - turns.begin());
+    c.angle = at->value_or(0) * 180 / std::acos(-1.0);
+    if (isFree) c.moment = moment[static_cast<std::size_t>(c.axis)];
+    couplings_.push_back(std::move(c));
+    return;
+  }
+  if (heldOf(turns) < 3 || numDriven > 0)
     body.place.fail(
-        "*RIGID BODY: some of its turns are held and some are not; decks have bodies that turn freely or not "
-        "at all");
+        "*RIGID BODY: turns about more than one axis, or about two freely; decks have bodies that turn "
+        "freely, "
+        "about one axis or not at all");
 
   const Components shift = componentsOf(step, body.reference, 0);
   step.supports.erase(body.reference);
-  const bool driven = heldOf(shift) == 3;
+  const bool given = heldOf(shift) == 3;
   for (const int node : body.nodes) {
     InpSupport& support = step.supports[node];
     support.place = body.place;
     for (std::size_t d = 3; d < 6; ++d) support.value[d] = 0;
-    if (driven || node == body.nodes.front())
+    if (given || node == body.nodes.front())
       for (std::size_t d = 0; d < 3; ++d)
         if (shift[d]) support.value[d] = shift[d];
   }
@@ -72,7 +95,7 @@ void InpRigidMotions::add(const InpRigidBody& body, InpStep& step) {
     step.forces.erase(force);
     for (std::size_t d = 0; d < 3; ++d) step.forces[body.nodes.front()][d] += value[d];
   }
-  if (!driven) couplings_.push_back({false, body.nodes, -1});
+  if (!given) couplings_.push_back({false, body.nodes, -1});
 }
 
 std::vector<int> InpRigidMotions::references() const {

@@ -148,12 +148,18 @@ class StepReader {
       const auto nodes = inpNodes(model_, line.at(0), line.place);
       const auto component = inpInteger(line.at(1), line.place, "degree of freedom", 1, 1000);
       const double value = inpNumber(line.at(2), line.place, "force");
-      if (component > 3) {
-        model_.remark(line.place, "*CLOAD: a moment is left out, decks have moments on edges of shells");
+      const auto leads = [&](int node) {
+        return std::any_of(model_.rigidBodies.begin(), model_.rigidBodies.end(),
+                           [&](const InpRigidBody& body) { return body.reference == node; });
+      };
+      if (component > 6 || (component > 3 && !std::all_of(nodes.begin(), nodes.end(), leads))) {
+        model_.remark(line.place,
+                      "*CLOAD: a moment is left out, decks have moments on rigid bodies and edges of shells");
         continue;
       }
       count(nodes.size(), line.place);
-      for (const int node : nodes) step_.forces[node][static_cast<std::size_t>(component - 1)] += value;
+      auto& of = component > 3 ? step_.moments : step_.forces;
+      for (const int node : nodes) of[node][static_cast<std::size_t>((component - 1) % 3)] += value;
     }
   }
 

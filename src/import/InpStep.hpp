@@ -32,6 +32,7 @@ struct InpStep {
 
   std::map<int, InpSupport> supports;               ///< by node
   std::map<int, std::array<double, 3>> forces;      ///< by node
+  std::map<int, std::array<double, 3>> moments;     ///< by node that leads a rigid body
   std::map<std::pair<int, int>, double> pressures;  ///< by element and side
   struct VolumeLoad {
     InpPlace place;

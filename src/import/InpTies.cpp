@@ -22,7 +22,15 @@ constexpr int mostTies = 1000;  // each goes through the whole model
 struct Surface {
   std::vector<int> nodes;  ///< ascending
   std::set<bool> shells;
+  bool massive = true;  ///< faces of solids, edges of plane bodies
+
+  bool canTie() const { return !shells.empty() && massive; }  // of nodes alone there are no faces
 };
+
+bool common(const std::vector<int>& a, const std::vector<int>& b) {
+  return std::any_of(a.begin(), a.end(),
+                     [&](int node) { return std::binary_search(b.begin(), b.end(), node); });
+}
 
 Surface surfaceOf(const InpModel& model, std::string_view field, const InpPlace& place) {
   const std::string name = inpName(field);
@@ -31,8 +39,9 @@ Surface surfaceOf(const InpModel& model, std::string_view field, const InpPlace&
     for (const InpFace& face : *faces) {
       const auto nodes = inpFaceNodes(model, face);
       surface.nodes.insert(surface.nodes.end(), nodes.begin(), nodes.end());
-      surface.shells.insert(model.elements[static_cast<std::size_t>(face.element)].type->family ==
-                            Family::shell);
+      const InpElementType& type = *model.elements[static_cast<std::size_t>(face.element)].type;
+      surface.shells.insert(type.family == Family::shell);
+      surface.massive = surface.massive && (fem::isSolid(type.topology) || fem::isPlane(type.topology));
     }
   } else if (const auto* const nodes = model.nodeSets.find(name)) {
     surface.nodes = *nodes;
@@ -138,11 +147,19 @@ void tieInpSurfaces(InpModel& model, const InpCard& card) {
       to.push_back(found[i]);
     }
     if (lost > 0) {
-      model.remark(line.place,
-                   fmt::format("*TIE: left out, {} of {} nodes of '{}' are at no node of '{}', first node "
-                               "{}; only surfaces whose meshes fit are tied",
-                               lost, found.size(), plainName(inpName(line.at(0))),
-                               plainName(inpName(line.at(1))), firstLost));
+      const std::string which =
+          fmt::format("{} of {} nodes of '{}' are at no node of '{}', first node {}", lost, found.size(),
+                      plainName(inpName(line.at(0))), plainName(inpName(line.at(1))), firstLost);
+      if (slave.canTie() && master.canTie() && !common(slave.nodes, master.nodes)) {
+        model.remark(line.place, fmt::format("*TIE: a coupling of kind tie of the deck, {}", which));
+        model.tied.push_back({line.place, inpName(line.at(0)), inpName(line.at(1))});
+      } else {
+        model.remark(
+            line.place,
+            fmt::format("*TIE: left out, {}; tied are surfaces whose meshes fit, and faces of solids and "
+                        "edges of plane bodies that share no node",
+                        which));
+      }
       continue;
     }
     if (slave.shells != master.shells && !slave.shells.empty() && !master.shells.empty()) {

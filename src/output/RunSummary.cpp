@@ -130,6 +130,8 @@ nlohmann::ordered_json monitorTypes(const deck::Deck& deck) {
   struct TypeOf {
     const char* operator()(const deck::DisplacementMonitor&) const { return "displacement"; }
     const char* operator()(const deck::FieldMonitor&) const { return "field"; }
+    const char* operator()(const deck::RotationMonitor&) const { return "rotation"; }
+    const char* operator()(const deck::MomentMonitor&) const { return "moment"; }
     const char* operator()(const deck::ReactionMonitor&) const { return "reaction"; }
     const char* operator()(const deck::ContactForceMonitor&) const { return "contact_force"; }
     const char* operator()(const deck::ContactAreaMonitor&) const { return "contact_area"; }

@@ -85,6 +85,7 @@ struct Maker {
 
   Terms operator()(const deck::InflowLoad&) const { return {}; }
   Terms operator()(const deck::PluginLoad&) const { return {}; }
+  Terms operator()(const deck::MomentLoad&) const { return {}; }
   Terms operator()(const deck::NodalLoad&) const { return {}; }
   Terms operator()(const deck::VolumeLoad&) const { return {}; }
 };

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "atrapos/fem/RigidBody.hpp"
+#include "atrapos/fem/Tie.hpp"
 #include "scene/ModelMaker.hpp"
 #include "scene/Sets.hpp"
 
@@ -40,8 +41,8 @@ void addPlane(const deck::Vector3& normal, const std::vector<int>& nodes, const 
 
 /// The nodes and their directors on one rigid body, about their centre or a node `reference` of it (-1:
 /// none), which leads: what supports it supports the body.
-void addRigid(const fem::Mesh& mesh, const std::vector<int>& nodes, int reference,
-              const fem::ShellGeometry& shells, double youngsModulus, fem::FeModel& model) {
+fem::RigidBody addRigid(const fem::Mesh& mesh, const std::vector<int>& nodes, int reference,
+                        const fem::ShellGeometry& shells, double youngsModulus, fem::FeModel& model) {
   const auto X = [&](int node) {
     const double* x = &mesh.coordinates[3 * static_cast<std::size_t>(node)];
     return std::array<double, 3>{x[0], x[1], x[2]};
@@ -73,6 +74,7 @@ void addRigid(const fem::Mesh& mesh, const std::vector<int>& nodes, int referenc
       body.attachDirector(model, director, {D[0], D[1], D[2]});
     }
   }
+  return body;
 }
 
 }  // namespace
@@ -112,9 +114,44 @@ ModelMaker::SolidSide ModelMaker::solidNodesAt(const deck::Coupling& coupling, i
   return side;
 }
 
+void ModelMaker::addHinge(const deck::Coupling& coupling, const fem::RigidBody& body) {
+  if (!coupling.axis) return;
+  const int node = body.hinge(made_.model, *coupling.axis);
+  made_.hinges[coupling.name] = node;
+  if (const auto& angle = coupling.angle)
+    made_.model.prescribe(node, 0, angle->value * kDegree, angle->perLoadFactor * kDegree);
+}
+
+void ModelMaker::addTie(const deck::Coupling& coupling) {
+  const std::string path = "couplings/" + coupling.name;
+  fem::TieOptions options;
+  if (coupling.reach) options.reach = *coupling.reach;
+  options.axisymmetric = plane_ && plane_->kind == solid::PlaneSection::Kind::axisymmetric;
+  const fem::Tie tie =
+      made(path, [&] { return fem::tieSurfaces(mesh_, sides(coupling.set), sides(coupling.to), options); });
+  for (const fem::TiedNode& node : tie.nodes) tied_.push_back({node.node, node.masters.front().node});
+  std::vector<std::string> fields;
+  if (const std::string displacement = fem::displacementField().name;
+      made_.model.dofs.find(displacement) >= 0)
+    fields.push_back(displacement);
+  const std::vector<std::string> there = scalarFieldsOf(sides(coupling.to));
+  for (const std::string& field : scalarFieldsOf(sides(coupling.set)))
+    if (isVelocity(field))
+      fail(path, "joins a flow, which ties do not");
+    else if (std::find(there.begin(), there.end(), field) != there.end())
+      fields.push_back(field);
+  fem::couple(made_.model, tie, fields);
+  made_.ties.push_back(
+      {coupling.name, static_cast<int>(tie.nodes.size()), static_cast<int>(tie.open.size()), tie.largestGap});
+}
+
 void ModelMaker::addCouplings() {
   const fem::ShellGeometry& g = shells_.geometry;
-  for (const deck::Coupling& coupling : deck_.couplings) try {
+  // Ties leave what else has a hold of.
+  std::vector<deck::Coupling> couplings = deck_.couplings;
+  std::stable_partition(couplings.begin(), couplings.end(),
+                        [](const deck::Coupling& c) { return c.kind != Kind::Tie; });
+  for (const deck::Coupling& coupling : couplings) try {
       const std::vector<int> nodes = nodesOf(mesh_, coupling.set);
       switch (coupling.kind) {
         case Kind::Equal:
@@ -124,8 +161,8 @@ void ModelMaker::addCouplings() {
           addPlane(*coupling.normal, nodes, g, made_.model);
           break;
         case Kind::Rigid:
-          addRigid(mesh_, nodes, referenceOf(mesh_, coupling), g, deck::largestYoungsModulus(deck_),
-                   made_.model);
+          addHinge(coupling, addRigid(mesh_, nodes, referenceOf(mesh_, coupling), g,
+                                      deck::largestYoungsModulus(deck_), made_.model));
           break;
         case Kind::ShellOnSolid:
           for (int node : nodes)
@@ -138,6 +175,9 @@ void ModelMaker::addCouplings() {
                                 {{side.top, 0.5 * (1 + zeta)}, {side.bottom, 0.5 * (1 - zeta)}});
             }
           break;
+        case Kind::Tie:
+          addTie(coupling);
+          break;
       }
       made_.model.couplings.resolved(
           made_.model.dofs,
@@ -148,7 +188,7 @@ void ModelMaker::addCouplings() {
 }
 
 std::vector<std::pair<int, int>> ModelMaker::joinedNodes() const {
-  std::vector<std::pair<int, int>> joined;
+  std::vector<std::pair<int, int>> joined = tied_;
   for (const deck::Coupling& coupling : deck_.couplings) {
     const std::vector<int> nodes = nodesOf(mesh_, coupling.set);
     if (coupling.kind == Kind::Rigid) {

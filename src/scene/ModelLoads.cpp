@@ -48,6 +48,7 @@ struct DeadLoads {
     }
   }
 
+  void operator()(const deck::MomentLoad&) const {}  // on a rotation (ModelMaker::addLoads)
   void operator()(const deck::InflowLoad&) const {}  // no force (ModelMaker::addInflows)
   void operator()(const deck::PluginLoad&) const {}  // the same
 
@@ -95,6 +96,11 @@ void ModelMaker::addLoads() {
   }
   made_.model.load = made_.model.dofs.fromVectors(growing);
   made_.model.constantLoad = made_.model.dofs.fromVectors(constant);
+  for (const deck::Load& load : deck_.loads)
+    if (const auto* moment = std::get_if<deck::MomentLoad>(&load.load))
+      (load.constant ? made_.model.constantLoad
+                     : made_.model.load)[made_.model.dofs.firstDof(made_.hinges.at(moment->coupling))] +=
+          moment->moment;
 }
 
 void ModelMaker::addFollowers() {

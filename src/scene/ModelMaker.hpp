@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "atrapos/fem/RigidBody.hpp"
 #include "atrapos/physics/Expansion.hpp"
 #include "atrapos/solid/PlaneBody.hpp"
 #include "deck/Deck.hpp"
@@ -77,6 +78,11 @@ class ModelMaker {
 
   // ModelCouplings.cpp
   void addCouplings();
+  const fem::SideSet& sides(const std::string& set) const {
+    return mesh_.sideSets.at(fem::findSideSet(mesh_, set));
+  }
+  void addTie(const deck::Coupling& coupling);
+  void addHinge(const deck::Coupling& coupling, const fem::RigidBody& body);
   /// Pairs of nodes that couplings join, as if an element did.
   std::vector<std::pair<int, int>> joinedNodes() const;
   /// The nodes of a solid along a shell's director, with their zeta.
@@ -119,6 +125,7 @@ class ModelMaker {
   const std::optional<solid::PlaneSection>& plane_;
   const SceneTools& tools_;
   const std::map<int, solid::ThinSection> thin_;  ///< by block
+  std::vector<std::pair<int, int>> tied_;         ///< nodes of ties, each with one that it follows
   SceneModel made_;
 };
 

@@ -48,8 +48,19 @@ fem::FeModel Scene::makeModel() {
   bodies_ = std::move(made.bodies);
   contacts_ = std::move(made.contacts);
   shells_.joints = std::move(made.joints);
+  ties_ = std::move(made.ties);
+  hinges_ = std::move(made.hinges);
   made.model.dofName = [this, dofs = made.model.dofs](int dof) { return dofName(dofs, dof); };
   return std::move(made.model);
+}
+
+std::vector<std::string> Scene::remarks() const {
+  std::vector<std::string> lines = describe(mesh_, shells_);
+  for (const TiedSurfaces& tie : ties_)
+    lines.push_back(fmt::format(
+        "tie       {}: {} nodes follow{}, largest gap {:.3g}", tie.name, tie.nodes,
+        tie.open > 0 ? fmt::format(", {} have nothing opposite and are free", tie.open) : "", tie.gap));
+  return lines;
 }
 
 std::string Scene::dofName(const fem::DofMap& dofs, int dof) const {

@@ -48,6 +48,8 @@ class Scene {
   /// [element] of a mesh that came in parts the rank whose part it came in; empty: METIS decides.
   const std::vector<int>& givenRanks() const { return givenRanks_; }
   const SceneShells& shells() const { return shells_; }
+  /// Lines on what the program has made of shells and ties that was not said in so many words.
+  std::vector<std::string> remarks() const;
   const std::vector<BodyBlock>& bodies() const { return bodies_; }  ///< [block]
   fem::FeProblem& problem() { return *problem_; }
   const fem::FeProblem& problem() const { return *problem_; }
@@ -99,7 +101,7 @@ class Scene {
   std::vector<int> elementRanks() const;
 
  private:
-  /// The whole model; bodies, joints and contacts are those of its terms from then on.
+  /// The whole model; bodies, joints, ties and contacts are those of its terms from then on.
   fem::FeModel makeModel();
   /// What messages call an unknown of the problem.
   std::string dofName(const fem::DofMap& dofs, int dof) const;
@@ -122,6 +124,8 @@ class Scene {
   SceneTools tools_;
   std::vector<BodyBlock> bodies_;  ///< [block]
   std::vector<ContactPoints> contacts_;
+  std::vector<TiedSurfaces> ties_;
+  std::map<std::string, int> hinges_;  ///< SceneModel::hinges
   /// [monitor] weights of a monitor of displacements or a field over the unknowns; null for the others
   std::vector<linear::RCP<path::Vector>> unknownWeights_;
   /// [monitor][term][point] of the contact that a monitor with `near` watches; empty for the others

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,9 @@
 #include "scene/ContactPressure.hpp"
 
 namespace atrapos {
+
+/// In radians: angles of decks and monitors are in degrees, those of problems are not.
+constexpr double kDegree = 3.14159265358979323846 / 180;
 
 /// The material's term of one block of the mesh.
 struct BodyBlock {
@@ -48,12 +52,21 @@ struct ContactPoints {
   int numCarried() const;
 };
 
+/// What a tie of the deck has joined.
+struct TiedSurfaces {
+  std::string name;
+  int nodes = 0, open = 0;  ///< that follow; that have nothing opposite
+  double gap = 0;           ///< the largest between the surfaces
+};
+
 /// What a deck and its mesh become: the terms, and where those of each block and contact are among them.
 struct SceneModel {
   fem::FeModel model;
   std::vector<BodyBlock> bodies;  ///< [block]
   std::vector<ContactPoints> contacts;
   fem::ShellJoints joints;  ///< folds and branches of shells
+  std::vector<TiedSurfaces> ties;
+  std::map<std::string, int> hinges;  ///< by coupling: the node of a rigid body's angle
 };
 
 }  // namespace atrapos

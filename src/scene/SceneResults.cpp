@@ -102,6 +102,11 @@ void Scene::addMonitors() {
                           componentIndex(m->component));
     if (const auto* m = std::get_if<deck::FieldMonitor>(&monitor.quantity))
       weights = weightsOf("output/monitors/" + monitor.name, *m, m->field, 0);
+    if (const auto* m = std::get_if<deck::RotationMonitor>(&monitor.quantity)) {
+      weights = linear::rcp(new path::Vector(problem_->map()));
+      const linear::GlobalIndex dof = problem_->model().dofs.firstDof(hinges_.at(m->coupling));
+      if (problem_->map()->isNodeGlobalElement(dof)) weights->sumIntoGlobalValue(dof, 1 / kDegree);
+    }
     unknownWeights_.push_back(weights);
     std::vector<std::vector<double>> points;
     if (const auto* m = std::get_if<deck::ContactForceMonitor>(&monitor.quantity); m && m->near)
@@ -189,6 +194,10 @@ std::vector<double> Scene::monitors(const SceneState& state) const {
     const std::vector<std::vector<double>>& contactWeights;
     double operator()(const deck::DisplacementMonitor&) const { return linear::dot(*weights, state.u()); }
     double operator()(const deck::FieldMonitor&) const { return linear::dot(*weights, state.u()); }
+    double operator()(const deck::RotationMonitor&) const { return linear::dot(*weights, state.u()); }
+    double operator()(const deck::MomentMonitor& m) const {
+      return state.supportForces()[scene.problem_->model().dofs.firstDof(scene.hinges_.at(m.coupling))];
+    }
     const ContactPoints& contact(const std::string& name) const {
       return *std::find_if(scene.contacts_.begin(), scene.contacts_.end(),
                            [&](const ContactPoints& c) { return c.name == name; });

@@ -452,3 +452,62 @@ loads:
   refused("kind: equal", "kind: same", "couplings/pair/kind: 'same' is not a choice here");
   refused("set: y_max", "set: y_mox", "couplings/rim/set: the mesh has no node set or side set 'y_mox'");
 }
+
+// Rigid bodies about an axis, their moments and angles; ties.
+TEST(ShellDeck, hingesAndTies) {
+  const std::string text =
+      changed("path:\n", R"(couplings:
+  free: {kind: rigid, set: y_max, axis: [0, 3, 0]}
+  driven: {kind: rigid, set: x_mid, axis: [1, 0, 0], angle: {value: 5, per_load_factor: 90}}
+  seam: {kind: tie, set: top, to: bottom, reach: 0.2}
+output:
+  monitors:
+    angle: {type: rotation, coupling: free}
+    torque: {type: moment, coupling: driven}
+path:
+)",
+              changed("loads:\n", "loads:\n  twist: {type: moment, coupling: free, moment: 3}\n"));
+  const Deck deck = readDeckText(text, "shell.yaml");
+  std::ostringstream printed;
+  describe(deck, printed);
+  for (const Deck& d : {deck, readDeckText(printed.str(), "shell.yaml")}) {
+    ASSERT_EQ(d.couplings.size(), 3u);
+    EXPECT_EQ(*d.couplings[0].axis, (Vector3{0, 3, 0}));
+    EXPECT_FALSE(d.couplings[0].angle);
+    EXPECT_EQ(d.couplings[1].angle->value, 5);
+    EXPECT_EQ(d.couplings[1].angle->perLoadFactor, 90);
+    EXPECT_EQ(d.couplings[2].kind, Coupling::Kind::Tie);
+    EXPECT_EQ(d.couplings[2].to, "bottom");
+    EXPECT_EQ(*d.couplings[2].reach, 0.2);
+    EXPECT_EQ(std::get<MomentLoad>(d.loads[0].load).moment, 3);
+    EXPECT_EQ(std::get<RotationMonitor>(d.output.monitors[0].quantity).coupling, "free");
+    EXPECT_EQ(std::get<MomentMonitor>(d.output.monitors[1].quantity).coupling, "driven");
+  }
+  const auto refused = [&](const std::string& from, const std::string& to, const std::string& start) {
+    const std::string error = errorOf(changed(from, to, text));
+    EXPECT_EQ(behindPlace(error).substr(0, start.size()), start) << error;
+  };
+  refused("axis: [0, 3, 0]", "axis: [0, 0, 0]", "couplings/free/axis: must not be the zero vector");
+  refused("axis: [1, 0, 0], ", "", "couplings/driven/axis: is missing");
+  refused("per_load_factor: 90", "per_load_factor: x", "couplings/driven/angle: a body has one angle");
+  refused("{kind: tie, ", "{kind: tie, axis: [1, 0, 0], ", "couplings/seam/axis: is for kind: rigid alone");
+  refused(", to: bottom", "", "couplings/seam/to: is missing");
+  refused("reach: 0.2", "reach: 0", "couplings/seam/reach: ");
+  refused("kind: tie", "kind: equal", "couplings/seam/to: is for kind: tie alone");
+  refused("kind: tie, set: top, to: bottom", "kind: equal, set: top",
+          "couplings/seam/reach: is for kind: tie alone");
+  refused("coupling: free, moment", "coupling: frei, moment",
+          "loads/twist/coupling: no entry 'frei' in couplings");
+  refused("coupling: free, moment", "coupling: seam, moment",
+          "loads/twist/coupling: coupling 'seam' has no axis");
+  refused("coupling: free, moment", "coupling: driven, moment",
+          "loads/twist/coupling: coupling 'driven' has its angle given");
+  refused("rotation, coupling: free", "rotation, coupling: seam",
+          "output/monitors/angle/coupling: coupling 'seam' has no axis");
+  refused("moment, coupling: driven}", "moment, coupling: free}",
+          "output/monitors/torque/coupling: the body of coupling 'free' turns freely");
+  const fem::Mesh mesh = plateMesh();
+  EXPECT_NE(errorOf(changed("to: bottom", "to: roof", text), &mesh)
+                .find("couplings/seam/to: the mesh has no side set 'roof'"),
+            std::string::npos);
+}

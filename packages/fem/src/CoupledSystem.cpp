@@ -1,28 +1,12 @@
 #include "CoupledSystem.hpp"
 
+#include <map>
 #include <stdexcept>
+#include <utility>
 
 #include "Upload.hpp"
 
 namespace atrapos::fem::detail {
-
-namespace {
-
-/// Position of a column in a row, or -1.
-KOKKOS_INLINE_FUNCTION std::ptrdiff_t find(const View<std::size_t*>& rowStart, const View<int*>& columns,
-                                           int row, int column) {
-  std::size_t low = rowStart(row), high = rowStart(row + 1);
-  while (low < high) {
-    const std::size_t middle = (low + high) / 2;
-    if (columns(middle) < column)
-      low = middle + 1;
-    else
-      high = middle;
-  }
-  return low < rowStart(row + 1) && columns(low) == column ? static_cast<std::ptrdiff_t>(low) : -1;
-}
-
-}  // namespace
 
 CoupledSystem::CoupledSystem(std::vector<Coupling> resolved) : couplings_(std::move(resolved)) {
   std::vector<int> slave, start{0}, master;
@@ -44,6 +28,22 @@ CoupledSystem::CoupledSystem(std::vector<Coupling> resolved) : couplings_(std::m
            upload("factor", factor),
            upload("value", value),
            upload("rate", rate)};
+  std::map<int, std::vector<std::pair<int, double>>> byMaster;
+  for (std::size_t c = 0; c < couplings_.size(); ++c)
+    for (const CoupledDof& m : couplings_[c].masters)
+      byMaster[m.dof].push_back({static_cast<int>(c), m.factor});
+  std::vector<int> masters, first{0}, coupling;
+  std::vector<double> part;
+  for (const auto& [dof, of] : byMaster) {
+    masters.push_back(dof);
+    for (const auto& [c, f] : of) {
+      coupling.push_back(c);
+      part.push_back(f);
+    }
+    first.push_back(static_cast<int>(coupling.size()));
+  }
+  columns_ = {static_cast<int>(masters.size()), upload("masters", masters), upload("first", first),
+              upload("coupling", coupling), upload("part", part)};
 }
 
 // Couplings are few and may share masters: one thread runs through them, in their order, in each kernel.
@@ -81,53 +81,84 @@ void CoupledSystem::transform(const View<std::size_t*>& rowStart, const View<int
                               const View<double*>& values, const ConstDofView& s, const DofView& F) const {
   if (empty()) return;
   const Rows r = rows_;
+  const Columns t = columns_;
+  const int numRows = static_cast<int>(rowStart.extent(0)) - 1;
+  int last = 0;  // columns may be of nodes without rows here
+  Kokkos::parallel_reduce(
+      "last column", Kokkos::RangePolicy<Execution>(0, columns.extent(0)),
+      KOKKOS_LAMBDA(std::size_t e, int& most) { most = columns(e) > most ? columns(e) : most; },
+      Kokkos::Max<int>(last));
+  const int numColumns = last + 1;
+  // Places of a row's columns while it is worked on, -1 elsewhere; rows with columns of slaves.
+  const View<std::ptrdiff_t*> place("places of columns", numColumns);
+  const View<char*> met("rows with slaves", numRows);
+  const View<int*> couplingOf("coupling of a dof", numColumns);
   int missing = 0;
   Kokkos::parallel_reduce(
       "couplings", Kokkos::RangePolicy<Execution>(0, 1),
       KOKKOS_LAMBDA(int, int& lacking) {
-        const auto add = [&](int row, int column, double value) {
+        for (int d = 0; d < numColumns; ++d) {
+          place(d) = -1;
+          couplingOf(d) = -1;
+        }
+        for (int c = 0; c < r.count; ++c) couplingOf(r.slave(c)) = c;
+        const auto enter = [&](int row) {
+          for (std::size_t e = rowStart(row); e < rowStart(row + 1); ++e)
+            place(columns(e)) = static_cast<std::ptrdiff_t>(e);
+        };
+        const auto leave = [&](int row) {
+          for (std::size_t e = rowStart(row); e < rowStart(row + 1); ++e) place(columns(e)) = -1;
+        };
+        const auto add = [&](int column, double value) {
           if (value == 0) return;
-          const auto at = find(rowStart, columns, row, column);
-          if (at < 0)
+          if (place(column) < 0)
             ++lacking;
           else
-            values(at) += value;
+            values(place(column)) += value;
         };
-        for (int c = 0; c < r.count; ++c) {  // one slave after the other: K = T_s^T K T_s
-          const int slave = r.slave(c), first = r.start(c), last = r.start(c + 1);
-          // Its prescribed part goes to the load direction, its row to those of the masters.
-          for (std::size_t e = rowStart(slave); e < rowStart(slave + 1); ++e) {
-            const int j = columns(e);
-            const auto back = find(rowStart, columns, j, slave);
-            if (back >= 0) F(j) -= values(back) * r.rate(c);
-          }
-          for (std::size_t e = rowStart(slave); e < rowStart(slave + 1); ++e) {
-            for (int m = first; m < last; ++m) add(r.master(m), columns(e), r.factor(m) * values(e));
+        // K T: columns of slaves go to those of their masters, what is prescribed of them to the load
+        // direction. The graph is symmetric: a slave's columns are the rows that have it. A node of which
+        // some unknowns are slaves and others masters of what another rank has is connected to nodes without
+        // rows here.
+        for (int c = 0; c < r.count; ++c)
+          for (std::size_t e = rowStart(r.slave(c)); e < rowStart(r.slave(c) + 1); ++e)
+            if (columns(e) < numRows) met(columns(e)) = 1;
+        for (int i = 0; i < numRows; ++i) {
+          if (!met(i)) continue;
+          enter(i);
+          for (std::size_t e = rowStart(i); e < rowStart(i + 1); ++e) {
+            const int c = couplingOf(columns(e));
+            if (c < 0 || values(e) == 0) continue;
+            F(i) -= values(e) * r.rate(c);
+            for (int m = r.start(c); m < r.start(c + 1); ++m) add(r.master(m), r.factor(m) * values(e));
             values(e) = 0;
           }
-          for (int m = first; m < last; ++m) F(r.master(m)) += r.factor(m) * F(slave);
-          F(slave) = 0;
-          // Its column to those of the masters; the graph is symmetric.
-          for (std::size_t e = rowStart(slave); e < rowStart(slave + 1); ++e) {
-            const int j = columns(e);
-            const auto at = find(rowStart, columns, j, slave);
-            if (at < 0) continue;
-            for (int m = first; m < last; ++m) add(j, r.master(m), r.factor(m) * values(at));
-            values(at) = 0;
+          leave(i);
+        }
+        // T^T of it: rows of slaves go to those of their masters, which get their part of s (e_s - c)(e_s -
+        // c)^T.
+        for (int k = 0; k < t.count; ++k) {
+          const int i = t.master(k);
+          enter(i);
+          for (int a = t.start(k); a < t.start(k + 1); ++a) {
+            const int c = t.coupling(a), slave = r.slave(c);
+            const double factor = t.factor(a), own = factor * s(slave);
+            for (std::size_t e = rowStart(slave); e < rowStart(slave + 1); ++e)
+              add(columns(e), factor * values(e));
+            F(i) += factor * F(slave) - own * r.rate(c);
+            add(slave, -own);
+            for (int m = r.start(c); m < r.start(c + 1); ++m) add(r.master(m), own * r.factor(m));
           }
+          leave(i);
         }
         for (int c = 0; c < r.count; ++c) {
-          const int slave = r.slave(c), first = r.start(c), last = r.start(c + 1);
-          const double own = s(slave);
-          add(slave, slave, own);
-          F(slave) += own * r.rate(c);
-          for (int m = first; m < last; ++m) {
-            const double factor = r.factor(m);
-            add(slave, r.master(m), -own * factor);
-            add(r.master(m), slave, -own * factor);
-            F(r.master(m)) -= own * factor * r.rate(c);
-            for (int n = first; n < last; ++n) add(r.master(m), r.master(n), own * factor * r.factor(n));
-          }
+          const int slave = r.slave(c);
+          enter(slave);
+          for (std::size_t e = rowStart(slave); e < rowStart(slave + 1); ++e) values(e) = 0;
+          F(slave) = s(slave) * r.rate(c);
+          add(slave, s(slave));
+          for (int m = r.start(c); m < r.start(c + 1); ++m) add(r.master(m), -s(slave) * r.factor(m));
+          leave(slave);
         }
       },
       missing);

@@ -38,8 +38,16 @@ class CoupledSystem {
     View<double*> factor, value, rate;
   };
 
+  /// The same by masters.
+  struct Columns {
+    int count = 0;
+    View<int*> master, start, coupling;  // start: [master + 1] into coupling
+    View<double*> factor;
+  };
+
   std::vector<Coupling> couplings_;
   Rows rows_;
+  Columns columns_;
 };
 
 }  // namespace atrapos::fem::detail

@@ -140,9 +140,11 @@ struct FeProblem::Impl {
     model.constantLoad.resize(numDofs, 0.0);
     model.initial.resize(numDofs, 0.0);
     numParameters = static_cast<int>(model.dofs.dofsWith(Role::parameter).size());
-    for (const int d : model.dofs.dofsWith(Role::multiplier)) numMultipliers += !model.supports.fixed(d);
     std::vector<Coupling> couplings;
     if (!model.couplings.empty()) couplings = model.couplings.resolved(model.dofs, model.supports);
+    for (const int d : model.dofs.dofsWith(Role::multiplier)) numMultipliers += !model.supports.fixed(d);
+    for (const Coupling& c : couplings)  // which has a row of its own
+      numMultipliers -= model.dofs.fields()[model.dofs.addressOf(c.dof).field].role == Role::multiplier;
     ranks = std::make_unique<detail::Distribution>(model, couplings, comm);
     map = mapOf(ranks->nodes(), ranks->numOwned());
     sum = DofView("sum", numLocal());

@@ -281,3 +281,94 @@ TEST(ShellOnSolid, CantileverIsTheElastica) {
     EXPECT_NEAR(-p.u[0] / 10, row[2], 1.5e-3);
   }
 }
+
+namespace {
+
+/// The strip's end turns about `axis` alone; the node with its angle.
+struct HingedEnd : RigidEnd {
+  int angle;
+
+  HingedEnd(int n, double thickness, double E, double nu, const Node& axis)
+      : RigidEnd(n, thickness, E, nu), angle(body.hinge(model, axis)) {
+    model.load.resize(model.dofs.numDofs(), 0.0);
+  }
+  int angleDof() const { return model.dofs.firstDof(angle); }
+};
+
+}  // namespace
+
+TEST(HingedEnd, TangentAndOrders) {
+  for (const Node& axis : {Node{0, 2, 0}, Node{0.2, 1, -0.3}, Node{-1, 1, 1}}) {
+    HingedEnd strip(3, 0.2, 1, 0.3, axis);
+    strip.model.load = randomNumbers(strip.model.dofs.numDofs(), 0.002, 3);
+    const Numbers u = randomState(strip.model, 0.02, 17);  // multipliers and the angle too
+    Numbers direction = randomState(strip.model, 0.02, 18);
+    keepTo(strip.model, 0, direction);
+    fem::FeProblem problem(std::move(strip.model));
+    EXPECT_TRUE(problem.symmetric());
+    EXPECT_EQ(problem.constraintPivots(), 7);
+    expectTangent(problem, u, direction, 0);
+    expectOrders(problem, u, 0.4);
+  }
+}
+
+// What turns about the axis by the unknown angle costs no force; the direction of the axis stays.
+TEST(HingedEnd, RotationCostsNoForce) {
+  const Node axis{2 / 3.0, -1 / 3.0, 2 / 3.0};
+  HingedEnd strip(3, 0.2, 1, 0.3, {2, -1, 2});
+  strip.model.supports = {};
+  const fem::RigidBody body = strip.body;
+  const ShellGrid grid = strip.grid;
+  const int angleDof = strip.angleDof(), numDofs = strip.model.dofs.numDofs();
+  fem::FeProblem problem(std::move(strip.model));
+  for (double angle : {0.3, -2.5, 7.0}) {
+    const double c = std::cos(angle), s = std::sin(angle);
+    Numbers u(numDofs, 0.0);
+    const auto turn = [&](int node, const Node& X) {  // Rodrigues
+      double along = 0;
+      for (int i = 0; i < 3; ++i) along += axis[i] * X[i];
+      for (int i = 0; i < 3; ++i) {
+        const int j = (i + 1) % 3, k = (i + 2) % 3;
+        u[3 * node + i] = c * X[i] + s * (axis[j] * X[k] - axis[k] * X[j]) + (1 - c) * along * axis[i] - X[i];
+      }
+    };
+    for (int n = 0; n < grid.numNodes(); ++n) {
+      turn(n, grid.x[n]);
+      turn(grid.director(n), grid.D(n));
+    }
+    turn(body.originNode(), {10, 0.5, 0});
+    turn(body.armNode(0), {11, 0.5, 0});
+    turn(body.armNode(1), {10, 1.5, 0});
+    turn(body.armNode(2), {10, 0.5, 1});
+    u[angleDof] = angle;
+    EXPECT_LT(largest(residual(problem, u, 0).r), 5e-13);  // displacements of 20
+  }
+}
+
+// A strip under a moment at its end is an arc of circle of curvature M/EI: 2 pi EI/L closes it. The moment
+// and the angle that is driven say the same.
+TEST(HingedEnd, MomentBendsAStripIntoACircle) {
+  const double E = 1.2e6, h = 0.1, EI = E * h * h * h / 12, full = 2 * M_PI * EI / 10;
+  for (const bool driven : {false, true}) {
+    HingedEnd strip(16, h, E, 0, {0, 1, 0});
+    const int dof = strip.angleDof(), origin = strip.body.originNode();
+    if (driven)
+      strip.model.supports.prescribe(dof, 0, -2 * M_PI);
+    else
+      strip.model.load[dof] = -full;
+    fem::FeProblem problem(std::move(strip.model));
+    path::Stops stops;
+    stops.loadFactors = {1.0};
+    const ShellPath path = followPath(problem, stops);
+    ASSERT_EQ(path.outcome.reason, path::EndReason::stopReached) << path.outcome.text;
+    const Numbers u = finalState(path);
+    // The clamp is at x = 0; strains of 3 % at the surfaces make (h kappa)^2 of difference.
+    const double small = std::pow(h * 2 * M_PI / 10, 2);
+    EXPECT_NEAR(u[dof], -2 * M_PI, 2 * M_PI * small);
+    EXPECT_NEAR(u[3 * origin], -10, 10 * small);
+    EXPECT_NEAR(u[3 * origin + 2], 0, 10 * small);
+    if (driven) {
+      EXPECT_NEAR(problem.reactions({path.outcome.final.u, 1.0})[dof], -full, full * small);
+    }
+  }
+}

@@ -449,8 +449,21 @@ TEST(Inp, TiedSurfaces) {
   apart.replace(apart.find("23, 1, 1, 1\n"), 12, "23, 1, .9, 1\n");
   const Model left = readText(apart);
   EXPECT_EQ(left.mesh.numNodes(), 16);
-  EXPECT_TRUE(
-      tells(left, "*TIE: left out, 1 of 4 nodes of 'upper' are at no node of 'lower', first node 23"));
+  EXPECT_TRUE(tells(left,
+                    "*TIE: a coupling of kind tie of the deck, 1 of 4 nodes of 'upper' are at no node of "
+                    "'lower', first node 23"));
+  const Model deck = readText(
+      apart + kSteel + "*BOUNDARY\n1, 1, 3\n2, 1, 3\n3, 1, 3\n*STEP\n*STATIC\n*CLOAD\n25, 3, 4.\n*END STEP\n",
+      Deck::yes);
+  EXPECT_NE(deck.deck.find("couplings:\n  upper: {kind: tie, set: upper, to: lower}\n"), std::string::npos)
+      << deck.deck;
+  // Of nodes alone there are no faces.
+  const std::string faces =
+      "*SURFACE, NAME=upper\n2, S1\n*NSET, NSET=head\n25, 26, 27, 28\n*NSET, NSET=seam\n21, 22, 23, 24\n";
+  std::string ofNodes = apart;
+  ofNodes.replace(ofNodes.find(faces), faces.size(),
+                  "*NSET, NSET=seam\n21, 22, 23, 24\n*SURFACE, NAME=upper, TYPE=NODE\nseam\n");
+  EXPECT_TRUE(tells(readText(ofNodes, Deck::no), "*TIE: left out, 1 of 4 nodes of 'upper'"));
   expectRefused(kTwoCubes + "*TIE, NAME=t\nupper, roof\n", Deck::no, ":32: *TIE: there is no surface 'roof'");
   expectRefused(kTwoCubes + "*SURFACE, NAME=all, TYPE=NODE\nhead\n*TIE, NAME=t\nhead, all\n" +
                     "*TIE, NAME=t\nlower, lower\n*NODE\n30, 0, 0, 1\n*ELEMENT, TYPE=C3D4\n5, 5, 6, 7, 30\n" +
@@ -485,12 +498,25 @@ TEST(Inp, RigidBodies) {
   expectIn(driven, "set: head, x: 0, y: 0, z: {per_load_factor: -0.5}");
   EXPECT_EQ(driven.find("couplings"), std::string::npos) << driven;
 
-  expectRefused(begin + body + step + load + "*BOUNDARY\n98, 1, 2\n" + end, Deck::yes,
-                "*RIGID BODY: some of its turns are held and some are not");
-  expectRefused(begin + body + step + load + "*BOUNDARY\n98, 1, 2\n98, 3, 3, .1\n" + end, Deck::yes,
-                "*RIGID BODY: a turn of it is driven");
+  // About one axis: freely under a moment, by its ROT NODE or by components 4 to 6, or driven, in radians
+  // there.
+  const std::string moment =
+      deckOf(begin + body + step + load + "*CLOAD\n98, 3, 7.\n*BOUNDARY\n98, 1, 2\n" + end);
+  expectIn(moment, "head: {kind: rigid, set: head, reference: reference_1, axis: [0, 0, 1]}");
+  expectIn(moment, "head: {type: moment, coupling: head, moment: 7}");
+  expectIn(moment, "head_angle: {type: rotation, coupling: head}");
+  const std::string alone = "*RIGID BODY, NSET=head, REF NODE=99\n";
+  EXPECT_EQ(deckOf(begin + alone + step + load + "*CLOAD\n99, 6, 7.\n*BOUNDARY\n99, 4, 5\n" + end), moment);
+  const std::string turned = deckOf(begin + body + step + "*BOUNDARY\n98, 1, 2\n98, 3, 3, .5\n" + end);
+  expectIn(turned, "axis: [0, 0, 1], angle: {per_load_factor: 28.6478897565");
+  expectIn(turned, "head_moment: {type: moment, coupling: head}");
+
+  expectRefused(begin + body + step + load + "*BOUNDARY\n98, 1, 1\n" + end, Deck::yes,
+                "*RIGID BODY: turns about more than one axis");
+  expectRefused(begin + body + step + load + "*BOUNDARY\n98, 1, 1\n98, 2, 3, .1\n" + end, Deck::yes,
+                "*RIGID BODY: turns about more than one axis");
   expectRefused(begin + body + step + "*CLOAD\n98, 3, 4.\n" + end, Deck::yes,
-                "*RIGID BODY: a moment on its ROT NODE");
+                "*RIGID BODY: a moment on a body that turns in all directions");
   expectRefused(begin + "*RIGID BODY, NSET=head, REF NODE=head\n" + step + load + end, Deck::yes,
                 "*RIGID BODY, REFNODE: names 4 nodes; expected one");
   EXPECT_TRUE(tells(readText(begin + "*RIGID BODY, ANALYTICAL SURFACE=s, REF NODE=99\n", Deck::no),

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "atrapos/fem/FeModel.hpp"
+#include "atrapos/fem/PointSet.hpp"
 
 namespace atrapos::fem {
 
@@ -33,13 +34,25 @@ class RigidBody {
   /// The node moves with the point of the body at `position` (its place at rest).
   void attach(FeModel& model, int node, const std::array<double, 3>& position) const;
 
+  /// The body turns about this direction in space (any length, not 0) alone, by an angle that is an unknown:
+  /// returns the node that has it, as the field rotationField(), in radians. Supports drive it, and what
+  /// holds them is the moment about the direction; a load there is a moment, which has a potential. Once.
+  /// Throws std::invalid_argument for a direction without a finite length.
+  int hinge(FeModel& model, const std::array<double, 3>& direction) const;
+
   /// The node carries a vector's change that turns with the body: a shell's director D.
   void attachDirector(FeModel& model, int node, const std::array<double, 3>& D) const;
 
  private:
+  /// The one point of laws whose inputs are the four points' H.
+  PointSet points() const;
+
   int firstNode_;
   std::array<double, 3> origin_;
-  double length_;
+  double length_, stiffness_;
 };
+
+/// A scalar, the angle of hinged bodies.
+Field rotationField();
 
 }  // namespace atrapos::fem
