@@ -218,6 +218,7 @@ class MeshCheck {
     nodes(path + "/set", support.set);
     inPlane(path + "/z", support.components[2] && !holds(support.condition, 2, false));
     inPlane(path + "/condition", support.condition == Support::Condition::SymmetryZ);
+    inPlane(path + "/normal", support.normal && (*support.normal)[2] != 0);
     for (std::size_t axis = 0; axis < 3; ++axis) {
       if (support.director[axis] && !holds(support.condition, axis, true) && !hasShells(support.set)) {
         fail(fmt::format("{}/director_{}", path, "xyz"[axis]),

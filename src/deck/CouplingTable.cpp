@@ -10,22 +10,6 @@ const Table<Coupling>& couplingTable() {
                                    {"equal", Kind::Equal},
                                    {"shell_on_solid", Kind::ShellOnSolid},
                                    {"tie", Kind::Tie}};
-  const auto direction = [](std::string key, std::optional<Vector3> Coupling::*member, std::string meaning) {
-    return Field<Coupling>{std::move(key),
-                           false,
-                           "a list of 3 numbers, not all zero",
-                           std::move(meaning),
-                           [=](const Value& v, Coupling& c) {
-                             const auto x = v.reals(3);
-                             c.*member = Vector3{x[0], x[1], x[2]};
-                             if (x[0] == 0 && x[1] == 0 && x[2] == 0) {
-                               v.fail("must not be the zero vector");
-                             }
-                           },
-                           [=](const Coupling& c) {
-                             return c.*member ? Node{yamlList(*(c.*member)), {}} : Node{};
-                           }};
-  };
   static const Field<Coupling> angle{
       "angle",
       false,
@@ -41,10 +25,11 @@ const Table<Coupling>& couplingTable() {
   static const Table<Coupling> table{
       choice("kind", required, &Coupling::kind, kinds, "what the nodes keep to"),
       name("set", required, &Coupling::set, "a node set or side set, name or id", "nodes that move together"),
-      direction("normal", &Coupling::normal, "of a plane: the nodes keep one displacement along it"),
+      direction<Coupling>("normal", &Coupling::normal,
+                          "of a plane: the nodes keep one displacement along it"),
       name("reference", optional, &Coupling::reference, "a node set of one node, name or id",
            "of a rigid body: a point of it, where supports and loads may be; no cell need have it"),
-      direction("axis", &Coupling::axis, "of a rigid body: it turns about this direction alone"),
+      direction<Coupling>("axis", &Coupling::axis, "of a rigid body: it turns about this direction alone"),
       angle,
       name("to", optional, &Coupling::to, "a side set, name or id", "of a tie: the surface that leads"),
       real("reach", &Coupling::reach, check::positive,

@@ -214,8 +214,9 @@ struct Prescribed {
 };
 
 struct Support {
-  /// What holds at zero: clamped all of v and w, hinged v, symmetry that component of both.
-  enum class Condition { None, Clamped, Hinged, SymmetryX, SymmetryY, SymmetryZ };
+  /// What holds at zero: clamped all of v and w, hinged v, symmetry that component of both, along the normal
+  /// where it names no axis.
+  enum class Condition { None, Clamped, Hinged, SymmetryX, SymmetryY, SymmetryZ, Symmetry };
   std::string name;
   std::string set;  ///< node set, else side set; name or id
   /// The condition's components are in the two lists below already.
@@ -224,7 +225,8 @@ struct Support {
   /// x, y, z of the displacement w of the directors of shells at these nodes; empty = free
   std::array<std::optional<Prescribed>, 3> director{};
   std::string field;                ///< a scalar one, which is held in place of displacements; empty = none
-  std::optional<Prescribed> value;  ///< of it
+  std::optional<Vector3> normal;    ///< in place of components: the direction of what is held; not zero
+  std::optional<Prescribed> value;  ///< of the field, or of the displacement along the normal; empty: 0
   bool released = false;            ///< by a stage: holds nothing any more
 };
 

@@ -402,6 +402,14 @@ void checkMonitor(const Value& v, const Monitor& monitor, const Deck& deck) {
       }
       return;
     }
+    if (support.normal) {
+      if (v.has("component")) {
+        v.at("component")
+            .fail(fmt::format("support '{}' holds along its normal alone; its reaction is the force along it",
+                              support.name));
+      }
+      return;
+    }
     if (!v.has("component")) {
       v.failMissing("component", "one of x, y, z");
     }
@@ -505,7 +513,10 @@ namespace {
 /// A released support is there once, and has not gone before.
 void checkRelease(const Value& v, const Deck& deck, std::vector<std::string>& gone) {
   for (const std::string& name : v.names()) {
-    find(v, name, deck.supports, "supports");
+    if (find(v, name, deck.supports, "supports").normal) {
+      v.fail(fmt::format("support '{}' holds along a normal, which stays; released are supports along axes",
+                         name));
+    }
     if (std::find(gone.begin(), gone.end(), name) != gone.end()) {
       v.fail(fmt::format("'{}' has been released by a stage before", name));
     }

@@ -92,7 +92,7 @@ const Table<Deck>& deckTable() {
     materials.unless = "physics";
     auto supports = entries("supports", required, &Deck::supports, supportTable(),
                             "each with set and any of condition, x, y, z, director_x, director_y, "
-                            "director_z, or field and value",
+                            "director_z, or normal, or field and value",
                             "prescribed displacements, or values of a field");
     supports.unless = "physics";
     supports.read = [inner = supports.read](const Value& v, Deck& deck) {
@@ -108,13 +108,23 @@ const Table<Deck>& deckTable() {
         if (!s.field.empty() && !s.value) {
           support.failMissing("value", "what the field is held at");
         }
-        if (s.field.empty() && s.value) {
-          support.failMissing("field", "the name of the field with this value");
+        if (s.normal && (moves || !s.field.empty())) {
+          support.at("normal").fail("stands beside what else is held; expected a support of its own");
         }
-        if (s.field.empty() && !moves) {
+        const bool symmetry = s.condition == Support::Condition::Symmetry;
+        if (symmetry && !s.normal) {
+          support.failMissing("normal", "that of the plane of symmetry, a list of 3 numbers, not all zero");
+        }
+        if (symmetry && s.value) {
+          support.at("value").fail("stands beside condition: symmetry, which holds at 0");
+        }
+        if (s.field.empty() && !s.normal && s.value) {
+          support.failMissing("field", "the name of the field with this value, or normal, a direction");
+        }
+        if (s.field.empty() && !s.normal && !moves) {
           support.fail(
               "holds nothing; expected at least one of x, y, z, condition, director_x, director_y, "
-              "director_z, or field and value");
+              "director_z, or normal, or field and value");
         }
       }
     };

@@ -44,6 +44,24 @@ Alternative<decltype(Load::load)> inflowAlternative();
 Alternative<decltype(Load::load)> pluginLoadAlternative();
 Field<Deck> pluginsField();
 const Table<Support>& supportTable();
+/// A vector of any length but 0.
+template <class S>
+Field<S> direction(std::string key, std::optional<Vector3> S::*member, std::string meaning) {
+  return {std::move(key),
+          false,
+          "a list of 3 numbers, not all zero",
+          std::move(meaning),
+          [=](const Value& v, S& s) {
+            const auto x = v.reals(3);
+            s.*member = Vector3{x[0], x[1], x[2]};
+            if (x[0] == 0 && x[1] == 0 && x[2] == 0) {
+              v.fail("must not be the zero vector");
+            }
+          },
+          [=](const S& s) {
+            return s.*member ? Node{yamlList(*(s.*member)), {}} : Node{};
+          }};
+}
 const Table<Coupling>& couplingTable();
 /// A number, a formula of x, y, z or a map with value and per_load_factor.
 Prescribed prescribed(const Value& v);

@@ -472,8 +472,9 @@ const Variants<Monitor, decltype(Monitor::quantity)>& monitorVariants() {
        alternative<V, ReactionMonitor>(
            "reaction", {name("support", required, &ReactionMonitor::support, "the name of a support",
                              "whose force on the body"),
-                        anyAxis<ReactionMonitor>("which force; a support of a field has an inflow and "
-                                                 "no components")}),
+                        anyAxis<ReactionMonitor>(
+                            "which force; a support of a field has an inflow, one with a normal the force "
+                            "along it, and no components")}),
        alternative<V, FieldMonitor>(
            "field",
            {name("field", required, &FieldMonitor::field, "the name of a field", "which field"),

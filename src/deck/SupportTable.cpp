@@ -8,11 +8,10 @@ using Condition = Support::Condition;
 using Components = std::array<std::optional<Prescribed>, 3> Support::*;
 
 const Choices<Condition>& conditions() {
-  static const Choices<Condition> choices{{"clamped", Condition::Clamped},
-                                          {"hinged", Condition::Hinged},
-                                          {"symmetry_x", Condition::SymmetryX},
-                                          {"symmetry_y", Condition::SymmetryY},
-                                          {"symmetry_z", Condition::SymmetryZ}};
+  static const Choices<Condition> choices{
+      {"clamped", Condition::Clamped},      {"hinged", Condition::Hinged},
+      {"symmetry_x", Condition::SymmetryX}, {"symmetry_y", Condition::SymmetryY},
+      {"symmetry_z", Condition::SymmetryZ}, {"symmetry", Condition::Symmetry}};
   return choices;
 }
 
@@ -75,7 +74,7 @@ Field<Support> fieldValue() {
   return {"value",
           false,
           prescribedText,
-          "what the field is held at",
+          "what the field, or the displacement along the normal, is held at",
           [](const Value& v, Support& s) { s.value = prescribed(v); },
           [](const Support& s) { return s.value ? printed(*s.value) : Node{}; }};
 }
@@ -126,6 +125,7 @@ Node printed(const Prescribed& p) {
 bool holds(Support::Condition condition, std::size_t axis, bool director) {
   switch (condition) {
     case Support::Condition::None:
+    case Support::Condition::Symmetry:
       return false;
     case Support::Condition::Clamped:
       return true;
@@ -151,6 +151,8 @@ const Table<Support>& supportTable() {
       component(0, true),
       component(1, true),
       component(2, true),
+      direction<Support>("normal", &Support::normal,
+                         "in place of x, y, z: what is held is the displacement along it"),
       name("field", optional, &Support::field, "the name of a field",
            "a scalar field that is held here in place of displacements"),
       fieldValue()};

@@ -13,17 +13,19 @@
 #include "import/DeckText.hpp"
 #include "import/Import.hpp"
 #include "import/InpMaterials.hpp"
+#include "import/InpTransforms.hpp"
 #include "import/ShellSupports.hpp"
 
 namespace atrapos::importer {
 namespace {
 
 constexpr std::size_t mostMonitors = 12;
+constexpr std::size_t mostDirections = 1000;  // each is an entry of the deck
 
 class DeckMaker {
  public:
   DeckMaker(InpModel& model, const InpStep& step, const InpRigidMotions& rigid, InpMesh& mesh)
-      : model_(model), step_(step), rigid_(rigid), mesh_(mesh) {}
+      : model_(model), step_(step), rigid_(rigid), transforms_(model), mesh_(mesh) {}
 
   std::string operator()() {
     addMaterials();
@@ -113,11 +115,12 @@ class DeckMaker {
     const ShellSupports shells(model_);
     std::map<std::string, std::pair<std::vector<int>, std::set<int>>>
         groups;  // keys: nodes, components that move
-    for (const auto& [node, support] : step_.supports) {
+    for (auto [node, support] : step_.supports) {
       if (mesh_.nodeAt[static_cast<std::size_t>(node)] < 0) {
         tellOnce(support.place, "*BOUNDARY: left out for nodes that no element of the mesh has");
         continue;
       }
+      addAlongOwnAxes(node, support);
       std::set<int> moving;
       const std::string keys = keysOf(node, support, shells, moving);
       if (keys.empty()) continue;
@@ -125,6 +128,7 @@ class DeckMaker {
       group.first.push_back(node);
       group.second = moving;
     }
+    addInclined();
     for (const auto& [keys, group] : groups) {
       const std::string set = mesh_.nodeSet(group.first, fmt::format("support_{}", supports_.size() + 1));
       const std::string name = supports_.add(set, fmt::format("set: {}, {}", deck::yaml(set), keys));
@@ -137,6 +141,51 @@ class DeckMaker {
     if (supports_.size() == 0)
       throw Error(
           fmt::format("{}: has no *BOUNDARY for nodes of the mesh, which a deck needs", *model_.file));
+  }
+
+  /// Takes what is held along a node's own axes (*TRANSFORM) from its support.
+  void addAlongOwnAxes(int node, InpSupport& support) {
+    const InpTransforms::Axes* const axes = transforms_.find(node);
+    if (axes == nullptr) return;
+    InpSupport own;
+    std::copy(support.value.begin() + 3, support.value.end(), own.value.begin() + 3);
+    for (std::size_t d = 0; d < 3; ++d) {
+      const InpTransforms::Vector& along = (*axes)[d];
+      if (!support.value[d]) continue;
+      const auto axis =
+          std::find_if(along.begin(), along.end(), [](double x) { return std::abs(x) > 1 - 1e-12; });
+      if (axis != along.end()) {  // one of the model
+        own.value[static_cast<std::size_t>(axis - along.begin())] = std::round(*axis) * *support.value[d];
+        continue;
+      }
+      inclined_[{along, *support.value[d]}].push_back(node);
+      if (inclined_.size() > mostDirections)
+        support.place.fail(fmt::format(
+            "*TRANSFORM: supports along more than {} directions, which is the most", mostDirections));
+    }
+    support.value = own.value;
+    const auto held = std::count_if(support.value.begin() + 3, support.value.end(),
+                                    [](const auto& v) { return v.has_value(); });
+    if (held == 1 || held == 2) {
+      tellOnce(support.place,
+               "*BOUNDARY: rotations about axes of *TRANSFORM are left out, but for all three");
+      std::fill(support.value.begin() + 3, support.value.end(), std::nullopt);
+    }
+  }
+
+  void addInclined() {
+    for (const auto& [along, nodes] : inclined_) {
+      const auto& [direction, value] = along;
+      const std::string set = mesh_.nodeSet(nodes, fmt::format("support_{}", supports_.size() + 1));
+      if (set.empty()) continue;
+      std::string keys = fmt::format("set: {}, normal: [{:.12g}, {:.12g}, {:.12g}]", deck::yaml(set),
+                                     direction[0], direction[1], direction[2]);
+      if (value != 0) keys += fmt::format(", value: {{per_load_factor: {}}}", value);
+      const std::string name = supports_.add(set, keys);
+      if (value == 0) continue;
+      loaded_ = true;
+      monitor(name + "_force", fmt::format("type: reaction, support: {}", name));
+    }
   }
 
   /// What a deck says of this node's support.
@@ -203,6 +252,7 @@ class DeckMaker {
         ++lost;
         continue;
       }
+      force = transforms_.inModel(node, force);
       if (dimension() == 2 && force[2] != 0) {
         tellOnce(step_.place, "*CLOAD: forces along z on a plane body are left out");
         force[2] = 0;
@@ -331,7 +381,10 @@ class DeckMaker {
   InpModel& model_;
   const InpStep& step_;
   const InpRigidMotions& rigid_;
+  const InpTransforms transforms_;
   InpMesh& mesh_;
+  /// By direction and value: nodes that are held along no axis of the model.
+  std::map<std::pair<InpTransforms::Vector, double>, std::vector<int>> inclined_;
   std::set<std::string> told_;
   bool loaded_ = false;  ///< something depends on the load factor
   DeckEntries materials_, membranes_, bars_, supports_, couplings_, loads_, monitors_;
@@ -351,10 +404,6 @@ std::vector<std::vector<int>> inpCuts(const InpStep& step) {
 }
 
 std::string inpDeck(InpModel& model, const InpStep& step, const InpRigidMotions& rigid, InpMesh& mesh) {
-  for (const InpCard* card : model.transforms)
-    card->place.fail(
-        "*TRANSFORM: supports and forces along axes of their own have no equal; import without --deck makes "
-        "the mesh");
   return DeckMaker(model, step, rigid, mesh)();
 }
 

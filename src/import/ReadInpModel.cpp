@@ -274,7 +274,7 @@ class ModelReader {
       if (material_ == nullptr) card.place.fail(fmt::format("*{}: is before the first *MATERIAL", k));
       return material_->cards.push_back(&card);
     }
-    if (k == "TRANSFORM") model_.transforms.push_back(&card);
+    if (k == "TRANSFORM") return model_.transforms.push_back(&card);
     model_.remark(card.place, fmt::format("*{}: left out", deck::shortened(k)));
   }
 

@@ -38,7 +38,7 @@ void ModelMaker::addContacts() {
   const BodySize body = bodySize();
   // A body that only its contacts hold needs the law of far points too.
   const bool heldByContacts =
-      !fem::freeBodies(mesh_, made_.model.dofs, made_.model.supports, {}, &shells_.geometry, joinedNodes())
+      !fem::freeBodies(mesh_, made_.model.dofs, made_.model.supports, held_, &shells_.geometry, joinedNodes())
            .empty();
   for (const deck::Contact& contact : deck_.contacts) {
     const auto position = std::find_if(deck_.tools.begin(), deck_.tools.end(),

@@ -117,6 +117,15 @@ ModelMaker::SolidSide ModelMaker::solidNodesAt(const deck::Coupling& coupling, i
 void ModelMaker::addHinge(const deck::Coupling& coupling, const fem::RigidBody& body) {
   if (!coupling.axis) return;
   const int node = body.hinge(made_.model, *coupling.axis);
+  // No turn across the axis, and none about it where its angle is given.
+  const deck::Vector3& a = *coupling.axis;
+  const double square = a[0] * a[0] + a[1] * a[1] + a[2] * a[2];
+  for (int i = 0; i < 3; ++i) {
+    fem::HeldDirection held{nodesOf(mesh_, coupling.set).front(), {}, true};
+    for (int j = 0; j < 3; ++j)
+      held.direction[j] = (i == j ? 1 : 0) - (coupling.angle ? 0 : a[i] * a[j] / square);
+    held_.push_back(held);
+  }
   made_.hinges[coupling.name] = node;
   if (const auto& angle = coupling.angle)
     made_.model.prescribe(node, 0, angle->value * kDegree, angle->perLoadFactor * kDegree);

@@ -10,6 +10,7 @@
 #include <map>
 #include <set>
 
+#include "atrapos/fem/HeldAlong.hpp"
 #include "atrapos/fem/ReferenceCell.hpp"
 #include "atrapos/fem/RigidBody.hpp"
 #include "atrapos/fem/ShellFaces.hpp"
@@ -34,6 +35,7 @@ SceneModel ModelMaker::make() {
   addPluginLaws();
   giveRanks();
   addSupports();
+  addInclinedSupports();
   addCouplings();
   if (!shells_.empty()) made_.joints = joinShells(deck_, mesh_, shells_, made_.model);
   addLoads();
@@ -200,6 +202,7 @@ void ModelMaker::addSupports() {
     return formula(&mesh_.coordinates[3 * static_cast<std::size_t>(node)]);
   };
   for (const deck::Support& support : deck_.supports) {
+    if (support.normal) continue;  // once the others are there
     const auto prescribe = [&](int node, int component, const deck::Prescribed& p,
                                const std::string& of = {}) {
       if (support.released)
@@ -237,8 +240,58 @@ void ModelMaker::addSupports() {
   }
 }
 
+void ModelMaker::addInclinedSupports() {
+  const auto scale = [](fem::HeldDirection& held) {  // to length 1
+    const double length = std::hypot(held.direction[0], held.direction[1], held.direction[2]);
+    for (double& x : held.direction) x /= length > 0 ? length : 1;
+  };
+  std::vector<fem::HeldAlong> conditions;
+  std::vector<const deck::Support*> of;  // of those on nodes of the mesh; of directors null
+  for (const deck::Support& support : deck_.supports) {
+    if (!support.normal) continue;
+    const deck::Vector3& n = *support.normal;
+    const deck::Prescribed p = support.value.value_or(deck::Prescribed{});
+    const auto at = [&](double number, const std::string& text) -> std::function<double(const double*)> {
+      if (text.empty()) return [number](const double*) { return number; };
+      return physics::ofPlace(text, deck_.constants);
+    };
+    const auto value = at(p.value, p.valueFormula), rate = at(p.perLoadFactor, p.perLoadFactorFormula);
+    for (const int node : nodesOf(mesh_, support.set)) {
+      if (made_.model.dofs.firstFieldSize(node) != mesh_.dimension)
+        fail("supports/" + support.name + "/set",
+             fmt::format("node {} has no displacement: its blocks have no material", mesh_.nodeNumber(node)));
+      const double* const X = &mesh_.coordinates[3 * static_cast<std::size_t>(node)];
+      conditions.push_back({node, n, value(X), rate(X)});
+      of.push_back(&support);
+      if (support.condition == deck::Support::Condition::Symmetry)
+        for (const int director : shells_.geometry.directorNodes(node)) {
+          conditions.push_back({director, n});
+          of.push_back(nullptr);
+          // omega x D has no part along n.
+          const double* const D =
+              &shells_.geometry
+                   .directors[3 * static_cast<std::size_t>(director - shells_.geometry.numMeshNodes)];
+          held_.push_back({node,
+                           {D[1] * n[2] - D[2] * n[1], D[2] * n[0] - D[0] * n[2], D[0] * n[1] - D[1] * n[0]},
+                           true});
+          scale(held_.back());
+        }
+      held_.push_back({node, {n[0], n[1], n[2]}});
+      scale(held_.back());
+    }
+  }
+  const auto forces = made("supports", [&] { return fem::holdAlong(made_.model, conditions); });
+  for (std::size_t c = 0; c < of.size(); ++c)
+    if (of[c] != nullptr) {
+      const deck::Vector3& n = *of[c]->normal;
+      const double length = std::hypot(n[0], n[1], n[2]);
+      made_.normalForces[of[c]->name].push_back(
+          {conditions[c].node, {n[0] / length, n[1] / length, n[2] / length}, forces[c]});
+    }
+}
+
 void ModelMaker::requireSupport() const {
-  std::vector<fem::HeldDirection> held;
+  std::vector<fem::HeldDirection> held = held_;
   if (plane_ && plane_->kind == solid::PlaneSection::Kind::axisymmetric)  // rings resist whatever is radial
     for (int n = 0; n < mesh_.numNodes(); ++n) held.push_back({n, {1, 0, 0}});
   for (const ContactPoints& contact : made_.contacts)
@@ -268,7 +321,7 @@ void ModelMaker::requireSupport() const {
 }
 
 void ModelMaker::requireEffect() const {
-  if (made_.model.supports.driven()) return;
+  if (made_.model.supports.driven() || made_.model.couplings.driven()) return;
   for (const deck::Support& support : deck_.supports)
     if (support.released) return;  // by this stage, or the deck's stages have been looked at
   for (const ContactPoints& contact : made_.contacts)

@@ -53,6 +53,7 @@ class ModelMaker {
   fem::PointSet materialPoints(const fem::Block& block, const fem::Tabulation& cell) const;
   void giveRanks();
   void addSupports();
+  void addInclinedSupports();
   void requireSupport() const;
   void requireEffect() const;
 
@@ -125,6 +126,7 @@ class ModelMaker {
   const std::optional<solid::PlaneSection>& plane_;
   const SceneTools& tools_;
   const std::map<int, solid::ThinSection> thin_;  ///< by block
+  std::vector<fem::HeldDirection> held_;          ///< by supports with a normal and axes of rigid bodies
   std::vector<std::pair<int, int>> tied_;         ///< nodes of ties, each with one that it follows
   SceneModel made_;
 };

@@ -152,7 +152,7 @@ std::vector<std::vector<double>> ResultFields::nodalValues(const SceneState& sta
     }
   }
   if (writes(deck::OutputField::Reaction)) {
-    const std::vector<double>& reactions = state.reactions();
+    const std::vector<double> reactions = scene_.reactions(state);
     split(body_ ? body_->forces(shells_.geometry, reactions) : reactions);
   }
   if (writes(deck::OutputField::Contact) && !scene_.contacts().empty())

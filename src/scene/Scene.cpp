@@ -49,6 +49,7 @@ fem::FeModel Scene::makeModel() {
   contacts_ = std::move(made.contacts);
   shells_.joints = std::move(made.joints);
   ties_ = std::move(made.ties);
+  normalForces_ = std::move(made.normalForces);
   hinges_ = std::move(made.hinges);
   made.model.dofName = [this, dofs = made.model.dofs](int dof) { return dofName(dofs, dof); };
   return std::move(made.model);

@@ -77,6 +77,9 @@ class Scene {
   SceneState at(const path::State& state) const { return {*problem_, state}; }
 
   std::vector<std::string> monitorNames() const;
+  /// The forces of all supports on the nodes, [3 node + component] and of directors behind them.
+  std::vector<double> reactions(const SceneState& state) const;
+
   /// Values of the monitors, in the deck's order.
   std::vector<double> monitors(const SceneState& state) const;
 
@@ -125,7 +128,8 @@ class Scene {
   std::vector<BodyBlock> bodies_;  ///< [block]
   std::vector<ContactPoints> contacts_;
   std::vector<TiedSurfaces> ties_;
-  std::map<std::string, int> hinges_;  ///< SceneModel::hinges
+  std::map<std::string, std::vector<NormalForce>> normalForces_;  ///< SceneModel::normalForces
+  std::map<std::string, int> hinges_;                             ///< SceneModel::hinges
   /// [monitor] weights of a monitor of displacements or a field over the unknowns; null for the others
   std::vector<linear::RCP<path::Vector>> unknownWeights_;
   /// [monitor][term][point] of the contact that a monitor with `near` watches; empty for the others

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <map>
 #include <string>
 #include <vector>
@@ -7,6 +8,7 @@
 #include "atrapos/contact/NearContact.hpp"
 #include "atrapos/contact/RigidTool.hpp"
 #include "atrapos/fem/FeModel.hpp"
+#include "atrapos/fem/HeldAlong.hpp"
 #include "atrapos/fem/PointSet.hpp"
 #include "atrapos/fem/ShellJoints.hpp"
 #include "scene/ContactPressure.hpp"
@@ -59,6 +61,13 @@ struct TiedSurfaces {
   double gap = 0;           ///< the largest between the surfaces
 };
 
+/// What a support with a normal holds a node with.
+struct NormalForce {
+  int node = 0;
+  std::array<double, 3> normal{};  ///< of length 1
+  fem::ForceAlong force;
+};
+
 /// What a deck and its mesh become: the terms, and where those of each block and contact are among them.
 struct SceneModel {
   fem::FeModel model;
@@ -66,6 +75,7 @@ struct SceneModel {
   std::vector<ContactPoints> contacts;
   fem::ShellJoints joints;  ///< folds and branches of shells
   std::vector<TiedSurfaces> ties;
+  std::map<std::string, std::vector<NormalForce>> normalForces;  ///< by support with a normal
   std::map<std::string, int> hinges;  ///< by coupling: the node of a rigid body's angle
 };
 

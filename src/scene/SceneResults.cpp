@@ -71,6 +71,13 @@ std::vector<std::vector<double>> weightsNear(const ContactPoints& contact,
   return weights;
 }
 
+/// A force along a direction.
+double along(const fem::ForceAlong& force, const SceneState& state) {
+  double sum = 0;
+  for (const fem::CoupledDof& part : force) sum += part.factor * state.slaveForces()[part.dof];
+  return sum;
+}
+
 }  // namespace
 
 template <class Monitor>
@@ -185,6 +192,17 @@ std::array<double, 3> Scene::contactResultant(const ContactPoints& contact, cons
   return resultant;
 }
 
+std::vector<double> Scene::reactions(const SceneState& state) const {
+  std::vector<double> all = state.reactions();
+  for (const auto& support : normalForces_)
+    for (const NormalForce& at : support.second) {
+      const double force = along(at.force, state);
+      for (std::size_t i = 0; i < 3; ++i)
+        all[3 * static_cast<std::size_t>(at.node) + i] += force * at.normal[i];
+    }
+  return all;
+}
+
 std::vector<double> Scene::monitors(const SceneState& state) const {
   std::vector<double> result;
   struct Evaluator {
@@ -234,6 +252,10 @@ std::vector<double> Scene::monitors(const SceneState& state) const {
         const fem::DofMap& dofs = scene.problem_->model().dofs;
         const int field = dofs.find(support.field);
         for (int n : nodesOf(scene.mesh_, support.set)) sum += state.supportForces()[dofs.dof(field, n, 0)];
+        return sum;
+      }
+      if (support.normal) {
+        for (const NormalForce& at : scene.normalForces_.at(support.name)) sum += along(at.force, state);
         return sum;
       }
       const int i = componentIndex(*m.component);

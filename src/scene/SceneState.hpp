@@ -28,6 +28,12 @@ class SceneState {
     return *supportForces_;
   }
 
+  /// FeProblem::slaveForces
+  const std::vector<double>& slaveForces() const {
+    if (!slaveForces_) slaveForces_ = problem_.slaveForces(state_);
+    return *slaveForces_;
+  }
+
   // Vectors in space of all nodes (DofMap::vectors), [3 node + component]:
 
   /// displacements, and changes of directors,
@@ -60,7 +66,8 @@ class SceneState {
 
   const fem::FeProblem& problem_;
   path::State state_;
-  mutable std::optional<std::vector<double>> values_, supportForces_, displacements_, reactions_;
+  mutable std::optional<std::vector<double>> values_, supportForces_, slaveForces_, displacements_,
+      reactions_;
   mutable std::map<int, fem::PointValues> observed_;
   mutable std::map<int, std::vector<double>> forces_;
 };

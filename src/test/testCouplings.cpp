@@ -9,6 +9,7 @@
 
 #include "atrapos/exodus/MeshFile.hpp"
 #include "atrapos/fem/StructuredMesh.hpp"
+#include "atrapos/fem/StructuredPlane.hpp"
 #include "atrapos/fem/StructuredShell.hpp"
 #include "support/Command.hpp"
 #include "support/Folder.hpp"
@@ -345,6 +346,151 @@ TEST_F(CouplingsTest, TiesHoldAndAreNamed) {
     EXPECT_EQ(r.exitCode, 2);
     EXPECT_NE(r.err.find(words.substr(0, words.find("node 1 is"))), std::string::npos) << r.err;
   }
+}
+
+// Thirty degrees of a thick tube between a plane x = 0 and an inclined one, under pressure p: Lame's
+// displacements, and each plane bears p a L. The ends hold y on both.
+TEST_F(CouplingsTest, InclinedPlaneOfSymmetry) {
+  const std::string wedge = R"(mesh:
+  file: wedge.exo
+  generate: {shape: cylinder_panel, mid_radius: 2, thickness: 2, theta: [0, 30], length: 0.5, divisions: [3, 1, 6], cell: HEX20, block: b}
+materials:
+  steel: {law: saint_venant_kirchhoff, youngs_modulus: 1000, poissons_ratio: 0.3, blocks: [b]}
+supports:
+  straight: {set: theta_min, x: 0}
+  inclined: {set: theta_max, condition: symmetry, normal: [1.7320508075688772, 0, -1]}
+  ends: {set: y_min, y: 0}
+  others: {set: y_max, y: 0}
+loads:
+  p: {type: surface, set: inner, pressure: 1.0e-4}
+path:
+  stop: {load_factor: 1}
+output:
+  points_per_step: 1
+  monitors:
+    straight: {type: reaction, support: straight, component: x}
+    inclined: {type: reaction, support: inclined}
+    inner: {type: displacement, set: theta_min, component: z, near: [0, 0, 1]}
+)";
+  writeFile(folder_ / "deck.yaml", wedge);
+  ASSERT_EQ(runAtrapos({"mesh", "-q", "deck.yaml"}, folder_.path()).exitCode, 0);
+  const double k = 1e-4 / (3 * 3 - 1), lame = 1.3 / 1000 * k * (0.4 + 9);
+  for (const int ranks : {1, 2}) {
+    const CommandResult r = runAtraposOnRanks(ranks, {"run", "-q", "-o", "out", "deck.yaml"}, folder_.path());
+    ASSERT_EQ(r.exitCode, 0) << r.err;
+    const auto end = lastRow(readFile(folder_ / "out" / "path.csv"));
+    EXPECT_NEAR(end.at("straight"), -0.5e-4, 1e-6 * 0.5e-4);  // strains of 1e-7
+    EXPECT_NEAR(end.at("inclined"), 0.5e-4, 1e-6 * 0.5e-4);
+    EXPECT_NEAR(end.at("inner"), lame, 1e-3 * lame);
+  }
+  const auto refused = [&](const std::string& from, const std::string& to, const std::string& words) {
+    writeFile(folder_ / "deck.yaml", edited(wedge, from, to));
+    const CommandResult r = runAtrapos({"run", "-q", "-o", "out", "deck.yaml"}, folder_.path());
+    EXPECT_EQ(r.exitCode, 2);
+    EXPECT_NE(r.err.find(words), std::string::npos) << r.err;
+  };
+  refused("normal: [1.7320508075688772, 0, -1]", "x: 0", "supports/inclined/normal: is missing");
+  refused("normal: [1.7320508075688772, 0, -1]", "normal: [0, 0, 0]",
+          "supports/inclined/normal: must not be the zero vector");
+  refused("condition: symmetry, normal: [1.7320508075688772, 0, -1]", "normal: [1, 0, -1], x: 0",
+          "supports/inclined/normal: stands beside what else is held");
+  refused("normal: [1.7320508075688772, 0, -1]", "normal: [1, 0, -1], value: 1",
+          "supports/inclined/value: stands beside condition: symmetry");
+  refused("{type: reaction, support: inclined}", "{type: reaction, support: inclined, component: x}",
+          "output/monitors/inclined/component: support 'inclined' holds along its normal alone");
+  refused("others: {set: y_max, y: 0}",
+          "others: {set: y_max, y: 0}\n  more: {set: y_max, normal: [0, 2, 0], value: 1}",
+          "supports: displacement x of node");
+}
+
+// A block on a slide of 45 degrees, pulled along it, moves along it and nowhere else: what is held along two
+// directions at a node, one of them driven, and the directions' forces.
+TEST_F(CouplingsTest, DrivenAlongASlide) {
+  writeFile(folder_ / "deck.yaml", R"(mesh:
+  file: block.exo
+  generate: {shape: box, lengths: [2, 1, 1], divisions: [2, 1, 1], cell: HEX27, block: b}
+materials:
+  steel: {law: saint_venant_kirchhoff, youngs_modulus: 1000, poissons_ratio: 0, blocks: [b]}
+supports:
+  fixed: {set: x_min, x: 0, y: 0, z: 0}
+  pull: {set: x_max, normal: [1, 1, 0], value: {per_load_factor: 1.0e-6}}
+  across: {set: x_max, normal: [1, -2, 0]}
+  level: {set: x_max, z: 0}
+path:
+  stop: {load_factor: 1}
+output:
+  monitors:
+    ux: {type: displacement, set: x_max, component: x}
+    uy: {type: displacement, set: x_max, component: y}
+    pull: {type: reaction, support: pull}
+    across: {type: reaction, support: across}
+    fx: {type: reaction, support: fixed, component: x}
+    fy: {type: reaction, support: fixed, component: y}
+)");
+  ASSERT_EQ(runAtrapos({"mesh", "-q", "deck.yaml"}, folder_.path()).exitCode, 0);
+  const CommandResult r = runAtrapos({"run", "-q", "-o", "out", "deck.yaml"}, folder_.path());
+  ASSERT_EQ(r.exitCode, 0) << r.err;
+  const auto end = lastRow(readFile(folder_ / "out" / "path.csv"));
+  // (ux + uy)/sqrt(2) = 1e-6 and ux = 2 uy.
+  EXPECT_NEAR(end.at("ux"), 2e-6 * std::sqrt(2.0) / 3, 1e-12);
+  EXPECT_NEAR(end.at("uy"), 1e-6 * std::sqrt(2.0) / 3, 1e-12);
+  // Both directions' forces together are those of the other end with their sign turned.
+  EXPECT_NEAR(end.at("pull") / std::sqrt(2.0) + end.at("across") / std::sqrt(5.0), -end.at("fx"), 1e-10);
+  EXPECT_NEAR(end.at("pull") / std::sqrt(2.0) - 2 * end.at("across") / std::sqrt(5.0), -end.at("fy"), 1e-10);
+  EXPECT_GT(std::abs(end.at("fx")), 1e-4);
+}
+
+// A right-angle frame of thin strips, hinged about the normal of its plane at both ends, that slide along the
+// line between them, under end moments buckles sideways (Argyris and others; Simo and Vu-Quoc, 1986): with
+// legs of length L that are narrow at M = pi sqrt(EI GJ)/L, less what the bending in the plane before gives.
+// The corner is as wide as the legs, an error of the order of b/L that two widths extrapolate away. Half of
+// it, up to its inclined plane of symmetry.
+TEST_F(CouplingsTest, RightAngleFrameUnderEndMoments) {
+  const double L = 240, t = 0.6, E = 71240, nu = 0.31;
+  const auto criticalOf = [&](double b) {
+    fem::QuadrilateralOptions leg;
+    leg.corners = {0, -b / 2, L - b / 2, -b / 2, L + b / 2, b / 2, 0, b / 2};
+    leg.divisions = {48, 2};
+    fem::Mesh mesh = fem::quadrilateralMesh(leg);
+    mesh.dimension = 3;
+    mesh.blocks[0].topology = fem::Topology::Shell8;
+    mesh.sideSets.clear();
+    for (int n = 0; n < mesh.numNodes(); ++n)
+      if (std::hypot(mesh.coordinates[3 * n], mesh.coordinates[3 * n + 1]) < 1e-9)
+        mesh.nodeSets.push_back({"hinge", 100, {n}});
+    exodus::writeMesh(mesh, (folder_ / "leg.exo").string());
+    writeFile(folder_ / "deck.yaml", R"(mesh:
+  file: leg.exo
+materials:
+  aluminium: {law: saint_venant_kirchhoff, youngs_modulus: 71240, poissons_ratio: 0.31, blocks: [body]}
+shells:
+  sections:
+    strip: {blocks: [body], thickness: 0.6}
+supports:
+  slide: {set: hinge, normal: [1, 1, 0]}
+  plane: {set: hinge, z: 0}
+  symmetry: {set: x_max, condition: symmetry, normal: [1, -1, 0]}
+couplings:
+  end: {kind: rigid, set: x_min, reference: hinge, axis: [0, 0, 1]}
+loads:
+  moment: {type: moment, coupling: end, moment: 1000}
+path:
+  stop: {load_factor: 1, bifurcation: 1}
+output:
+  monitors:
+    angle: {type: rotation, coupling: end}
+)");
+    const CommandResult r = runAtrapos({"run", "-q", "-o", "out", "deck.yaml"}, folder_.path());
+    EXPECT_EQ(r.exitCode, 0) << r.err;
+    const double critical = 1000 * lastRow(readFile(folder_ / "out" / "points.csv")).at("load_factor");
+    const double G = E / 2 / (1 + nu), EI = E * b * t * t * t / 12,
+                 GJ = G * b * t * t * t / 3 * (1 - 0.63 * t / b), inPlane = E * t * b * b * b / 12;
+    const double narrow = M_PI * std::sqrt(EI * GJ / ((1 - EI / inPlane) * (1 - GJ / inPlane))) / L;
+    return critical / narrow;
+  };
+  const double wide = criticalOf(15), narrow = criticalOf(7.5);
+  EXPECT_NEAR(wide, 1.03, 0.01);
+  EXPECT_NEAR(2 * narrow - wide, 1, 0.01);
 }
 
 }  // namespace atrapos::test

@@ -102,7 +102,8 @@ TEST(PhysicsDeck, BadDecksAreRefusedInOneLine) {
   expectError("amount: 5*(T0 - T)", "amount: 1, constant: true", "has no meaning with type: inflow");
   expectError("set: y_max, field: T, amount", "set: top, field: T, amount", "the mesh has no side set 'top'");
   expectError("support: pole", "support: pole, component: x", "whose inflow has no components");
-  expectError("{middle: 7}", "{current: 7}", "the monitor 'current' is not of type displacement or field");
+  expectError("{middle: 7}", "{current: 7}",
+              "the monitor 'current' is not of type displacement, rotation or field");
   expectError("  monitors:\n    middle", "  fields: [stress]\n  monitors:\n    middle",
               "'stress' needs the block materials");
   expectError("value: {value: 1, per_load_factor: 2}}", "value: 1}", "no error");

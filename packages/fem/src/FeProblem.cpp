@@ -1047,6 +1047,15 @@ std::vector<double> FeProblem::reactions(const path::State& state) const {
   return r;
 }
 
+std::vector<double> FeProblem::slaveForces(const path::State& state) const {
+  impl_->imbalance(onRank(state), state.lambda);
+  impl_->ranks->collect(impl_->sum);
+  const std::vector<double> all = impl_->onAllRanks(impl_->sum);
+  std::vector<double> r(all.size(), 0.0);
+  for (const Coupling& c : impl_->model.couplings.all()) r[c.dof] = all[c.dof];
+  return r;
+}
+
 std::vector<double> FeProblem::forces(const Term& term, const path::State& state) const {
   Kokkos::deep_copy(impl_->sum, 0.0);
   const ConstDofView u = onRank(state);

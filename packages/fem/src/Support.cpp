@@ -125,8 +125,10 @@ std::vector<FreeBody> freeBodies(const Mesh& mesh, const DofMap& dofs, const Sup
   for (const HeldDirection& h : held) {
     const auto motions = rigidMotions(&mesh.coordinates[3 * h.node], centre, size);
     std::array<double, 6> row{};
-    for (int m = 0; m < 6; ++m)
-      for (int i = 0; i < 3; ++i) row[m] += h.direction[i] * motions[i][m];
+    for (int i = 0; i < 3; ++i) {
+      for (int m = 0; m < 6 && !h.turn; ++m) row[m] += h.direction[i] * motions[i][m];
+      if (h.turn) row[3 + i] = h.direction[i];
+    }
     hold(h.node, row);
   }
   std::vector<FreeBody> result;

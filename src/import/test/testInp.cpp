@@ -529,8 +529,44 @@ TEST(Inp, DecksThatWouldBeAnotherProblemAreRefused) {
   expectRefused(kCube + kSteel + step, Deck::yes, "has no *BOUNDARY");
   expectRefused(kCube + kSteel + "*BOUNDARY\n1, 1, 3\n*STEP\n*STATIC\n*END STEP\n", Deck::yes, "has no load");
   expectRefused(kCube + "*BOUNDARY\n1, 1, 3\n" + step, Deck::yes, "has no section with a material");
-  expectRefused(kCube + kSteel + "*BOUNDARY\n1, 1, 3\n*TRANSFORM, NSET=all\n1, 0, 0, 0, 1, 0\n" + step,
-                Deck::yes, ":21: *TRANSFORM");
+}
+
+// Axes of nodes: supports along what is no axis of the model get a normal, forces are turned.
+TEST(Inp, Transforms) {
+  const auto deckOf = [](const std::string& transform, const std::string& inStep) {
+    const Model model =
+        readText(kCube + kSteel + "*NSET, NSET=two\n7, 8\n*TRANSFORM, NSET=two" + transform +
+                     "*BOUNDARY\n1, 1, 3\n2, 1, 3\n4, 1, 3\n" + "*STEP\n*STATIC\n" + inStep + "*END STEP\n",
+                 Deck::yes);
+    deck::readDeckText("mesh: {file: m.exo}\n" + model.deck, "m.yaml");
+    return model.deck;
+  };
+  const auto expectIn = [](const std::string& deck, const std::string& part) {
+    EXPECT_NE(deck.find(part), std::string::npos) << part << "\n" << deck;
+  };
+  // x' along (3, 4, 0)/5: y' is (-4, 3, 0)/5.
+  const std::string turned =
+      deckOf("\n3, 4, 0, -4, 3, 0\n", "*BOUNDARY\n7, 2, 2, .5\n8, 3, 3\n*CLOAD\n8, 1, 10.\n");
+  expectIn(turned, "normal: [-0.8, 0.6, 0], value: {per_load_factor: 0.5}");
+  expectIn(turned, "_force: {type: reaction, support: ");
+  expectIn(turned, ", z: 0}");  // z' is z
+  expectIn(turned, "per_node: [6, 8, 0]");
+  // Around the axis z: node 7 is at (1, 1, 1), 8 at (0, 1, 1).
+  const std::string around =
+      deckOf(", TYPE=C\n0, 0, 0, 0, 0, 1\n", "*BOUNDARY\ntwo, 1, 1\n*CLOAD\ntwo, 2, 1.\n");
+  expectIn(around, "normal: [0.707106781187");
+  expectIn(around, ", y: 0}");
+  expectIn(around, "per_node: [-1, 0, 0]");
+  const auto refused = [](const std::string& transform, const std::string& words) {
+    expectRefused(kCube + kSteel + "*NSET, NSET=two\n7, 8\n*TRANSFORM" + transform +
+                      "*BOUNDARY\n1, 1, 3\n*STEP\n*STATIC\n*CLOAD\n7, 1, 1.\n*END STEP\n",
+                  Deck::yes, words);
+  };
+  refused("\n1, 0, 0, 0, 1, 0\n", "*TRANSFORM: has no NSET");
+  refused(", NSET=two, TYPE=S\n0, 0, 0, 0, 0, 1\n", "*TRANSFORM, TYPE=S: expected R or C");
+  refused(", NSET=two\n", "*TRANSFORM: has no line with two points");
+  refused(", NSET=two\n1, 0, 0, 2, 0, 0\n", "*TRANSFORM: its points and the origin are on one line");
+  refused(", NSET=two, TYPE=C\n1, 1, 0, 1, 1, 1\n", "*TRANSFORM: a node is on the axis");
 }
 
 TEST(Inp, LoadsAndSupportsThatDecksCannotHave) {

@@ -116,6 +116,8 @@ class FeProblem final : public path::Problem {
   /// Forces that the supports exert on the body at a state, with those of coupled dofs, zero at free dofs:
   /// [dof], on every rank.
   std::vector<double> reactions(const path::State& state) const;
+  /// [dof] the forces with which couplings hold their slaves, 0 elsewhere. Collective.
+  std::vector<double> slaveForces(const path::State& state) const;
 
   /// Nodal forces of one term at a state.
   std::vector<double> forces(const Term& term, const path::State& state) const;

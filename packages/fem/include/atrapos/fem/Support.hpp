@@ -44,10 +44,12 @@ class Supports {
   std::set<int> released_;
 };
 
-/// A direction in which something other than a support holds a node (contact with a rigid tool).
+/// A direction in which something other than a support holds a node (contact with a rigid tool), or an axis
+/// about which it keeps the body at the node from turning.
 struct HeldDirection {
   int node = 0;
   double direction[3] = {0, 0, 0};
+  bool turn = false;
 };
 
 /// A connected part of the mesh that can still move as a rigid body.
