@@ -257,6 +257,13 @@ class MeshCheck {
 
   void coupling(const Coupling& coupling) const {
     const std::string path = "couplings/" + coupling.name;
+    if (coupling.kind == Coupling::Kind::Equation) {
+      for (const EquationTerm& term : coupling.terms) {
+        nodes(path + "/terms", term.set);
+        inPlane(path + "/terms", term.unknown == "z");
+      }
+      return;
+    }
     if (coupling.kind == Coupling::Kind::Tie) {
       sides(path + "/set", coupling.set);
       sides(path + "/to", coupling.to);

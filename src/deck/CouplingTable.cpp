@@ -5,11 +5,35 @@ namespace atrapos::deck {
 
 const Table<Coupling>& couplingTable() {
   using Kind = Coupling::Kind;
-  static const Choices<Kind> kinds{{"plane", Kind::Plane},
-                                   {"rigid", Kind::Rigid},
-                                   {"equal", Kind::Equal},
-                                   {"shell_on_solid", Kind::ShellOnSolid},
-                                   {"tie", Kind::Tie}};
+  static const Choices<Kind> kinds{{"plane", Kind::Plane}, {"rigid", Kind::Rigid},
+                                   {"equal", Kind::Equal}, {"shell_on_solid", Kind::ShellOnSolid},
+                                   {"tie", Kind::Tie},     {"equation", Kind::Equation}};
+  constexpr const char* termsText = "a list of at least two lists of a set, x, y, z or a field, and a factor";
+  static const Field<Coupling> terms{
+      "terms",
+      false,
+      termsText,
+      "of an equation: factors times unknowns, whose sum is 0; the first follows",
+      [](const Value& v, Coupling& c) {
+        for (const Value& row : v.list(termsText)) {
+          const std::vector<Value> term = row.list(termsText);
+          if (term.size() != 3) {
+            row.fail("expected a set, x, y, z or a field, and a factor");
+          }
+          c.terms.push_back({term[0].name(), term[1].text(), term[2].real(check::nonzero)});
+        }
+        if (c.terms.size() < 2) {
+          v.fail(std::string("expected ") + termsText);
+        }
+      },
+      [](const Coupling& c) {
+        std::string rows;
+        for (const EquationTerm& term : c.terms) {
+          rows += fmt::format("{}[{}, {}, {}]", rows.empty() ? "" : ", ", yaml(term.set), yaml(term.unknown),
+                              yaml(term.factor));
+        }
+        return rows.empty() ? Node{} : Node{"[" + rows + "]", {}};
+      }};
   static const Field<Coupling> angle{
       "angle",
       false,
@@ -24,7 +48,9 @@ const Table<Coupling>& couplingTable() {
       [](const Coupling& c) { return c.angle ? printed(*c.angle) : Node{}; }};
   static const Table<Coupling> table{
       choice("kind", required, &Coupling::kind, kinds, "what the nodes keep to"),
-      name("set", required, &Coupling::set, "a node set or side set, name or id", "nodes that move together"),
+      name("set", optional, &Coupling::set, "a node set or side set, name or id",
+           "nodes that move together; required but for an equation"),
+      terms,
       direction<Coupling>("normal", &Coupling::normal,
                           "of a plane: the nodes keep one displacement along it"),
       name("reference", optional, &Coupling::reference, "a node set of one node, name or id",

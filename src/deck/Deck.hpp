@@ -180,7 +180,7 @@ struct ShellJoint {
     Hinge   ///< they share the displacement alone
   };
   std::string name;
-  std::string set;  ///< node set, else side set; of a tie a side set
+  std::string set;  ///< node set, else side set; of a tie a side set; of an equation empty
   Kind kind = Kind::Rigid;
 };
 
@@ -233,6 +233,13 @@ struct Support {
 /// Whether a condition holds this component (0, 1, 2) of the displacement, or of the director's displacement.
 bool holds(Support::Condition condition, std::size_t axis, bool director);
 
+/// A term of an equation: factor times an unknown of each node of a set.
+struct EquationTerm {
+  std::string set;      ///< node set, else side set
+  std::string unknown;  ///< x, y, z or a scalar field
+  double factor = 1;    ///< not 0
+};
+
 /// Nodes of a set that move together.
 struct Coupling {
   enum class Kind {
@@ -240,7 +247,8 @@ struct Coupling {
     Plane,         ///< a common displacement along `normal`; directors of shells stay in the plane
     Rigid,         ///< a rigid body of finite rotations, directors of shells with it
     ShellOnSolid,  ///< nodes of shells follow the nodes of a solid at the top and bottom of their directors
-    Tie            ///< a surface follows another one, whose mesh need not fit
+    Tie,           ///< a surface follows another one, whose mesh need not fit
+    Equation       ///< the sum of the terms is 0, for each node of their sets
   };
   std::string name;
   std::string set;  ///< node set, else side set
@@ -249,6 +257,7 @@ struct Coupling {
   std::string reference;            ///< rigid only, a node set of one node; empty: none
   std::optional<Vector3> axis;      ///< rigid only: the body turns about this direction alone; not zero
   std::optional<Prescribed> angle;  ///< with axis: how far, in degrees, numbers alone; empty: it turns freely
+  std::vector<EquationTerm> terms;  ///< equation only, two or more; the first unknown follows from the others
   std::string to;                   ///< tie only, a side set
   std::optional<double> reach;      ///< tie only: of the faces' size, > 0; empty: fem::TieOptions
 };

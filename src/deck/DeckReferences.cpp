@@ -266,6 +266,13 @@ void checkPhysics(const Value& root, const Deck& deck) {
       }
     }
   }
+  for (const auto& coupling : deck.couplings) {
+    for (const EquationTerm& term : coupling.terms) {
+      if (term.unknown != "x" && term.unknown != "y" && term.unknown != "z") {
+        requireField(root.at("couplings").entries().at(coupling.name).at("terms"), term.unknown, deck);
+      }
+    }
+  }
   for (const auto& support : deck.supports) {
     checkPrescribed(root.at("supports").entries().at(support.name), support, deck);
     if (!support.field.empty()) {

@@ -133,6 +133,18 @@ const Table<Deck>& deckTable() {
     couplings.read = [inner = couplings.read](const Value& v, Deck& deck) {
       inner(v, deck);
       for (const auto& c : deck.couplings) {
+        const bool equation = c.kind == Coupling::Kind::Equation;
+        if (equation && c.terms.empty()) {
+          v.at(c.name).failMissing("terms",
+                                   "a list of at least two lists of a set, x, y, z or a field, and a factor");
+        }
+        if (!equation && !c.terms.empty()) v.at(c.name).at("terms").fail("is for kind: equation alone");
+        if (!equation && c.set.empty()) {
+          v.at(c.name).failMissing("set", "a node set or side set, name or id");
+        }
+        if (equation && !c.set.empty()) {
+          v.at(c.name).at("set").fail("is not for kind: equation, whose terms have sets");
+        }
         const bool plane = c.kind == Coupling::Kind::Plane;
         if (plane && !c.normal) {
           v.at(c.name).failMissing("normal", "the plane's normal, a list of 3 numbers, not all zero");

@@ -231,6 +231,17 @@ class DeckMaker {
       if (c.angle != 0) monitor(name + "_moment", fmt::format("type: moment, coupling: {}", name));
       loaded_ = loaded_ || c.moment != 0 || c.angle != 0;
     }
+    for (const InpEquation& equation : model_.equations) {
+      const std::string name = fmt::format("equation_{}", couplings_.size() + 1);
+      std::string terms;
+      for (const InpEquation::Term& term : equation.terms) {
+        const std::string set = mesh_.nodeSet(term.nodes, fmt::format("{}_term", name));
+        if (!set.empty())
+          terms += fmt::format("{}[{}, {}, {}]", terms.empty() ? "" : ", ", deck::yaml(set),
+                               "xyz"[term.component], term.factor);
+      }
+      couplings_.add(name, fmt::format("kind: equation, terms: [{}]", terms));
+    }
     for (const InpTied& tie : model_.tied) {
       const std::string follows = mesh_.sideSet(*model_.surfaces.find(tie.follows), tie.follows),
                         leads = mesh_.sideSet(*model_.surfaces.find(tie.leads), tie.leads);

@@ -80,6 +80,17 @@ struct InpTied {
   std::string follows, leads;  ///< surfaces
 };
 
+/// *EQUATION: the sum of factors times displacements is 0.
+struct InpEquation {
+  struct Term {
+    std::vector<int> nodes;  ///< positions; as many as those of the first term, or one
+    int component = 0;       ///< 0 to 2
+    double factor = 1;
+  };
+  InpPlace place;
+  std::vector<Term> terms;
+};
+
 /// The part of an input file before its steps, elements and nodes by their position.
 struct InpModel {
   const std::string* file = nullptr;  ///< of the first card
@@ -96,8 +107,9 @@ struct InpModel {
   std::vector<InpSection> sections;
   InpNamed<InpMaterial> materials;
   std::vector<InpRigidBody> rigidBodies;
-  int ties = 0;                            ///< pairs of surfaces in *TIE
-  std::vector<InpTied> tied;               ///< of them
+  int ties = 0;               ///< pairs of surfaces in *TIE
+  std::vector<InpTied> tied;  ///< of them
+  std::vector<InpEquation> equations;
   std::vector<const InpCard*> boundaries;  ///< *BOUNDARY before the first step
   std::vector<const InpCard*> transforms;  ///< *TRANSFORM
   std::vector<const InpCard*> steps;       ///< from the first *STEP on

@@ -14,11 +14,18 @@ Model readInp(const std::string& file, Deck deck) {
   if (deck == Deck::yes) {
     InpStep step = readInpStep(model);
     const InpRigidMotions rigid(model, step);
-    InpMesh mesh(model, inpCuts(step), rigid.references());
+    std::vector<int> more = rigid.references();
+    for (const InpEquation& equation : model.equations)
+      for (const InpEquation::Term& term : equation.terms)
+        more.insert(more.end(), term.nodes.begin(), term.nodes.end());
+    InpMesh mesh(model, inpCuts(step), more);
     result.deck = inpDeck(model, step, rigid, mesh);
     result.mesh = std::move(mesh.mesh);
   } else {
     result.mesh = InpMesh(model, {}, {}).mesh;
+    if (!model.equations.empty())
+      model.remark(model.equations.front().place,
+                   "*EQUATION: left out, this one and those behind it are couplings of a deck (--deck)");
   }
   result.remarks = std::move(model.remarks);
   if (model.moreRemarks > 0)

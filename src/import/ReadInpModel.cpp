@@ -12,6 +12,7 @@
 #include "atrapos/fem/ReferenceCell.hpp"
 #include "deck/Characters.hpp"
 #include "import/Import.hpp"
+#include "import/InpEquations.hpp"
 #include "import/InpModel.hpp"
 #include "import/InpTies.hpp"
 
@@ -40,6 +41,8 @@ class ModelReader {
     for (const InpCard* card : cards_) readRest(*card);
     for (const InpCard* card : cards_)
       if (card->keyword == "TIE") tieInpSurfaces(model_, *card);
+    for (const InpCard* card : cards_)
+      if (card->keyword == "EQUATION") readInpEquations(model_, *card);
     assignSections();
     return std::move(model_);
   }
@@ -263,7 +266,7 @@ class ModelReader {
     if (k == "SURFACE") return readSurface(card);
     if (k == "SOLIDSECTION" || k == "SHELLSECTION" || k == "MEMBRANESECTION") return readSection(card);
     if (k == "RIGIDBODY") return readRigidBody(card);
-    if (k == "TIE") return;  // when all surfaces are there
+    if (k == "TIE" || k == "EQUATION") return;  // when all surfaces are there, and nodes that ties make one
     if (k == "BOUNDARY") return model_.boundaries.push_back(&card);
     if (k == "MATERIAL") {
       material_ = &model_.materials[nameOf(card, "NAME")];

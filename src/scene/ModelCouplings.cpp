@@ -131,6 +131,10 @@ void ModelMaker::addHinge(const deck::Coupling& coupling, const fem::RigidBody& 
     made_.model.prescribe(node, 0, angle->value * kDegree, angle->perLoadFactor * kDegree);
 }
 
+std::vector<int> ModelMaker::setOf(const deck::Coupling& coupling) const {
+  return coupling.set.empty() ? std::vector<int>{} : nodesOf(mesh_, coupling.set);
+}
+
 void ModelMaker::addTie(const deck::Coupling& coupling) {
   const std::string path = "couplings/" + coupling.name;
   fem::TieOptions options;
@@ -138,7 +142,7 @@ void ModelMaker::addTie(const deck::Coupling& coupling) {
   options.axisymmetric = plane_ && plane_->kind == solid::PlaneSection::Kind::axisymmetric;
   const fem::Tie tie =
       made(path, [&] { return fem::tieSurfaces(mesh_, sides(coupling.set), sides(coupling.to), options); });
-  for (const fem::TiedNode& node : tie.nodes) tied_.push_back({node.node, node.masters.front().node});
+  for (const fem::TiedNode& node : tie.nodes) joined_.push_back({node.node, node.masters.front().node});
   std::vector<std::string> fields;
   if (const std::string displacement = fem::displacementField().name;
       made_.model.dofs.find(displacement) >= 0)
@@ -154,6 +158,36 @@ void ModelMaker::addTie(const deck::Coupling& coupling) {
       {coupling.name, static_cast<int>(tie.nodes.size()), static_cast<int>(tie.open.size()), tie.largestGap});
 }
 
+void ModelMaker::addEquation(const deck::Coupling& coupling) {
+  const std::string key = "couplings/" + coupling.name + "/terms";
+  std::vector<std::vector<int>> dofs;  // [term][node]
+  for (const deck::EquationTerm& term : coupling.terms) {
+    const std::size_t axis = std::string("xyz").find(term.unknown);
+    const std::string name = axis < 3 ? fem::displacementField().name : term.unknown;
+    const int field = made_.model.dofs.find(name);
+    dofs.emplace_back();
+    for (const int node : nodesOf(mesh_, term.set)) {
+      const int component = axis < 3 ? static_cast<int>(axis) : 0;
+      dofs.back().push_back(field < 0 ? -1 : made_.model.dofs.dof(field, node, component));
+      if (dofs.back().back() < 0)
+        fail(key, fmt::format("node {} of '{}' has no {}", mesh_.nodeNumber(node), term.set, name));
+    }
+    if (dofs.back().size() != 1 && dofs.back().size() != dofs.front().size())
+      fail(key, fmt::format("'{}' has {} nodes and '{}' has {}; expected as many, or one",
+                            coupling.terms[0].set, dofs.front().size(), term.set, dofs.back().size()));
+  }
+  for (std::size_t n = 0; n < dofs.front().size(); ++n) {
+    fem::Coupling c;
+    c.dof = dofs[0][n];
+    for (std::size_t t = 1; t < dofs.size(); ++t) {
+      c.masters.push_back(
+          {dofs[t][dofs[t].size() == 1 ? 0 : n], -coupling.terms[t].factor / coupling.terms[0].factor});
+      joined_.push_back({made_.model.dofs.nodeOf(c.dof), made_.model.dofs.nodeOf(c.masters.back().dof)});
+    }
+    made_.model.couplings.add(std::move(c));
+  }
+}
+
 void ModelMaker::addCouplings() {
   const fem::ShellGeometry& g = shells_.geometry;
   // Ties leave what else has a hold of.
@@ -161,7 +195,7 @@ void ModelMaker::addCouplings() {
   std::stable_partition(couplings.begin(), couplings.end(),
                         [](const deck::Coupling& c) { return c.kind != Kind::Tie; });
   for (const deck::Coupling& coupling : couplings) try {
-      const std::vector<int> nodes = nodesOf(mesh_, coupling.set);
+      const std::vector<int> nodes = setOf(coupling);
       switch (coupling.kind) {
         case Kind::Equal:
           fem::coupleEqual(made_.model.couplings, made_.model.dofs, nodes);
@@ -187,6 +221,9 @@ void ModelMaker::addCouplings() {
         case Kind::Tie:
           addTie(coupling);
           break;
+        case Kind::Equation:
+          addEquation(coupling);
+          break;
       }
       made_.model.couplings.resolved(
           made_.model.dofs,
@@ -197,9 +234,9 @@ void ModelMaker::addCouplings() {
 }
 
 std::vector<std::pair<int, int>> ModelMaker::joinedNodes() const {
-  std::vector<std::pair<int, int>> joined = tied_;
+  std::vector<std::pair<int, int>> joined = joined_;
   for (const deck::Coupling& coupling : deck_.couplings) {
-    const std::vector<int> nodes = nodesOf(mesh_, coupling.set);
+    const std::vector<int> nodes = setOf(coupling);
     if (coupling.kind == Kind::Rigid) {
       for (int node : nodes) joined.push_back({nodes[0], node});
       if (const int reference = referenceOf(mesh_, coupling); reference >= 0)

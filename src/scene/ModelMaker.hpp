@@ -82,7 +82,10 @@ class ModelMaker {
   const fem::SideSet& sides(const std::string& set) const {
     return mesh_.sideSets.at(fem::findSideSet(mesh_, set));
   }
+  /// Nodes of a coupling's set; none of an equation.
+  std::vector<int> setOf(const deck::Coupling& coupling) const;
   void addTie(const deck::Coupling& coupling);
+  void addEquation(const deck::Coupling& coupling);
   void addHinge(const deck::Coupling& coupling, const fem::RigidBody& body);
   /// Pairs of nodes that couplings join, as if an element did.
   std::vector<std::pair<int, int>> joinedNodes() const;
@@ -127,7 +130,7 @@ class ModelMaker {
   const SceneTools& tools_;
   const std::map<int, solid::ThinSection> thin_;  ///< by block
   std::vector<fem::HeldDirection> held_;          ///< by supports with a normal and axes of rigid bodies
-  std::vector<std::pair<int, int>> tied_;         ///< nodes of ties, each with one that it follows
+  std::vector<std::pair<int, int>> joined_;  ///< nodes of ties and equations, each with one that it follows
   SceneModel made_;
 };
 

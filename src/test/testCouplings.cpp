@@ -493,4 +493,50 @@ output:
   EXPECT_NEAR(2 * narrow - wide, 1, 0.01);
 }
 
+// A lever: the end's upper edge moves twice as far as its lower one, node by node; what pulls at the upper
+// one pulls twice as hard at the lower one.
+TEST_F(CouplingsTest, Equations) {
+  const std::string lever = R"(mesh:
+  file: block.exo
+  generate: {shape: box, lengths: [2, 1, 1], divisions: [2, 2, 2], cell: HEX8, block: b}
+materials:
+  steel: {law: saint_venant_kirchhoff, youngs_modulus: 1000, poissons_ratio: 0.3, blocks: [b]}
+supports:
+  fixed: {set: x_min, x: 0, y: 0, z: 0}
+couplings:
+  lever: {kind: equation, terms: [[x_max_z_max, x, 1], [x_max_z_min, x, -2]]}
+loads:
+  pull: {type: nodal, set: x_max_z_max, total: [1.0e-3, 0, 0]}
+path:
+  stop: {load_factor: 1}
+output:
+  monitors:
+    upper: {type: displacement, set: x_max_z_max, component: x, near: [2, 1, 1]}
+    lower: {type: displacement, set: x_max_z_min, component: x, near: [2, 1, 0]}
+    held: {type: reaction, support: fixed, component: x}
+)";
+  writeFile(folder_ / "deck.yaml", lever);
+  ASSERT_EQ(runAtrapos({"mesh", "-q", "deck.yaml"}, folder_.path()).exitCode, 0);
+  const auto endOf = [&](const std::string& text) {
+    writeFile(folder_ / "deck.yaml", text);
+    const CommandResult r = runAtrapos({"run", "-q", "-o", "out", "deck.yaml"}, folder_.path());
+    EXPECT_EQ(r.exitCode, 0) << r.err;
+    return lastRow(readFile(folder_ / "out" / "path.csv"));
+  };
+  const auto pulled = endOf(lever);
+  EXPECT_GT(pulled.at("lower"), 1e-7);
+  EXPECT_NEAR(pulled.at("upper"), 2 * pulled.at("lower"), 1e-15);
+  const auto other = endOf(
+      edited(lever, "set: x_max_z_max, total: [1.0e-3, 0, 0]", "set: x_max_z_min, total: [2.0e-3, 0, 0]"));
+  for (const char* name : {"upper", "lower", "held"}) EXPECT_NEAR(other.at(name), pulled.at(name), 1e-12);
+  writeFile(folder_ / "deck.yaml", edited(lever, "[x_max_z_min, x, -2]", "[y_max, x, -2]"));
+  const CommandResult r = runAtrapos({"run", "-q", "-o", "out", "deck.yaml"}, folder_.path());
+  EXPECT_EQ(r.exitCode, 2);
+  EXPECT_NE(
+      r.err.find(
+          "couplings/lever/terms: 'x_max_z_max' has 3 nodes and 'y_max' has 9; expected as many, or one"),
+      std::string::npos)
+      << r.err;
+}
+
 }  // namespace atrapos::test

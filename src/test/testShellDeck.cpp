@@ -506,6 +506,29 @@ path:
           "output/monitors/angle/coupling: coupling 'seam' has no axis");
   refused("moment, coupling: driven}", "moment, coupling: free}",
           "output/monitors/torque/coupling: the body of coupling 'free' turns freely");
+  const std::string equation = changed(
+      "  seam:", "  lever: {kind: equation, terms: [[x_min, z, 1], [y_min, z, -2.5]]}\n  seam:", text);
+  const Deck levered = readDeckText(equation, "shell.yaml");
+  std::ostringstream again;
+  describe(levered, again);
+  for (const Deck& d : {levered, readDeckText(again.str(), "shell.yaml")}) {
+    ASSERT_EQ(d.couplings[2].terms.size(), 2u);
+    EXPECT_EQ(d.couplings[2].terms[1].set, "y_min");
+    EXPECT_EQ(d.couplings[2].terms[1].unknown, "z");
+    EXPECT_EQ(d.couplings[2].terms[1].factor, -2.5);
+  }
+  const auto refusedEquation = [&](const std::string& from, const std::string& to, const std::string& start) {
+    const std::string error = errorOf(changed(from, to, equation));
+    EXPECT_EQ(behindPlace(error).substr(0, start.size()), start) << error;
+  };
+  refusedEquation(", terms: [[x_min, z, 1], [y_min, z, -2.5]]", "", "couplings/lever/terms: is missing");
+  refusedEquation(", [y_min, z, -2.5]", "", "couplings/lever/terms: expected a list of at least two lists");
+  refusedEquation("[y_min, z, -2.5]", "[y_min, -2.5]", "couplings/lever/terms");
+  refusedEquation("-2.5", "0", "couplings/lever/terms");
+  refusedEquation("[y_min, z, ", "[y_min, T, ", "couplings/lever/terms: ");
+  refusedEquation("equation, ", "equation, set: y_max, ", "couplings/lever/set: is not for kind: equation");
+  refusedEquation("equation, ", "equal, set: y_max, ", "couplings/lever/terms: is for kind: equation alone");
+  refusedEquation("kind: tie, set: top, ", "kind: tie, ", "couplings/seam/set: is missing");
   const fem::Mesh mesh = plateMesh();
   EXPECT_NE(errorOf(changed("to: bottom", "to: roof", text), &mesh)
                 .find("couplings/seam/to: the mesh has no side set 'roof'"),

@@ -186,7 +186,7 @@ TEST(Inp, WhatIsLeftOutIsTold) {
   for (const char* line :
        {":17: *NSET: 1 node left out that the mesh does not have, first 77",
         ":19: *ELEMENT, TYPE=B31: left out", ":21: element set 'half': left out", ":23: *CREEP: left out",
-        ":25: *EQUATION: left out", "1 node left out", "node set 'far': left out"})
+        ":26: *EQUATION: left out", "1 node left out", "node set 'far': left out"})
     EXPECT_TRUE(tells(model, line)) << line;
 }
 
@@ -529,6 +529,27 @@ TEST(Inp, DecksThatWouldBeAnotherProblemAreRefused) {
   expectRefused(kCube + kSteel + step, Deck::yes, "has no *BOUNDARY");
   expectRefused(kCube + kSteel + "*BOUNDARY\n1, 1, 3\n*STEP\n*STATIC\n*END STEP\n", Deck::yes, "has no load");
   expectRefused(kCube + "*BOUNDARY\n1, 1, 3\n" + step, Deck::yes, "has no section with a material");
+}
+
+TEST(Inp, Equations) {
+  const std::string begin = kCube + kSteel + "*NSET, NSET=a\n3, 4\n*NSET, NSET=b\n7, 8\n",
+                    step =
+                        "*BOUNDARY\n1, 1, 3\n2, 1, 3\n5, 1, 3\n*STEP\n*STATIC\n*CLOAD\n7, 1, 1.\n*END STEP\n";
+  const Model model = readText(
+      begin + "*EQUATION\n2\na, 1, 1., b, 1, -1.\n3\n6, 2, 2., 7, 2, -1.,\n8, 2, -1.\n" + step, Deck::yes);
+  deck::readDeckText("mesh: {file: m.exo}\n" + model.deck, "m.yaml");
+  EXPECT_NE(model.deck.find("{kind: equation, terms: [[a, x, 1], [b, x, -1]]}"), std::string::npos)
+      << model.deck;
+  EXPECT_NE(model.deck.find(", y, 2], ["), std::string::npos) << model.deck;
+  EXPECT_TRUE(tells(readText(begin + "*EQUATION\n2\n6, 4, 2., 7, 2, -1.\n", Deck::no),
+                    "*EQUATION: left out, it has rotations"));
+  EXPECT_TRUE(
+      tells(readText(begin + "*EQUATION\n1\n6, 1, 2.\n", Deck::no), "*EQUATION: left out, it has one term"));
+  EXPECT_TRUE(tells(readText(begin + "*EQUATION\n2\n6, 1, 2., 7, 1, 1.\n", Deck::no),
+                    "*EQUATION: left out, this one and those behind it"));
+  expectRefused(begin + "*EQUATION\n3\n6, 1, 2., 7, 1, 1.\n", Deck::no, "*EQUATION: ends before its 3 terms");
+  expectRefused(begin + "*EQUATION\n2\na, 1, 2., all, 1, 1.\n", Deck::no,
+                "*EQUATION: its sets have different numbers of nodes");
 }
 
 // Axes of nodes: supports along what is no axis of the model get a normal, forces are turned.
