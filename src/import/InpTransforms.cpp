@@ -71,7 +71,17 @@ void InpTransforms::add(const InpModel& model, const InpCard& card) {
     }
     const double* const X = &model.coordinates[3 * static_cast<std::size_t>(node)];
     const Vector axis = unitAcross(minus(b, a), {}, line.place, "its points are the same");
-    const Vector radial = unitAcross(minus({X[0], X[1], X[2]}, a), axis, line.place, "a node is on the axis");
+    const Vector away = minus({X[0], X[1], X[2]}, a);
+    const double along = dot(away, axis);
+    const Vector off = minus(away, {along * axis[0], along * axis[1], along * axis[2]});
+    // On the axis any two directions across it: those of the coordinate axis that is most across.
+    const bool onAxis = dot(off, off) <= 1e-18 * dot(away, away);
+    std::size_t across = 0;
+    for (std::size_t d = 1; d < 3; ++d)
+      if (std::abs(axis[d]) < std::abs(axis[across])) across = d;
+    Vector other{};
+    other[across] = 1;
+    const Vector radial = unitAcross(onAxis ? other : off, axis, line.place, "a node has no radius");
     axes_[node] = {plain(radial), plain(cross(axis, radial)), plain(axis)};
   }
 }

@@ -587,7 +587,8 @@ TEST(Inp, Transforms) {
   refused(", NSET=two, TYPE=S\n0, 0, 0, 0, 0, 1\n", "*TRANSFORM, TYPE=S: expected R or C");
   refused(", NSET=two\n", "*TRANSFORM: has no line with two points");
   refused(", NSET=two\n1, 0, 0, 2, 0, 0\n", "*TRANSFORM: its points and the origin are on one line");
-  refused(", NSET=two, TYPE=C\n1, 1, 0, 1, 1, 1\n", "*TRANSFORM: a node is on the axis");
+  // Node 7 on the axis: any two directions across it.
+  expectIn(deckOf(", TYPE=C\n1, 1, 0, 1, 1, 1\n", "*BOUNDARY\n7, 1, 2\n*CLOAD\n8, 1, 10.\n"), "x: 0, y: 0}");
 }
 
 TEST(Inp, LoadsAndSupportsThatDecksCannotHave) {

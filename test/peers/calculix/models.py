@@ -14,7 +14,7 @@ import ccx
 
 PACKAGE = "/usr/share/doc/calculix-ccx-test/examples/test"
 MOST_NODES = 40
-MODELS = ["achteld", "achtelg", "achtelp", "beam10p", "beam8p", "beamnlp", "beamp", "beamp1rotate", "beamptied1", "beamptied2", "beamptied7", "beamrb2", "c3d15", "c3d6", "planestrain",
+MODELS = ["achtel2", "achtel29", "achtel9", "achtelcas", "achteld", "achtelg", "achtelp", "beam10p", "beam8p", "beamnlmpc", "beamnlp", "beamp", "beamp1rotate", "beampdepmpc", "beamptied1", "beamptied2", "beamptied7", "beamrb2", "c3d15", "c3d6", "mpcforce", "oneel", "planestrain",
           "planestrain2", "planestress"]
 OUTPUT = ("NODEPRINT", "ELPRINT", "NODEFILE", "ELFILE", "CONTROLS")
 
