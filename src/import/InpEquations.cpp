@@ -6,10 +6,12 @@ namespace atrapos::importer {
 namespace {
 
 constexpr std::size_t mostEquations = 10000;  // each is an entry of the deck
+constexpr std::size_t mostNodes = 1'000'000;  // in the terms of all of them
 constexpr long long mostTerms = 1000;
 
 /// The terms, which go on over lines of three or four.
-InpEquation readTerms(const InpModel& model, InpLines& lines, const InpPlace& place, long long count) {
+InpEquation readTerms(const InpModel& model, InpLines& lines, const InpPlace& place, long long count,
+                      std::size_t& numNodes) {
   InpEquation equation{place, {}};
   InpLine line;
   std::size_t field = 0;
@@ -24,6 +26,9 @@ InpEquation readTerms(const InpModel& model, InpLines& lines, const InpPlace& pl
     InpEquation::Term term;
     const std::string_view nodes = next();
     term.nodes = inpNodes(model, nodes, line.place);
+    if ((numNodes += term.nodes.size()) > mostNodes)
+      line.place.fail(
+          fmt::format("*EQUATION: more than {} nodes in all terms, which is the most", mostNodes));
     term.component = static_cast<int>(inpInteger(next(), line.place, "degree of freedom", 1, 6)) - 1;
     term.factor = inpNumber(next(), line.place, "factor");
     if (term.factor != 0) equation.terms.push_back(std::move(term));
@@ -37,7 +42,7 @@ void readInpEquations(InpModel& model, const InpCard& card) {
   InpLines lines(card);
   for (InpLine line; lines.next(line);) {
     const auto count = inpInteger(line.at(0), line.place, "number of terms", 1, mostTerms);
-    InpEquation equation = readTerms(model, lines, line.place, count);
+    InpEquation equation = readTerms(model, lines, line.place, count, model.equationNodes);
     const auto leaveOut = [&](const char* why) {
       model.remark(line.place, fmt::format("*EQUATION: left out, {}", why));
     };

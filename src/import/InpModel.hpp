@@ -110,6 +110,7 @@ struct InpModel {
   int ties = 0;               ///< pairs of surfaces in *TIE
   std::vector<InpTied> tied;  ///< of them
   std::vector<InpEquation> equations;
+  std::size_t equationNodes = 0;           ///< in the terms of *EQUATION
   std::vector<const InpCard*> boundaries;  ///< *BOUNDARY before the first step
   std::vector<const InpCard*> transforms;  ///< *TRANSFORM
   std::vector<const InpCard*> steps;       ///< from the first *STEP on

@@ -148,10 +148,9 @@ class StepReader {
       const auto nodes = inpNodes(model_, line.at(0), line.place);
       const auto component = inpInteger(line.at(1), line.place, "degree of freedom", 1, 1000);
       const double value = inpNumber(line.at(2), line.place, "force");
-      const auto leads = [&](int node) {
-        return std::any_of(model_.rigidBodies.begin(), model_.rigidBodies.end(),
-                           [&](const InpRigidBody& body) { return body.reference == node; });
-      };
+      if (leading_.empty())
+        for (const InpRigidBody& body : model_.rigidBodies) leading_.insert(body.reference);
+      const auto leads = [&](int node) { return leading_.count(node) > 0; };
       if (component > 6 || (component > 3 && !std::all_of(nodes.begin(), nodes.end(), leads))) {
         model_.remark(line.place,
                       "*CLOAD: a moment is left out, decks have moments on rigid bodies and edges of shells");
@@ -249,6 +248,7 @@ class StepReader {
 
   InpModel& model_;
   InpStep step_;
+  std::set<int> leading_;  ///< nodes that lead rigid bodies
   std::size_t entries_ = 0;
 };
 

@@ -38,6 +38,9 @@ Vector plain(Vector v) {
 }  // namespace
 
 InpTransforms::InpTransforms(const InpModel& model) {
+  constexpr std::size_t most = 1000;  // each goes through its nodes
+  if (model.transforms.size() > most)
+    model.transforms[most]->place.fail(fmt::format("*TRANSFORM: more than {}, which is the most", most));
   for (const InpCard* card : model.transforms) add(model, *card);
 }
 

@@ -52,7 +52,8 @@ class TieMaker {
         options_(options),
         own_(detail::tieFaces(mesh, follows)),
         others_(detail::tieFaces(mesh, leads)),
-        behind_(mesh, others_) {
+        behind_(mesh, others_),
+        near_(others_) {
     const std::vector<int> led = nodesOf(mesh, leads);
     for (const int n : nodesOf(mesh, follows))
       if (std::binary_search(led.begin(), led.end(), n))
@@ -109,7 +110,7 @@ class TieMaker {
     const Tabulation inTriangle = tabulateFace(Face::Tri3, 6), onLine = tabulateFace(Face::Line2, 7);
     std::vector<TiePoint> points;
     for (int f = first; f < last; ++f)
-      for (const TieSegment& s : detail::tieSegments(own_, f, others_, options_.reach)) {
+      for (const TieSegment& s : detail::tieSegments(own_, f, others_, near_, options_.reach)) {
         largestGap_ = std::max(largestGap_, s.gap);
         const bool line = own_[f].dim() == 1;
         const Tabulation& rule = line ? onLine : inTriangle;
@@ -300,13 +301,8 @@ class TieMaker {
     std::vector<int> of;
     for (const int node : nodes) {
       const Vec3 X = vectorAt(mesh_.coordinates, node);
-      for (std::size_t o = 0; o < others_.size(); ++o) {
-        const double reach = options_.reach * others_[o].size;
-        bool near = true;
-        for (int i = 0; i < 3; ++i)
-          near = near && X[i] >= others_[o].low[i] - reach && X[i] <= others_[o].high[i] + reach;
-        if (!near) continue;
-        places.push_back({static_cast<int>(o), X});
+      for (const int o : near_.of(X, X, 0, options_.reach)) {
+        places.push_back({o, X});
         of.push_back(node);
       }
     }
@@ -332,6 +328,7 @@ class TieMaker {
   const TieOptions& options_;
   const std::vector<TieFace> own_, others_;
   const detail::CellsBehind behind_;
+  const detail::NearFaces near_;
   std::map<int, Following> nodes_;
   double largestGap_ = 0;
 };

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
 
 #include "Labels.hpp"
@@ -187,23 +188,53 @@ std::vector<TieFace> tieFaces(const Mesh& mesh, const SideSet& set) {
   return faces;
 }
 
+NearFaces::NearFaces(const std::vector<TieFace>& faces) : faces_(faces), order_(faces.size()) {
+  Vec3 low{}, high{};
+  for (std::size_t f = 0; f < faces.size(); ++f)
+    for (int i = 0; i < 3; ++i) {
+      low[i] = f == 0 ? faces[f].low[i] : std::min(low[i], faces[f].low[i]);
+      high[i] = f == 0 ? faces[f].high[i] : std::max(high[i], faces[f].high[i]);
+    }
+  for (int i = 1; i < 3; ++i)
+    if (high[i] - low[i] > high[axis_] - low[axis_]) axis_ = i;
+  for (const TieFace& face : faces) {
+    widest_ = std::max(widest_, face.high[axis_] - face.low[axis_]);
+    largest_ = std::max(largest_, face.size);
+  }
+  std::iota(order_.begin(), order_.end(), 0);
+  std::sort(order_.begin(), order_.end(),
+            [&](int a, int b) { return faces[a].low[axis_] < faces[b].low[axis_]; });
+}
+
+std::vector<int> NearFaces::of(const Vec3& low, const Vec3& high, double size, double reach) const {
+  const double most = reach * std::max(size, largest_);
+  auto at = std::lower_bound(order_.begin(), order_.end(), low[axis_] - most - widest_,
+                             [&](int f, double x) { return faces_[f].low[axis_] < x; });
+  std::vector<int> near;
+  for (; at != order_.end() && faces_[*at].low[axis_] <= high[axis_] + most; ++at) {
+    const TieFace& face = faces_[*at];
+    const double gap = reach * std::max(size, face.size);
+    bool is = true;
+    for (int i = 0; i < 3; ++i) is = is && face.low[i] <= high[i] + gap && face.high[i] >= low[i] - gap;
+    if (is) near.push_back(*at);
+  }
+  std::sort(near.begin(), near.end());
+  return near;
+}
+
 std::vector<TieSegment> tieSegments(const std::vector<TieFace>& faces, int own,
-                                    const std::vector<TieFace>& others, double reach) {
+                                    const std::vector<TieFace>& others, const NearFaces& near, double reach) {
   const TieFace& face = faces[own];
   std::vector<TieSegment> all;
-  for (int o = 0; o < static_cast<int>(others.size()); ++o) {
+  for (const int o : near.of(face.low, face.high, face.size, reach)) {
     const TieFace& other = others[o];
     // Within 60 degrees of facing each other: coarse facets of a curved surface, and not the body's back.
     if (dot(face.normal, other.normal) > -0.5) continue;
-    const double gap = reach * std::max(face.size, other.size);
-    bool near = true;
-    for (int i = 0; i < 3; ++i)
-      near = near && other.low[i] <= face.high[i] + gap && other.high[i] >= face.low[i] - gap;
-    if (!near) continue;
     TieSegment to;
     to.own = own;
     to.other = o;
-    (face.dim() == 1 ? addInterval : addSegments)(face, other, gap, to, all);
+    (face.dim() == 1 ? addInterval : addSegments)(face, other, reach * std::max(face.size, other.size), to,
+                                                  all);
   }
   return all;
 }

@@ -29,6 +29,22 @@ struct TieFace {
 /// Throws std::invalid_argument for sides of other cells.
 std::vector<TieFace> tieFaces(const Mesh& mesh, const SideSet& set);
 
+/// Finds faces whose boxes are near: they are sorted along the axis that they extend most along.
+class NearFaces {
+ public:
+  explicit NearFaces(const std::vector<TieFace>& faces);
+
+  /// Numbers, ascending, of faces whose box is within `reach` times the larger of `size` and their own of the
+  /// box from low to high.
+  std::vector<int> of(const Vec3& low, const Vec3& high, double size, double reach) const;
+
+ private:
+  const std::vector<TieFace>& faces_;
+  int axis_ = 0;
+  double widest_ = 0, largest_ = 0;  ///< along the axis; size
+  std::vector<int> order_;           ///< by `low` along the axis
+};
+
 /// A piece of a face that is opposite of a face of the other surface: a triangle, or two ends of a piece of
 /// an edge, in the face's coordinates.
 struct TieSegment {
@@ -38,8 +54,8 @@ struct TieSegment {
   double gap = 0;
 };
 
-/// All pieces of one face, number `own`.
+/// All pieces of one face, number `own`; `near`: of the other ones.
 std::vector<TieSegment> tieSegments(const std::vector<TieFace>& faces, int own,
-                                    const std::vector<TieFace>& others, double reach);
+                                    const std::vector<TieFace>& others, const NearFaces& near, double reach);
 
 }  // namespace atrapos::fem::detail
