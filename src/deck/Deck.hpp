@@ -180,7 +180,7 @@ struct ShellJoint {
     Hinge   ///< they share the displacement alone
   };
   std::string name;
-  std::string set;  ///< node set, else side set; of a tie a side set; of an equation empty
+  std::string set;  ///< node set, else side set
   Kind kind = Kind::Rigid;
 };
 
@@ -251,7 +251,7 @@ struct Coupling {
     Equation       ///< the sum of the terms is 0, for each node of their sets
   };
   std::string name;
-  std::string set;  ///< node set, else side set
+  std::string set;  ///< node set, else side set; of a tie a side set; of an equation empty
   Kind kind = Kind::Rigid;
   std::optional<Vector3> normal;    ///< plane only, not zero, any length
   std::string reference;            ///< rigid only, a node set of one node; empty: none

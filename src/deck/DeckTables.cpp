@@ -133,38 +133,34 @@ const Table<Deck>& deckTable() {
     couplings.read = [inner = couplings.read](const Value& v, Deck& deck) {
       inner(v, deck);
       for (const auto& c : deck.couplings) {
-        const bool equation = c.kind == Coupling::Kind::Equation;
-        if (equation && c.terms.empty()) {
-          v.at(c.name).failMissing("terms",
-                                   "a list of at least two lists of a set, x, y, z or a field, and a factor");
+        using Kind = Coupling::Kind;
+        const Value entry = v.at(c.name);
+        const auto needed = [&](const char* key, bool given, Kind kind, const char* accepts) {
+          if (c.kind == kind && !given) entry.failMissing(key, accepts);
+        };
+        const auto only = [&](const char* key, bool given, Kind kind, const char* word) {
+          if (c.kind != kind && given) entry.at(key).fail(fmt::format("is for kind: {} alone", word));
+        };
+        needed("terms", !c.terms.empty(), Kind::Equation,
+               "a list of at least two lists of a set, x, y, z or a field, and a factor");
+        only("terms", !c.terms.empty(), Kind::Equation, "equation");
+        if (c.kind != Kind::Equation && c.set.empty()) {
+          entry.failMissing("set", "a node set or side set, name or id");
         }
-        if (!equation && !c.terms.empty()) v.at(c.name).at("terms").fail("is for kind: equation alone");
-        if (!equation && c.set.empty()) {
-          v.at(c.name).failMissing("set", "a node set or side set, name or id");
+        if (c.kind == Kind::Equation && !c.set.empty()) {
+          entry.at("set").fail("is not for kind: equation, whose terms have sets");
         }
-        if (equation && !c.set.empty()) {
-          v.at(c.name).at("set").fail("is not for kind: equation, whose terms have sets");
+        needed("normal", c.normal.has_value(), Kind::Plane,
+               "the plane's normal, a list of 3 numbers, not all zero");
+        only("normal", c.normal.has_value(), Kind::Plane, "plane");
+        only("reference", !c.reference.empty(), Kind::Rigid, "rigid");
+        only("axis", c.axis.has_value(), Kind::Rigid, "rigid");
+        if (c.angle && !c.axis) {
+          entry.failMissing("axis", "the direction that the angle is about, a list of 3 numbers");
         }
-        const bool plane = c.kind == Coupling::Kind::Plane;
-        if (plane && !c.normal) {
-          v.at(c.name).failMissing("normal", "the plane's normal, a list of 3 numbers, not all zero");
-        }
-        if (!plane && c.normal) {
-          v.at(c.name).at("normal").fail("is for kind: plane alone");
-        }
-        if (c.kind != Coupling::Kind::Rigid && !c.reference.empty()) {
-          v.at(c.name).at("reference").fail("is for kind: rigid alone");
-        }
-        if (c.kind != Coupling::Kind::Rigid && c.axis)
-          v.at(c.name).at("axis").fail("is for kind: rigid alone");
-        if (c.angle && !c.axis)
-          v.at(c.name).failMissing("axis", "the direction that the angle is about, a list of 3 numbers");
-        const bool tie = c.kind == Coupling::Kind::Tie;
-        if (tie && c.to.empty()) {
-          v.at(c.name).failMissing("to", "the side set of the surface that leads");
-        }
-        if (!tie && !c.to.empty()) v.at(c.name).at("to").fail("is for kind: tie alone");
-        if (!tie && c.reach) v.at(c.name).at("reach").fail("is for kind: tie alone");
+        needed("to", !c.to.empty(), Kind::Tie, "the side set of the surface that leads");
+        only("to", !c.to.empty(), Kind::Tie, "tie");
+        only("reach", c.reach.has_value(), Kind::Tie, "tie");
       }
     };
     auto shells =

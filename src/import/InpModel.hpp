@@ -76,7 +76,6 @@ struct InpRigidBody {
 
 /// *TIE of surfaces whose meshes do not fit, by names.
 struct InpTied {
-  InpPlace place;
   std::string follows, leads;  ///< surfaces
 };
 

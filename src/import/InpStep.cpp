@@ -17,7 +17,9 @@ constexpr std::size_t mostLoadEntries = 50'000'000;
 
 class StepReader {
  public:
-  explicit StepReader(InpModel& model) : model_(model) {}
+  explicit StepReader(InpModel& model) : model_(model) {
+    for (const InpRigidBody& body : model.rigidBodies) leading_.insert(body.reference);
+  }
 
   InpStep operator()() {
     const auto [first, last] = chosenStep();
@@ -148,8 +150,6 @@ class StepReader {
       const auto nodes = inpNodes(model_, line.at(0), line.place);
       const auto component = inpInteger(line.at(1), line.place, "degree of freedom", 1, 1000);
       const double value = inpNumber(line.at(2), line.place, "force");
-      if (leading_.empty())
-        for (const InpRigidBody& body : model_.rigidBodies) leading_.insert(body.reference);
       const auto leads = [&](int node) { return leading_.count(node) > 0; };
       if (component > 6 || (component > 3 && !std::all_of(nodes.begin(), nodes.end(), leads))) {
         model_.remark(line.place,

@@ -152,7 +152,7 @@ void tieInpSurfaces(InpModel& model, const InpCard& card) {
                       plainName(inpName(line.at(0))), plainName(inpName(line.at(1))), firstLost);
       if (slave.canTie() && master.canTie() && !common(slave.nodes, master.nodes)) {
         model.remark(line.place, fmt::format("*TIE: a coupling of kind tie of the deck, {}", which));
-        model.tied.push_back({line.place, inpName(line.at(0)), inpName(line.at(1))});
+        model.tied.push_back({inpName(line.at(0)), inpName(line.at(1))});
       } else {
         model.remark(
             line.place,

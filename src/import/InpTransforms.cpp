@@ -65,25 +65,27 @@ void InpTransforms::add(const InpModel& model, const InpCard& card) {
   for (std::size_t i = 0; i < 6; ++i)
     points[i / 3][i % 3] = line.at(i).empty() ? 0 : inpNumber(line.at(i), line.place, "coordinate");
   const auto [a, b] = std::pair(points[0], points[1]);
-  for (const int node : inpNodes(model, *set, card.place)) {
-    if (type == "R") {  // a on the x axis, b in the plane of x and y
-      const Vector x = unitAcross(a, {}, line.place, "its first point is the origin");
-      const Vector y = unitAcross(b, x, line.place, "its points and the origin are on one line");
-      axes_[node] = {plain(x), plain(y), plain(cross(x, y))};
-      continue;
-    }
+  const std::vector<int> nodes = inpNodes(model, *set, card.place);
+  if (nodes.empty()) return;
+  if (type == "R") {  // a on the x axis, b in the plane of x and y
+    const Vector x = unitAcross(a, {}, line.place, "its first point is the origin");
+    const Vector y = unitAcross(b, x, line.place, "its points and the origin are on one line");
+    for (const int node : nodes) axes_[node] = {plain(x), plain(y), plain(cross(x, y))};
+    return;
+  }
+  const Vector axis = unitAcross(minus(b, a), {}, line.place, "its points are the same");
+  std::size_t across = 0;  // the coordinate axis that is most so
+  for (std::size_t d = 1; d < 3; ++d)
+    if (std::abs(axis[d]) < std::abs(axis[across])) across = d;
+  Vector other{};
+  other[across] = 1;
+  for (const int node : nodes) {
     const double* const X = &model.coordinates[3 * static_cast<std::size_t>(node)];
-    const Vector axis = unitAcross(minus(b, a), {}, line.place, "its points are the same");
     const Vector away = minus({X[0], X[1], X[2]}, a);
     const double along = dot(away, axis);
     const Vector off = minus(away, {along * axis[0], along * axis[1], along * axis[2]});
-    // On the axis any two directions across it: those of the coordinate axis that is most across.
+    // On the axis any two directions across it.
     const bool onAxis = dot(off, off) <= 1e-18 * dot(away, away);
-    std::size_t across = 0;
-    for (std::size_t d = 1; d < 3; ++d)
-      if (std::abs(axis[d]) < std::abs(axis[across])) across = d;
-    Vector other{};
-    other[across] = 1;
     const Vector radial = unitAcross(onAxis ? other : off, axis, line.place, "a node has no radius");
     axes_[node] = {plain(radial), plain(cross(axis, radial)), plain(axis)};
   }

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "atrapos/fem/ReferenceCell.hpp"
+#include "scene/Sets.hpp"
 #include "scene/Vectors.hpp"
 
 namespace atrapos {
@@ -58,7 +59,7 @@ std::string sidesAway(const ContactPoints& contact, const deck::Deck& deck, cons
   const auto entry = std::find_if(deck.contacts.begin(), deck.contacts.end(),
                                   [&](const deck::Contact& c) { return c.name == contact.name; });
   if (entry == deck.contacts.end() || entry->points == deck::Contact::Points::Nodes) return {};
-  const fem::SideSet& set = mesh.sideSets.at(fem::findSideSet(mesh, entry->set));
+  const fem::SideSet& set = sidesOf(mesh, entry->set);
   std::size_t away = 0, all = 0;
   for (const fem::Side& side : set.sides) {
     const auto [b, e] = fem::addressOf(mesh, side.element);

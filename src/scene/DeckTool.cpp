@@ -1,6 +1,8 @@
 // Deck entry -> tool of the package: one function each.
 #include "scene/DeckTool.hpp"
 
+#include "scene/Degrees.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -15,8 +17,6 @@ std::array<double, 3> unit(const deck::Vector3& v) {
 }
 
 void copy(const std::array<double, 3>& from, double (&to)[3]) { std::copy(from.begin(), from.end(), to); }
-
-double radians(double degrees) { return degrees * std::acos(-1.0) / 180; }
 
 contact::Plane tool(const deck::PlaneTool& t) {
   contact::Plane plane;

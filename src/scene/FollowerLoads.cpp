@@ -7,6 +7,7 @@
 #include "atrapos/fem/PointSet.hpp"
 #include "atrapos/solid/EdgePressure.hpp"
 #include "atrapos/solid/FacePressure.hpp"
+#include "scene/Sets.hpp"
 
 namespace atrapos::followers {
 namespace {
@@ -22,21 +23,18 @@ struct Maker {
   solid::LoadAmount amount(double value) const {
     return constant ? solid::LoadAmount{value, 0} : solid::LoadAmount{0, value};
   }
-  const fem::SideSet& sides(const std::string& set) const {
-    return mesh.sideSets.at(fem::findSideSet(mesh, set));
-  }
 
   Terms operator()(const deck::SurfaceLoad& load) const {
     if (body.plane)
       return solid::followerPressure(
-          mesh, sides(load.set), *body.plane, amount(load.pressure),
-          solid::hasPotential(mesh, sides(load.set), body.model.dofs, body.model.supports));
+          mesh, sidesOf(mesh, load.set), *body.plane, amount(load.pressure),
+          solid::hasPotential(mesh, sidesOf(mesh, load.set), body.model.dofs, body.model.supports));
     const std::size_t blocks = shells.elements.size();
     // Pressure > 0 pushes on the body: against the normal of a top side, along it on a bottom side.
     std::vector<std::vector<int>> loaded(2 * blocks);
-    fem::SideSet solids = sides(load.set);
+    fem::SideSet solids = sidesOf(mesh, load.set);
     solids.sides.clear();
-    for (const fem::Side& side : sides(load.set).sides) {
+    for (const fem::Side& side : sidesOf(mesh, load.set).sides) {
       const fem::ElementAddress at = fem::addressOf(mesh, side.element);
       const int i = shells.find(at.block);
       if (i < 0)
@@ -56,7 +54,7 @@ struct Maker {
     Terms result;
     for (std::size_t i = 0; i < shells.elements.size(); ++i) {
       const fem::Block& block = mesh.blocks[shells.geometry.blocks[i].block];
-      const auto edges = shellEdges(mesh, sides(load.set), shells.geometry.blocks[i].block);
+      const auto edges = shellEdges(mesh, sidesOf(mesh, load.set), shells.geometry.blocks[i].block);
       if (edges.empty()) continue;
       try {
         result.push_back(term(load, shells.elements[i], edges));

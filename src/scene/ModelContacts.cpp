@@ -25,7 +25,7 @@ std::vector<fem::PointSet> ModelMaker::pointsOf(const deck::Contact& contact) co
         points.weights = mesh_.nodeSets[fem::findNodeSet(mesh_, contact.set)].factors;
       return {std::move(points)};
     }
-    const auto& set = mesh_.sideSets.at(fem::findSideSet(mesh_, contact.set));
+    const auto& set = sidesOf(mesh_, contact.set);
     if (plane_) return solid::planeEdgePoints(mesh_, set, *plane_, contact.quadratureDegree);
     return zeta == 0 ? fem::facePoints(mesh_, set, contact.quadratureDegree)
                      : fem::shellFacePoints(mesh_, shells_.geometry, set, zeta, contact.quadratureDegree);
@@ -94,7 +94,7 @@ void ModelMaker::addContacts() {
 
 /// Edges or lines across faces, and the points that show them.
 void ModelMaker::makeLines(const deck::Contact& contact, ContactPoints& entry) const {
-  const auto& set = mesh_.sideSets.at(fem::findSideSet(mesh_, contact.set));
+  const auto& set = sidesOf(mesh_, contact.set);
   if (plane_) {
     entry.points = pointsOf(contact);
     entry.lines = solid::planeEdgeLines(mesh_, set, *plane_, contact.quadratureDegree);

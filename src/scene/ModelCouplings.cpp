@@ -7,6 +7,7 @@
 
 #include "atrapos/fem/RigidBody.hpp"
 #include "atrapos/fem/Tie.hpp"
+#include "scene/Degrees.hpp"
 #include "scene/ModelMaker.hpp"
 #include "scene/Sets.hpp"
 
@@ -128,7 +129,7 @@ void ModelMaker::addHinge(const deck::Coupling& coupling, const fem::RigidBody& 
   }
   made_.hinges[coupling.name] = node;
   if (const auto& angle = coupling.angle)
-    made_.model.prescribe(node, 0, angle->value * kDegree, angle->perLoadFactor * kDegree);
+    made_.model.prescribe(node, 0, radians(angle->value), radians(angle->perLoadFactor));
 }
 
 std::vector<int> ModelMaker::setOf(const deck::Coupling& coupling) const {
@@ -140,15 +141,16 @@ void ModelMaker::addTie(const deck::Coupling& coupling) {
   fem::TieOptions options;
   if (coupling.reach) options.reach = *coupling.reach;
   options.axisymmetric = plane_ && plane_->kind == solid::PlaneSection::Kind::axisymmetric;
-  const fem::Tie tie =
-      made(path, [&] { return fem::tieSurfaces(mesh_, sides(coupling.set), sides(coupling.to), options); });
+  const fem::Tie tie = made(path, [&] {
+    return fem::tieSurfaces(mesh_, sidesOf(mesh_, coupling.set), sidesOf(mesh_, coupling.to), options);
+  });
   for (const fem::TiedNode& node : tie.nodes) joined_.push_back({node.node, node.masters.front().node});
   std::vector<std::string> fields;
   if (const std::string displacement = fem::displacementField().name;
       made_.model.dofs.find(displacement) >= 0)
     fields.push_back(displacement);
-  const std::vector<std::string> there = scalarFieldsOf(sides(coupling.to));
-  for (const std::string& field : scalarFieldsOf(sides(coupling.set)))
+  const std::vector<std::string> there = scalarFieldsOf(sidesOf(mesh_, coupling.to));
+  for (const std::string& field : scalarFieldsOf(sidesOf(mesh_, coupling.set)))
     if (isVelocity(field))
       fail(path, "joins a flow, which ties do not");
     else if (std::find(there.begin(), there.end(), field) != there.end())
@@ -190,11 +192,14 @@ void ModelMaker::addEquation(const deck::Coupling& coupling) {
 
 void ModelMaker::addCouplings() {
   const fem::ShellGeometry& g = shells_.geometry;
+  std::vector<const deck::Coupling*> couplings;
+  for (const deck::Coupling& coupling : deck_.couplings) couplings.push_back(&coupling);
   // Ties leave what else has a hold of.
-  std::vector<deck::Coupling> couplings = deck_.couplings;
   std::stable_partition(couplings.begin(), couplings.end(),
-                        [](const deck::Coupling& c) { return c.kind != Kind::Tie; });
-  for (const deck::Coupling& coupling : couplings) try {
+                        [](const deck::Coupling* c) { return c->kind != Kind::Tie; });
+  for (const deck::Coupling* entry : couplings) {
+    const deck::Coupling& coupling = *entry;
+    try {
       const std::vector<int> nodes = setOf(coupling);
       switch (coupling.kind) {
         case Kind::Equal:
@@ -231,6 +236,7 @@ void ModelMaker::addCouplings() {
     } catch (const std::invalid_argument& e) {
       fail("couplings/" + coupling.name, e.what());
     }
+  }
 }
 
 std::vector<std::pair<int, int>> ModelMaker::joinedNodes() const {

@@ -18,10 +18,6 @@ struct DeadLoads {
   const std::map<int, solid::ThinSection>& thin;
   std::vector<double>& force;
 
-  const fem::SideSet& sides(const std::string& set) const {
-    return mesh.sideSets.at(fem::findSideSet(mesh, set));
-  }
-
   void operator()(const deck::NodalLoad& load) const {
     const auto nodes = nodesOf(mesh, load.set);
     deck::Vector3 each = load.force;
@@ -32,10 +28,10 @@ struct DeadLoads {
 
   void operator()(const deck::SurfaceLoad& load) const {
     const double zeta = zetaOf(load.at);
-    const auto faces =
-        plane       ? solid::planeEdgePoints(mesh, sides(load.set), *plane, fem::loadDegree)
-        : zeta == 0 ? fem::facePoints(mesh, sides(load.set), fem::loadDegree)
-                    : fem::shellFacePoints(mesh, shells.geometry, sides(load.set), zeta, fem::loadDegree);
+    const auto faces = plane ? solid::planeEdgePoints(mesh, sidesOf(mesh, load.set), *plane, fem::loadDegree)
+                       : zeta == 0 ? fem::facePoints(mesh, sidesOf(mesh, load.set), fem::loadDegree)
+                                   : fem::shellFacePoints(mesh, shells.geometry, sidesOf(mesh, load.set),
+                                                          zeta, fem::loadDegree);
     deck::Vector3 perArea = load.vector;
     switch (load.kind) {
       case deck::SurfaceLoad::Kind::Total:
@@ -55,8 +51,8 @@ struct DeadLoads {
   void operator()(const deck::EdgeLoad& load) const {
     deck::Vector3 perLength = load.vector;
     if (load.kind == deck::EdgeLoad::Kind::Total)
-      for (double& f : perLength) f /= fem::edgeLength(mesh, sides(load.set));
-    fem::addEdgeForce(mesh, sides(load.set), perLength, force);
+      for (double& f : perLength) f /= fem::edgeLength(mesh, sidesOf(mesh, load.set));
+    fem::addEdgeForce(mesh, sidesOf(mesh, load.set), perLength, force);
   }
 
   void operator()(const deck::VolumeLoad& load) const {

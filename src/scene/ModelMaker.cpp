@@ -191,16 +191,38 @@ BodyBlock ModelMaker::addThin(const deck::Material& material, int b) {
   return body;
 }
 
+namespace {
+
+/// Numbers of a deck, or formulas of the place, at nodes.
+class NumbersAtNodes {
+ public:
+  NumbersAtNodes(const fem::Mesh& mesh, const physics::Constants& constants)
+      : mesh_(mesh), constants_(constants) {}
+
+  /// The formula where there is a text.
+  double operator()(int node, double number, const std::string& text) {
+    if (text.empty()) return number;
+    auto& formula = formulas_[text];
+    if (!formula) formula = physics::ofPlace(text, constants_);
+    return formula(&mesh_.coordinates[3 * static_cast<std::size_t>(node)]);
+  }
+
+ private:
+  const fem::Mesh& mesh_;
+  const physics::Constants& constants_;
+  std::map<std::string, std::function<double(const double*)>> formulas_;  ///< each is read once
+};
+
+deck::Vector3 unit(const deck::Vector3& a) {
+  const double length = std::hypot(a[0], a[1], a[2]);
+  return {a[0] / length, a[1] / length, a[2] / length};
+}
+
+}  // namespace
+
 void ModelMaker::addSupports() {
   const std::string displacement = fem::displacementField().name;
-  // Each formula is read once, for all nodes.
-  std::map<std::string, std::function<double(const double*)>> formulas;
-  const auto at = [&](int node, double number, const std::string& text) {
-    if (text.empty()) return number;
-    auto& formula = formulas[text];
-    if (!formula) formula = physics::ofPlace(text, deck_.constants);
-    return formula(&mesh_.coordinates[3 * static_cast<std::size_t>(node)]);
-  };
+  NumbersAtNodes at(mesh_, deck_.constants);
   for (const deck::Support& support : deck_.supports) {
     if (support.normal) continue;  // once the others are there
     const auto prescribe = [&](int node, int component, const deck::Prescribed& p,
@@ -241,53 +263,39 @@ void ModelMaker::addSupports() {
 }
 
 void ModelMaker::addInclinedSupports() {
-  const auto scale = [](fem::HeldDirection& held) {  // to length 1
-    const double length = std::hypot(held.direction[0], held.direction[1], held.direction[2]);
-    for (double& x : held.direction) x /= length > 0 ? length : 1;
-  };
+  NumbersAtNodes at(mesh_, deck_.constants);
   std::vector<fem::HeldAlong> conditions;
   std::vector<const deck::Support*> of;  // of those on nodes of the mesh; of directors null
   for (const deck::Support& support : deck_.supports) {
     if (!support.normal) continue;
-    const deck::Vector3& n = *support.normal;
+    const deck::Vector3 n = unit(*support.normal);
     const deck::Prescribed p = support.value.value_or(deck::Prescribed{});
-    const auto at = [&](double number, const std::string& text) -> std::function<double(const double*)> {
-      if (text.empty()) return [number](const double*) { return number; };
-      return physics::ofPlace(text, deck_.constants);
-    };
-    const auto value = at(p.value, p.valueFormula), rate = at(p.perLoadFactor, p.perLoadFactorFormula);
     for (const int node : nodesOf(mesh_, support.set)) {
       if (made_.model.dofs.firstFieldSize(node) != mesh_.dimension)
         fail("supports/" + support.name + "/set",
              fmt::format("node {} has no displacement: its blocks have no material", mesh_.nodeNumber(node)));
-      const double* const X = &mesh_.coordinates[3 * static_cast<std::size_t>(node)];
-      conditions.push_back({node, n, value(X), rate(X)});
+      conditions.push_back(
+          {node, n, at(node, p.value, p.valueFormula), at(node, p.perLoadFactor, p.perLoadFactorFormula)});
       of.push_back(&support);
-      if (support.condition == deck::Support::Condition::Symmetry)
-        for (const int director : shells_.geometry.directorNodes(node)) {
-          conditions.push_back({director, n});
-          of.push_back(nullptr);
-          // omega x D has no part along n.
-          const double* const D =
-              &shells_.geometry
-                   .directors[3 * static_cast<std::size_t>(director - shells_.geometry.numMeshNodes)];
-          held_.push_back({node,
-                           {D[1] * n[2] - D[2] * n[1], D[2] * n[0] - D[0] * n[2], D[0] * n[1] - D[1] * n[0]},
-                           true});
-          scale(held_.back());
-        }
       held_.push_back({node, {n[0], n[1], n[2]}});
-      scale(held_.back());
+      if (support.condition != deck::Support::Condition::Symmetry) continue;
+      for (const int director : shells_.geometry.directorNodes(node)) {
+        conditions.push_back({director, n});
+        of.push_back(nullptr);
+        const double* const D =
+            &shells_.geometry
+                 .directors[3 * static_cast<std::size_t>(director - shells_.geometry.numMeshNodes)];
+        // omega x D has no part along n. (Nothing where D is along n.)
+        deck::Vector3 turn{D[1] * n[2] - D[2] * n[1], D[2] * n[0] - D[0] * n[2], D[0] * n[1] - D[1] * n[0]};
+        if (turn != deck::Vector3{}) turn = unit(turn);
+        held_.push_back({node, {turn[0], turn[1], turn[2]}, true});
+      }
     }
   }
   const auto forces = made("supports", [&] { return fem::holdAlong(made_.model, conditions); });
   for (std::size_t c = 0; c < of.size(); ++c)
-    if (of[c] != nullptr) {
-      const deck::Vector3& n = *of[c]->normal;
-      const double length = std::hypot(n[0], n[1], n[2]);
-      made_.normalForces[of[c]->name].push_back(
-          {conditions[c].node, {n[0] / length, n[1] / length, n[2] / length}, forces[c]});
-    }
+    if (of[c] != nullptr)
+      made_.normalForces[of[c]->name].push_back({conditions[c].node, conditions[c].direction, forces[c]});
 }
 
 void ModelMaker::requireSupport() const {

@@ -79,9 +79,6 @@ class ModelMaker {
 
   // ModelCouplings.cpp
   void addCouplings();
-  const fem::SideSet& sides(const std::string& set) const {
-    return mesh_.sideSets.at(fem::findSideSet(mesh_, set));
-  }
   /// Nodes of a coupling's set; none of an equation.
   std::vector<int> setOf(const deck::Coupling& coupling) const;
   void addTie(const deck::Coupling& coupling);

@@ -12,6 +12,7 @@
 #include "atrapos/solid/MixedBody.hpp"
 #include "plugin/Plugins.hpp"
 #include "scene/ModelMaker.hpp"
+#include "scene/Sets.hpp"
 
 // Scalar fields of a scene: their balances, flows, what flows in, where they begin.
 namespace atrapos {
@@ -192,7 +193,7 @@ void ModelMaker::addPluginLoads() {
     if (own == nullptr) continue;
     const std::string path = "loads/" + load.name;
     const auto chosen = plugins::loadOf(deck_, path, own->law);
-    const fem::SideSet& set = mesh_.sideSets.at(fem::findSideSet(mesh_, own->set));
+    const fem::SideSet& set = sidesOf(mesh_, own->set);
     for (const std::string& field : own->law.fields) fieldsAt(path + "/fields", own->set, field);
     auto terms = made(path, [&] {
       return physics::sideTerms(
@@ -226,7 +227,7 @@ std::vector<fem::DofMap::Located> ModelMaker::flowFields() const {
 
 std::vector<std::string> ModelMaker::fieldsAt(const std::string& key, const std::string& sides,
                                               const std::string& field) const {
-  std::vector<std::string> fields = scalarFieldsOf(mesh_.sideSets.at(fem::findSideSet(mesh_, sides)));
+  std::vector<std::string> fields = scalarFieldsOf(sidesOf(mesh_, sides));
   if (std::find(fields.begin(), fields.end(), field) == fields.end())
     fail(key, fmt::format("a side of '{}' belongs to a block without the field '{}'", sides, field));
   return fields;
@@ -238,7 +239,7 @@ void ModelMaker::addInflows() {
     if (inflow == nullptr || !inflow->contact.empty()) continue;
     const std::vector<std::string> fields =
         fieldsAt("loads/" + load.name + "/field", inflow->set, inflow->field);
-    const fem::SideSet& set = mesh_.sideSets.at(fem::findSideSet(mesh_, inflow->set));
+    const fem::SideSet& set = sidesOf(mesh_, inflow->set);
     try {
       for (auto& term : physics::inflowTerms(mesh_, set, fields, {{inflow->field, inflow->amount}},
                                              deck_.constants, plane_))

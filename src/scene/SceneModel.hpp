@@ -15,9 +15,6 @@
 
 namespace atrapos {
 
-/// In radians: angles of decks and monitors are in degrees, those of problems are not.
-constexpr double kDegree = 3.14159265358979323846 / 180;
-
 /// The material's term of one block of the mesh.
 struct BodyBlock {
   int term = -1;           ///< of its material: its position in the problem; -1: no material

@@ -8,6 +8,7 @@
 
 #include "atrapos/linear/Dot.hpp"
 #include "scene/ContactMoments.hpp"
+#include "scene/Degrees.hpp"
 #include "scene/Scene.hpp"
 #include "scene/Sets.hpp"
 
@@ -112,7 +113,7 @@ void Scene::addMonitors() {
     if (const auto* m = std::get_if<deck::RotationMonitor>(&monitor.quantity)) {
       weights = linear::rcp(new path::Vector(problem_->map()));
       const linear::GlobalIndex dof = problem_->model().dofs.firstDof(hinges_.at(m->coupling));
-      if (problem_->map()->isNodeGlobalElement(dof)) weights->sumIntoGlobalValue(dof, 1 / kDegree);
+      if (problem_->map()->isNodeGlobalElement(dof)) weights->sumIntoGlobalValue(dof, 1 / radians(1));
     }
     unknownWeights_.push_back(weights);
     std::vector<std::vector<double>> points;

@@ -11,4 +11,7 @@ namespace atrapos {
 /// The mesh has one of them (deck::checkAgainstMesh).
 std::vector<int> nodesOf(const fem::Mesh& mesh, const std::string& set);
 
+/// The side set with this name or id; the mesh has it.
+const fem::SideSet& sidesOf(const fem::Mesh& mesh, const std::string& set);
+
 }  // namespace atrapos

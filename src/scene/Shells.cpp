@@ -1,4 +1,5 @@
 #include "scene/Shells.hpp"
+#include "scene/Degrees.hpp"
 
 #include <fmt/format.h>
 
@@ -71,7 +72,7 @@ std::vector<fem::PrescribedDirector> directorsInSymmetry(const deck::Deck& deck,
       facetNodes.insert(block.nodes.begin(), block.nodes.end());
   if (facetNodes.empty()) return {};
   const double largest =
-      std::sin(deck.shells.foldAngle * M_PI / 180);  // beyond it the surface meets itself in a fold
+      std::sin(radians(deck.shells.foldAngle));  // beyond it the surface meets itself in a fold
   std::map<int, fem::PrescribedDirector> directors;
   for (const deck::Support& support : deck.supports) {
     const auto axis = symmetryAxis(support.condition);

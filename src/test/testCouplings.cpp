@@ -42,17 +42,6 @@ output:
     clamp_z: {type: reaction, support: clamp, component: z}
 )";
 
-class CouplingsTest : public testing::Test {
- protected:
-  CommandResult run(const std::string& text) {
-    writeFile(folder_ / "deck.yaml", text);
-    const CommandResult made = runAtrapos({"mesh", "-q", "deck.yaml"}, folder_.path());
-    EXPECT_EQ(made.exitCode, 0) << made.err;
-    return runAtrapos({"run", "-q", "-o", "out", "deck.yaml"}, folder_.path());
-  }
-  TemporaryFolder folder_;
-};
-
 /// Columns of the last line of a CSV file, by the names of its first.
 std::map<std::string, double> lastRow(const std::string& csv) {
   std::istringstream in(csv);
@@ -66,6 +55,49 @@ std::map<std::string, double> lastRow(const std::string& csv) {
     row[name] = std::strtod(value.c_str(), nullptr);
   return row;
 }
+
+/// The second mesh of two whose nodes and block come behind those of the first, which keeps its sets.
+void append(const fem::Mesh& other, fem::Mesh& mesh) {
+  const int shift = mesh.numNodes();
+  mesh.coordinates.insert(mesh.coordinates.end(), other.coordinates.begin(), other.coordinates.end());
+  mesh.blocks.push_back(other.blocks[0]);
+  mesh.blocks[1].id = 2;
+  for (int& n : mesh.blocks[1].nodes) n += shift;
+}
+
+class CouplingsTest : public testing::Test {
+ protected:
+  CommandResult run(const std::string& text) {
+    writeFile(folder_ / "deck.yaml", text);
+    const CommandResult made = runAtrapos({"mesh", "-q", "deck.yaml"}, folder_.path());
+    EXPECT_EQ(made.exitCode, 0) << made.err;
+    return runAtrapos({"run", "-q", "-o", "out", "deck.yaml"}, folder_.path());
+  }
+  /// The last row of path.csv of a deck whose mesh is there, on so many ranks.
+  std::map<std::string, double> endOf(const std::string& text, int ranks = 1) {
+    writeFile(folder_ / "deck.yaml", text);
+    const std::vector<std::string> arguments{"run", "-q", "-o", "out", "deck.yaml"};
+    const CommandResult r = ranks > 1 ? runAtraposOnRanks(ranks, arguments, folder_.path())
+                                      : runAtrapos(arguments, folder_.path());
+    EXPECT_EQ(r.exitCode, 0) << r.err;
+    return lastRow(readFile(folder_ / "out" / "path.csv"));
+  }
+  /// The same with the mesh that the deck describes.
+  std::map<std::string, double> endOfGenerated(const std::string& text, int ranks = 1) {
+    writeFile(folder_ / "deck.yaml", text);
+    const CommandResult made = runAtrapos({"mesh", "-q", "deck.yaml"}, folder_.path());
+    EXPECT_EQ(made.exitCode, 0) << made.err;
+    return endOf(text, ranks);
+  }
+  /// A deck whose mesh is there ends with exit code 2 and these words.
+  void expectRefused(const std::string& text, const std::string& words) {
+    writeFile(folder_ / "deck.yaml", text);
+    const CommandResult r = runAtrapos({"run", "-q", "-o", "out", "deck.yaml"}, folder_.path());
+    EXPECT_EQ(r.exitCode, 2);
+    EXPECT_NE(r.err.find(words), std::string::npos) << r.err;
+  }
+  TemporaryFolder folder_;
+};
 
 }  // namespace
 
@@ -106,10 +138,7 @@ TEST_F(CouplingsTest, ShellOnSolid) {
                                        {"end", 3, nodesOf(plate, "x_max", shift)}};
   mesh.sideSets.clear();
   mesh.nodeSets = sets;
-  mesh.coordinates.insert(mesh.coordinates.end(), plate.coordinates.begin(), plate.coordinates.end());
-  mesh.blocks.push_back(plate.blocks[0]);
-  mesh.blocks[1].id = 2;
-  for (int& n : mesh.blocks[1].nodes) n += shift;
+  append(plate, mesh);
   exodus::writeMesh(mesh, (folder_ / "mixed.exo").string());
   writeFile(folder_ / "deck.yaml", R"(mesh:
   file: mixed.exo
@@ -157,12 +186,6 @@ TEST_F(CouplingsTest, ReferenceNodeOfARigidEnd) {
   std::string deck = kStrip;
   deck.erase(deck.find("  generate:"), deck.find("materials:") - deck.find("  generate:"));
   deck = edited(deck, "set: x_max}\nloads", "set: x_max, reference: pin}\nloads");
-  const auto endOf = [&](const std::string& text) {
-    writeFile(folder_ / "deck.yaml", text);
-    const CommandResult r = runAtrapos({"run", "-q", "-o", "out", "deck.yaml"}, folder_.path());
-    EXPECT_EQ(r.exitCode, 0) << r.err;
-    return lastRow(readFile(folder_ / "out" / "path.csv"));
-  };
   const double EI = 100, P = 0.4e-3, atPin = (1000 / 3. + 200 + 40) / EI, atEnd = (1000 / 3. + 100) / EI;
   // Loads of a thousandth of the strip's test above: linear to 1e-6. The strip's shear is 1e-4 of its
   // bending.
@@ -189,10 +212,7 @@ TEST_F(CouplingsTest, ReferenceNodeOfARigidEnd) {
   for (const auto& [with, words] : std::vector<std::pair<std::string, std::string>>{
            {"reference: x_max", "couplings/end/reference: 'x_max' has 3 nodes; expected a set of one node"},
            {"reference: nail", "couplings/end/reference: the mesh has no node set or side set 'nail'"}}) {
-    writeFile(folder_ / "deck.yaml", edited(deck, "reference: pin", with));
-    const CommandResult r = runAtrapos({"run", "-q", "-o", "out", "deck.yaml"}, folder_.path());
-    EXPECT_EQ(r.exitCode, 2);
-    EXPECT_NE(r.err.find(words), std::string::npos) << r.err;
+    expectRefused(edited(deck, "reference: pin", with), words);
   }
 }
 
@@ -221,9 +241,7 @@ TEST_F(CouplingsTest, MomentAndAngleOfARigidEnd) {
                     "{type: moment, coupling: end, moment: 62.8318530718}"),
              "    clamp_z: {type: reaction, support: clamp, component: z}",
              "    angle: {type: rotation, coupling: end}");
-  const CommandResult bent = run(loaded);
-  ASSERT_EQ(bent.exitCode, 0) << bent.err;
-  const auto closed = lastRow(readFile(folder_ / "out" / "path.csv"));
+  const auto closed = endOfGenerated(loaded);
   EXPECT_NEAR(closed.at("angle"), 360, 4e-3 * 360);
   EXPECT_NEAR(closed.at("ux"), -10, 4e-3 * 10);
   EXPECT_NEAR(closed.at("uz"), 0, 4e-3 * 10);
@@ -233,18 +251,13 @@ TEST_F(CouplingsTest, MomentAndAngleOfARigidEnd) {
       edited(edited(edited(loaded, load, ""), "[0, -2, 0]}", "[0, -2, 0], angle: {per_load_factor: 360}}"),
              "    angle:", "    moment: {type: moment, coupling: end}\n    angle:");
   for (const int ranks : {1, 2}) {
-    writeFile(folder_ / "deck.yaml", driven);
-    const CommandResult r = runAtraposOnRanks(ranks, {"run", "-q", "-o", "out", "deck.yaml"}, folder_.path());
-    ASSERT_EQ(r.exitCode, 0) << r.err;
-    const auto turned = lastRow(readFile(folder_ / "out" / "path.csv"));
+    const auto turned = endOf(driven, ranks);
     EXPECT_NEAR(turned.at("angle"), 360, 1e-9);
     EXPECT_NEAR(turned.at("moment"), 62.8318530718, 4e-3 * 62.8);
     EXPECT_NEAR(turned.at("ux"), -10, 4e-3 * 10);
   }
-  // It ends where the angle does, and has half of the angle in a stage before the other.
-  writeFile(folder_ / "deck.yaml", edited(loaded, "{load_factor: 1}", "{monitor: {angle: 90}}"));
-  ASSERT_EQ(runAtrapos({"run", "-q", "-o", "out", "deck.yaml"}, folder_.path()).exitCode, 0);
-  EXPECT_NEAR(lastRow(readFile(folder_ / "out" / "path.csv")).at("angle"), 90, 1e-6);
+  // A stop at an angle.
+  EXPECT_NEAR(endOf(edited(loaded, "{load_factor: 1}", "{monitor: {angle: 90}}")).at("angle"), 90, 1e-6);
 }
 
 namespace {
@@ -261,7 +274,7 @@ fem::Mesh stack() {
   upper.blockName = "upper";
   fem::Mesh mesh = fem::boxMesh(lower);
   const fem::Mesh other = fem::boxMesh(upper);
-  const int nodes = mesh.numNodes(), elements = mesh.numElements();
+  const int elements = mesh.numElements();
   const auto setOf = [](const fem::Mesh& m, const char* name) {
     return m.sideSets.at(fem::findSideSet(m, name));
   };
@@ -275,10 +288,7 @@ fem::Mesh stack() {
   }
   mesh.nodeSets.clear();
   mesh.sideSets = sets;
-  mesh.coordinates.insert(mesh.coordinates.end(), other.coordinates.begin(), other.coordinates.end());
-  mesh.blocks.push_back(other.blocks[0]);
-  mesh.blocks[1].id = 2;
-  for (int& n : mesh.blocks[1].nodes) n += nodes;
+  append(other, mesh);
   return mesh;
 }
 
@@ -340,11 +350,8 @@ TEST_F(CouplingsTest, TiesHoldAndAreNamed) {
            {"to: below}", "to: roof}", "couplings/glue/to: the mesh has no side set 'roof'"},
            {"to: below}", "to: bottom}",
             "couplings/glue: no node of the surface that follows has the other one opposite, within 0.1"},
-           {"to: below}", "to: above}", "couplings/glue: node 1 is on both surfaces"}}) {
-    writeFile(folder_ / "deck.yaml", edited(kStack, from, to));
-    const CommandResult r = runAtrapos({"run", "-q", "-o", "out", "deck.yaml"}, folder_.path());
-    EXPECT_EQ(r.exitCode, 2);
-    EXPECT_NE(r.err.find(words.substr(0, words.find("node 1 is"))), std::string::npos) << r.err;
+           {"to: below}", "to: above}", "couplings/glue: node 112 is on both surfaces"}}) {
+    expectRefused(edited(kStack, from, to), words);
   }
 }
 
@@ -372,22 +379,15 @@ output:
     inclined: {type: reaction, support: inclined}
     inner: {type: displacement, set: theta_min, component: z, near: [0, 0, 1]}
 )";
-  writeFile(folder_ / "deck.yaml", wedge);
-  ASSERT_EQ(runAtrapos({"mesh", "-q", "deck.yaml"}, folder_.path()).exitCode, 0);
   const double k = 1e-4 / (3 * 3 - 1), lame = 1.3 / 1000 * k * (0.4 + 9);
   for (const int ranks : {1, 2}) {
-    const CommandResult r = runAtraposOnRanks(ranks, {"run", "-q", "-o", "out", "deck.yaml"}, folder_.path());
-    ASSERT_EQ(r.exitCode, 0) << r.err;
-    const auto end = lastRow(readFile(folder_ / "out" / "path.csv"));
+    const auto end = endOfGenerated(wedge, ranks);
     EXPECT_NEAR(end.at("straight"), -0.5e-4, 1e-6 * 0.5e-4);  // strains of 1e-7
     EXPECT_NEAR(end.at("inclined"), 0.5e-4, 1e-6 * 0.5e-4);
     EXPECT_NEAR(end.at("inner"), lame, 1e-3 * lame);
   }
   const auto refused = [&](const std::string& from, const std::string& to, const std::string& words) {
-    writeFile(folder_ / "deck.yaml", edited(wedge, from, to));
-    const CommandResult r = runAtrapos({"run", "-q", "-o", "out", "deck.yaml"}, folder_.path());
-    EXPECT_EQ(r.exitCode, 2);
-    EXPECT_NE(r.err.find(words), std::string::npos) << r.err;
+    expectRefused(edited(wedge, from, to), words);
   };
   refused("normal: [1.7320508075688772, 0, -1]", "x: 0", "supports/inclined/normal: is missing");
   refused("normal: [1.7320508075688772, 0, -1]", "normal: [0, 0, 0]",
@@ -406,7 +406,7 @@ output:
 // A block on a slide of 45 degrees, pulled along it, moves along it and nowhere else: what is held along two
 // directions at a node, one of them driven, and the directions' forces.
 TEST_F(CouplingsTest, DrivenAlongASlide) {
-  writeFile(folder_ / "deck.yaml", R"(mesh:
+  const auto end = endOfGenerated(R"(mesh:
   file: block.exo
   generate: {shape: box, lengths: [2, 1, 1], divisions: [2, 1, 1], cell: HEX27, block: b}
 materials:
@@ -427,10 +427,6 @@ output:
     fx: {type: reaction, support: fixed, component: x}
     fy: {type: reaction, support: fixed, component: y}
 )");
-  ASSERT_EQ(runAtrapos({"mesh", "-q", "deck.yaml"}, folder_.path()).exitCode, 0);
-  const CommandResult r = runAtrapos({"run", "-q", "-o", "out", "deck.yaml"}, folder_.path());
-  ASSERT_EQ(r.exitCode, 0) << r.err;
-  const auto end = lastRow(readFile(folder_ / "out" / "path.csv"));
   // (ux + uy)/sqrt(2) = 1e-6 and ux = 2 uy.
   EXPECT_NEAR(end.at("ux"), 2e-6 * std::sqrt(2.0) / 3, 1e-12);
   EXPECT_NEAR(end.at("uy"), 1e-6 * std::sqrt(2.0) / 3, 1e-12);
@@ -459,7 +455,7 @@ TEST_F(CouplingsTest, RightAngleFrameUnderEndMoments) {
       if (std::hypot(mesh.coordinates[3 * n], mesh.coordinates[3 * n + 1]) < 1e-9)
         mesh.nodeSets.push_back({"hinge", 100, {n}});
     exodus::writeMesh(mesh, (folder_ / "leg.exo").string());
-    writeFile(folder_ / "deck.yaml", R"(mesh:
+    endOf(R"(mesh:
   file: leg.exo
 materials:
   aluminium: {law: saint_venant_kirchhoff, youngs_modulus: 71240, poissons_ratio: 0.31, blocks: [body]}
@@ -480,8 +476,6 @@ output:
   monitors:
     angle: {type: rotation, coupling: end}
 )");
-    const CommandResult r = runAtrapos({"run", "-q", "-o", "out", "deck.yaml"}, folder_.path());
-    EXPECT_EQ(r.exitCode, 0) << r.err;
     const double critical = 1000 * lastRow(readFile(folder_ / "out" / "points.csv")).at("load_factor");
     const double G = E / 2 / (1 + nu), EI = E * b * t * t * t / 12,
                  GJ = G * b * t * t * t / 3 * (1 - 0.63 * t / b), inPlane = E * t * b * b * b / 12;
@@ -515,28 +509,15 @@ output:
     lower: {type: displacement, set: x_max_z_min, component: x, near: [2, 1, 0]}
     held: {type: reaction, support: fixed, component: x}
 )";
-  writeFile(folder_ / "deck.yaml", lever);
-  ASSERT_EQ(runAtrapos({"mesh", "-q", "deck.yaml"}, folder_.path()).exitCode, 0);
-  const auto endOf = [&](const std::string& text) {
-    writeFile(folder_ / "deck.yaml", text);
-    const CommandResult r = runAtrapos({"run", "-q", "-o", "out", "deck.yaml"}, folder_.path());
-    EXPECT_EQ(r.exitCode, 0) << r.err;
-    return lastRow(readFile(folder_ / "out" / "path.csv"));
-  };
-  const auto pulled = endOf(lever);
+  const auto pulled = endOfGenerated(lever);
   EXPECT_GT(pulled.at("lower"), 1e-7);
   EXPECT_NEAR(pulled.at("upper"), 2 * pulled.at("lower"), 1e-15);
   const auto other = endOf(
       edited(lever, "set: x_max_z_max, total: [1.0e-3, 0, 0]", "set: x_max_z_min, total: [2.0e-3, 0, 0]"));
   for (const char* name : {"upper", "lower", "held"}) EXPECT_NEAR(other.at(name), pulled.at(name), 1e-12);
-  writeFile(folder_ / "deck.yaml", edited(lever, "[x_max_z_min, x, -2]", "[y_max, x, -2]"));
-  const CommandResult r = runAtrapos({"run", "-q", "-o", "out", "deck.yaml"}, folder_.path());
-  EXPECT_EQ(r.exitCode, 2);
-  EXPECT_NE(
-      r.err.find(
-          "couplings/lever/terms: 'x_max_z_max' has 3 nodes and 'y_max' has 9; expected as many, or one"),
-      std::string::npos)
-      << r.err;
+  expectRefused(
+      edited(lever, "[x_max_z_min, x, -2]", "[y_max, x, -2]"),
+      "couplings/lever/terms: 'x_max_z_max' has 3 nodes and 'y_max' has 9; expected as many, or one");
 }
 
 }  // namespace atrapos::test

@@ -15,15 +15,17 @@ namespace {
 /// Directions at a node are the same, or across what is supported, where sines are below this.
 constexpr double parallel = 1e-9;
 
-/// a . u = value + lambda rate at a node, in the making.
+/// a . u = value + lambda rate at a node, in the making. Row r comes of the r-th condition that stays, of
+/// unit vector d_r: a = sum of A_r d_r.
 struct HeldRow {
   int condition = 0;
-  Vec3 a{};
+  Vec3 a{}, A{};
   double value = 0, rate = 0;
   int pivot = -1;
 
   void subtract(double factor, const HeldRow& other) {
     add(-factor, other.a, a);
+    add(-factor, other.A, A);
     value -= factor * other.value;
     rate -= factor * other.rate;
   }
@@ -37,8 +39,8 @@ class HeldNode {
     const double length = norm(held.direction);
     if (!(length > 0) || !std::isfinite(length))
       throw std::invalid_argument("a direction that is held needs a finite length");
-    HeldRow row{condition, scaled(1 / length, held.direction), held.value, held.perLoadFactor};
-    directions_[condition] = row.a;
+    HeldRow row{condition, scaled(1 / length, held.direction), {}, held.value, held.perLoadFactor};
+    if (rows_.size() < 3) row.A[rows_.size()] = 1;  // a fourth follows from the others
     for (const HeldRow& other : rows_) {
       row.subtract(row.a[other.pivot], other);
       row.a[other.pivot] = 0;
@@ -65,14 +67,11 @@ class HeldNode {
         if (i != row.pivot && std::abs(row.a[i]) > parallel) c.masters.push_back({dof(i), -row.a[i]});
       model_.couplings.add(std::move(c));
     }
-    // Forces mu_k along the directions d_k make the slaves' f_j = sum_k mu_k d_k,j. The rows are combinations
-    // of the directions, row_j = sum_k A_jk d_k with row_j,p = delta_jp at the pivots p: mu_k = sum_j f_j
-    // A_jk.
-    for (std::size_t k = 0; k < rows_.size(); ++k) {
-      const std::vector<double> A = combination(rows_[k]);
-      for (std::size_t j = 0; j < rows_.size(); ++j)
-        if (A[j] != 0) forces[rows_[j].condition].push_back({dof(rows_[k].pivot), A[j]});
-    }
+    // Forces mu_r along the d_r make the slaves' f_p = sum_r mu_r d_r,p at the pivots p. Each row is 1 at its
+    // own pivot and 0 at the others': mu_r = sum over rows of f_p A_r.
+    for (const HeldRow& row : rows_)
+      for (std::size_t r = 0; r < rows_.size(); ++r)
+        if (row.A[r] != 0) forces[rows_[r].condition].push_back({dof(row.pivot), row.A[r]});
   }
 
  private:
@@ -94,35 +93,9 @@ class HeldNode {
                       model_.dofs.nameOf(dof(0))));
   }
 
-  /// A_jk of a row: by the pivots, at which the directions are a square matrix of at most three rows.
-  std::vector<double> combination(const HeldRow& row) const {
-    const std::size_t n = rows_.size();
-    // sum_k A_k d_k,p = delta at all pivots p: Gauss-Jordan.
-    std::vector<std::vector<double>> m(n, std::vector<double>(n + 1));
-    for (std::size_t p = 0; p < n; ++p) {
-      for (std::size_t k = 0; k < n; ++k) m[p][k] = directions_.at(rows_[k].condition)[rows_[p].pivot];
-      m[p][n] = rows_[p].pivot == row.pivot ? 1 : 0;
-    }
-    for (std::size_t c = 0; c < n; ++c) {
-      std::size_t best = c;
-      for (std::size_t p = c + 1; p < n; ++p)
-        if (std::abs(m[p][c]) > std::abs(m[best][c])) best = p;
-      std::swap(m[c], m[best]);
-      for (std::size_t p = 0; p < n; ++p) {
-        if (p == c) continue;
-        const double factor = m[p][c] / m[c][c];
-        for (std::size_t q = c; q <= n; ++q) m[p][q] -= factor * m[c][q];
-      }
-    }
-    std::vector<double> A(n);
-    for (std::size_t c = 0; c < n; ++c) A[c] = m[c][n] / m[c][c];
-    return A;
-  }
-
   FeModel& model_;
   int node_, size_;
   std::vector<HeldRow> rows_;
-  std::map<int, Vec3> directions_;  ///< unit vectors, by condition
 };
 
 }  // namespace

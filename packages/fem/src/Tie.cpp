@@ -39,6 +39,22 @@ std::array<int, 2> cornersBeside(Face shape, int node) {
   return {node - corners, (node - corners + 1) % corners};
 }
 
+/// A place on a face, by shape functions that are tabulated in the face's own coordinates.
+struct OnFace {
+  Vec3 place{}, tangents[2]{};
+  int dim = 2;
+
+  OnFace(const TieFace& face, const Tabulation& t, int q) : dim(t.dim) {
+    for (int a = 0; a < t.numNodes; ++a) {
+      const std::size_t at = static_cast<std::size_t>(q) * t.numNodes + a;
+      add(t.values[at], face.places[a], place);
+      for (int d = 0; d < t.dim; ++d) add(t.gradients[at * t.dim + d], face.places[a], tangents[d]);
+    }
+  }
+  /// Area by that of the reference face, or length, along the normal.
+  Vec3 area() const { return dim == 1 ? cross(tangents[0], {0, 0, 1}) : cross(tangents[0], tangents[1]); }
+};
+
 /// A node of the following surface in the making.
 struct Row {
   double mass = 0;
@@ -157,19 +173,11 @@ class TieMaker {
   void finish(const Tabulation& t, int q, TiePoint& p) const {
     const TieFace& face = own_[p.own];
     if (std::isnan(t.values[static_cast<std::size_t>(q) * t.numNodes])) distorted(face);
-    Vec3 g[2]{};
-    for (int a = 0; a < t.numNodes; ++a) {
-      const std::size_t at = static_cast<std::size_t>(q) * t.numNodes + a;
-      p.values.push_back(t.values[at]);
-      add(t.values[at], face.places[a], p.place);
-      for (int d = 0; d < t.dim; ++d) add(t.gradients[at * t.dim + d], face.places[a], g[d]);
-    }
-    if (t.dim == 1) {
-      p.weight *= norm(g[0]) / std::abs(dot(face.axes[0], g[0]));
-    } else {
-      const Vec3 area = cross(g[0], g[1]);
-      p.weight *= norm(area) / std::abs(dot(face.normal, area));
-    }
+    const double* const N = &t.values[static_cast<std::size_t>(q) * t.numNodes];
+    p.values.assign(N, N + t.numNodes);
+    const OnFace on(face, t, q);
+    p.place = on.place;
+    p.weight *= norm(on.area()) / std::abs(dot(face.normal, on.area()));
   }
 
   // ------------------------------------------------------------------------------- means over nodes
@@ -220,14 +228,8 @@ class TieMaker {
     const Tabulation t = tabulateFace(face.shape, 6);
     double sum = 0;
     for (int q = 0; q < t.numPoints; ++q) {
-      Vec3 g[2]{}, x{};
-      for (int a = 0; a < t.numNodes; ++a) {
-        const std::size_t at = static_cast<std::size_t>(q) * t.numNodes + a;
-        add(t.values[at], face.places[a], x);
-        for (int d = 0; d < t.dim; ++d) add(t.gradients[at * t.dim + d], face.places[a], g[d]);
-      }
-      sum += t.weights[q] * (t.dim == 1 ? norm(g[0]) : norm(cross(g[0], g[1]))) *
-             (options_.axisymmetric ? x[0] : 1);
+      const OnFace on(face, t, q);
+      sum += t.weights[q] * norm(on.area()) * (options_.axisymmetric ? on.place[0] : 1);
     }
     return sum;
   }
@@ -245,8 +247,10 @@ class TieMaker {
     }
     Teuchos::SerialDenseMatrix<int, double> mass(N, N);
     std::vector<double> sums(N, 0.0);
+    std::vector<std::vector<double>> functions;  // [point] those of the changed unknowns
     for (std::size_t p = from; p < to; ++p) {
-      const auto values = changed(face, points[p].values);
+      functions.push_back(changed(face, points[p].values));
+      const std::vector<double>& values = functions.back();
       for (int a = 0; a < N; ++a) {
         sums[a] += points[p].weight * values[a];
         for (int b = 0; b < N; ++b) mass(a, b) += points[p].weight * values[a] * values[b];
@@ -257,7 +261,7 @@ class TieMaker {
     if (inverse.invert() != 0) distorted(face);
     for (int a = 0; a < N; ++a) nodes_[face.nodes[a]].row.mass += sums[a];
     for (std::size_t p = from; p < to; ++p) {
-      const auto values = changed(face, points[p].values);
+      const std::vector<double>& values = functions[p - from];
       const TieFace& other = others_[points[p].other];
       const std::vector<int>& cells = mesh_.blocks[other.block].nodes;
       const std::size_t M = behind[p].values.size(), cell = other.element * M;

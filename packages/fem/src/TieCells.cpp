@@ -20,12 +20,6 @@ std::vector<Vec3> cornersOf(Topology topology, int side) {
   return corners;
 }
 
-Vec3 between(const Vec3& from, const Vec3& to) {
-  Vec3 a = to;
-  add(-1, from, a);
-  return a;
-}
-
 /// A face's own reference coordinates of a place in the cell: of triangles from 0 to 1 along two edges, else
 /// from -1 to 1.
 std::array<double, 2> onFace(const std::vector<Vec3>& corners, const Vec3& xi) {

@@ -32,19 +32,16 @@ Vec3 unit(const Vec3& a) { return scaled(1 / norm(a), a); }
 void setFrame(TieFace& face) {
   const int corners = numCorners(face.shape);
   for (int c = 0; c < corners; ++c) add(1.0 / corners, face.places[c], face.centre);
-  Vec3 first = face.places[1];
-  add(-1, face.places[0], first);
+  Vec3 first = between(face.places[0], face.places[1]);
   Vec3 area{};
   if (face.dim() == 1) {
     area = cross(first, {0, 0, 1});
     face.size = norm(area);
   } else {
-    for (int c = 0; c < corners; ++c) {
-      Vec3 a = face.places[c], b = face.places[(c + 1) % corners];
-      add(-1, face.centre, a);
-      add(-1, face.centre, b);
-      add(0.5, cross(a, b), area);
-    }
+    for (int c = 0; c < corners; ++c)
+      add(0.5,
+          cross(between(face.centre, face.places[c]), between(face.centre, face.places[(c + 1) % corners])),
+          area);
     face.size = std::sqrt(norm(area));
   }
   if (!(face.size > 0)) return;
@@ -141,18 +138,17 @@ void addSegments(const TieFace& own, const TieFace& other, double reach, TieSegm
 
 void addInterval(const TieFace& own, const TieFace& other, double reach, TieSegment to,
                  std::vector<TieSegment>& all) {
-  // Of an edge's nodes on the other's chord those of curved ones are its ends too.
-  double s[2] = {own.along(0, own.places[0]), own.along(0, own.places[1])};
-  double t[2] = {own.along(0, other.places[0]), own.along(0, other.places[1])};
+  const double s[2] = {own.along(0, own.places[0]), own.along(0, own.places[1])};
+  const double t[2] = {own.along(0, other.places[0]), own.along(0, other.places[1])};
   const double gap[2] = {own.above(other.places[0]), own.above(other.places[1])};
   const double from = std::max(std::min(s[0], s[1]), std::min(t[0], t[1])),
-               to_ = std::min(std::max(s[0], s[1]), std::max(t[0], t[1]));
-  if (!(to_ - from > least * own.size)) return;
-  const double middle = (0.5 * (from + to_) - t[0]) / (t[1] - t[0]);
+               end = std::min(std::max(s[0], s[1]), std::max(t[0], t[1]));
+  if (!(end - from > least * own.size)) return;
+  const double middle = (0.5 * (from + end) - t[0]) / (t[1] - t[0]);
   to.gap = std::abs((1 - middle) * gap[0] + middle * gap[1]);
   if (to.gap > reach) return;
-  to.corners = {Point{from, 0}, Point{to_, 0}, Point{}};
-  to.size = to_ - from;
+  to.corners = {Point{from, 0}, Point{end, 0}, Point{}};
+  to.size = end - from;
   all.push_back(to);
 }
 

@@ -22,6 +22,13 @@ inline void add(double factor, const Vec3& x, Vec3& y) {
   for (int i = 0; i < 3; ++i) y[i] += factor * x[i];
 }
 
+/// to - from
+inline Vec3 between(const Vec3& from, const Vec3& to) {
+  Vec3 a = to;
+  add(-1, from, a);
+  return a;
+}
+
 inline Vec3 scaled(double factor, const Vec3& x) { return {factor * x[0], factor * x[1], factor * x[2]}; }
 
 /// Vector n of a list, [vector][component].

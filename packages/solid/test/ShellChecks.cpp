@@ -75,4 +75,17 @@ void expectOrders(fem::FeProblem& problem, const Numbers& u0, double lambda0) {
   }
 }
 
+int expectSymmetricTangentAndOrders(fem::FeModel model) {
+  model.load = randomNumbers(model.dofs.numDofs(), 0.002, 3);
+  const Numbers u = randomState(model, 0.02, 17);
+  Numbers direction = randomState(model, 0.02, 18);
+  keepTo(model, 0, direction);
+  fem::FeProblem problem(std::move(model));
+  EXPECT_TRUE(problem.symmetric());
+  const int pivots = problem.constraintPivots();
+  expectTangent(problem, u, direction, 0);
+  expectOrders(problem, u, 0.4);
+  return pivots;
+}
+
 }  // namespace atrapos::solid::test

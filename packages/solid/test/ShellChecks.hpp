@@ -18,4 +18,8 @@ void expectTangent(fem::FeProblem& problem, const Numbers& u, const Numbers& dir
 /// K+1. u0 need not be an equilibrium: its own residual is constant along the series and taken off.
 void expectOrders(fem::FeProblem& problem, const Numbers& u0, double lambda0);
 
+/// Both of a model whose tangent is symmetric, at a random state of all its unknowns under random loads.
+/// Returns path::Problem::constraintPivots.
+int expectSymmetricTangentAndOrders(fem::FeModel model);
+
 }  // namespace atrapos::solid::test

@@ -52,6 +52,19 @@ double distance(const Numbers& u, const ShellGrid& grid, int a, int b) {
   return std::sqrt(sum);
 }
 
+/// turn(node, place or director) for all nodes of the strip and its rigid end.
+template <class Turn>
+void turnAll(const ShellGrid& grid, const fem::RigidBody& body, const Turn& turn) {
+  for (int n = 0; n < grid.numNodes(); ++n) {
+    turn(n, grid.x[n]);
+    turn(grid.director(n), grid.D(n));
+  }
+  turn(body.originNode(), {10, 0.5, 0});
+  turn(body.armNode(0), {11, 0.5, 0});
+  turn(body.armNode(1), {10, 1.5, 0});
+  turn(body.armNode(2), {10, 0.5, 1});
+}
+
 Numbers finalState(const ShellPath& path) { return fem::FeProblem::values(*path.outcome.final.u); }
 
 }  // namespace
@@ -75,15 +88,7 @@ TEST(ShellCouplings, TangentAndOrders) {
 
 TEST(RigidEnd, TangentAndOrders) {
   RigidEnd strip(3, 0.2, 1, 0.3);
-  strip.model.load = randomNumbers(strip.model.dofs.numDofs(), 0.002, 3);
-  const Numbers u = randomState(strip.model, 0.02, 17);  // multipliers too
-  Numbers direction = randomState(strip.model, 0.02, 18);
-  keepTo(strip.model, 0, direction);
-  fem::FeProblem problem(std::move(strip.model));
-  EXPECT_TRUE(problem.symmetric());
-  EXPECT_EQ(problem.constraintPivots(), 6);
-  expectTangent(problem, u, direction, 0);
-  expectOrders(problem, u, 0.4);
+  EXPECT_EQ(expectSymmetricTangentAndOrders(std::move(strip.model)), 6);
 }
 
 // A rotation of everything costs nothing, and the six constraints see none.
@@ -101,14 +106,7 @@ TEST(RigidEnd, RotationCostsNoForce) {
       u[3 * node] = c * X[0] + s * X[2];
       u[3 * node + 2] = -s * X[0] + c * X[2];
     };
-    for (int n = 0; n < grid.numNodes(); ++n) {
-      turn(n, grid.x[n]);
-      turn(grid.director(n), grid.D(n));
-    }
-    turn(body.originNode(), {10, 0.5, 0});
-    turn(body.armNode(0), {11, 0.5, 0});
-    turn(body.armNode(1), {10, 1.5, 0});
-    turn(body.armNode(2), {10, 0.5, 1});
+    turnAll(grid, body, turn);
     // Rounding of positions of 10 in strains and gaps of stiffness 1.
     EXPECT_LT(largest(residual(problem, u, 0).r), 1e-13);
   }
@@ -300,15 +298,7 @@ struct HingedEnd : RigidEnd {
 TEST(HingedEnd, TangentAndOrders) {
   for (const Node& axis : {Node{0, 2, 0}, Node{0.2, 1, -0.3}, Node{-1, 1, 1}}) {
     HingedEnd strip(3, 0.2, 1, 0.3, axis);
-    strip.model.load = randomNumbers(strip.model.dofs.numDofs(), 0.002, 3);
-    const Numbers u = randomState(strip.model, 0.02, 17);  // multipliers and the angle too
-    Numbers direction = randomState(strip.model, 0.02, 18);
-    keepTo(strip.model, 0, direction);
-    fem::FeProblem problem(std::move(strip.model));
-    EXPECT_TRUE(problem.symmetric());
-    EXPECT_EQ(problem.constraintPivots(), 7);
-    expectTangent(problem, u, direction, 0);
-    expectOrders(problem, u, 0.4);
+    EXPECT_EQ(expectSymmetricTangentAndOrders(std::move(strip.model)), 7);
   }
 }
 
@@ -332,14 +322,7 @@ TEST(HingedEnd, RotationCostsNoForce) {
         u[3 * node + i] = c * X[i] + s * (axis[j] * X[k] - axis[k] * X[j]) + (1 - c) * along * axis[i] - X[i];
       }
     };
-    for (int n = 0; n < grid.numNodes(); ++n) {
-      turn(n, grid.x[n]);
-      turn(grid.director(n), grid.D(n));
-    }
-    turn(body.originNode(), {10, 0.5, 0});
-    turn(body.armNode(0), {11, 0.5, 0});
-    turn(body.armNode(1), {10, 1.5, 0});
-    turn(body.armNode(2), {10, 0.5, 1});
+    turnAll(grid, body, turn);
     u[angleDof] = angle;
     EXPECT_LT(largest(residual(problem, u, 0).r), 5e-13);  // displacements of 20
   }

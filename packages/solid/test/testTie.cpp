@@ -245,13 +245,11 @@ double errorOf(const Vessel& vessel, const std::function<double(double)>& exact)
     for (const auto& [i, j] : vessel.planes)
       if (i < 0 || std::abs(mesh.coordinates[3 * n + i]) < 1e-9) model.prescribe(n, j, 0, 0);
   const fem::SideSet& inside = sideSet(mesh, "a_inner");
-  for (const fem::PointSet& p :
-       dim == 2 ? planeEdgePoints(mesh, inside, vessel.section, 6) : fem::facePoints(mesh, inside, 6))
-    for (std::size_t q = 0; q < p.weights.size(); ++q)
-      for (int c = 0; c < p.nodesPerEntity; ++c)
-        for (int i = 0; i < dim; ++i)
-          model.load[dim * p.nodes[q / p.pointsPerEntity * p.nodesPerEntity + c] + i] -=
-              pressure * p.weights[q] * p.normals[3 * q + i] * p.shapeAt(q, c, 0);
+  std::vector<double> force(mesh.coordinates.size(), 0.0);
+  fem::addPressure(
+      dim == 2 ? planeEdgePoints(mesh, inside, vessel.section, 6) : fem::facePoints(mesh, inside, 6),
+      pressure, force);
+  model.load = model.dofs.fromVectors(force);
   fem::TieOptions options;
   options.axisymmetric = vessel.section.kind == Kind::axisymmetric;
   const fem::Tie tie = fem::tieSurfaces(mesh, sideSet(mesh, "a_outer"), sideSet(mesh, "b_inner"), options);
