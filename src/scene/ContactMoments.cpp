@@ -34,6 +34,7 @@ struct Share {
 }  // namespace
 
 bool isClosed(const ContactPoints& contact, std::size_t term, int point, const double* observed) {
+  if (!contact.lines.empty()) return observed[part] > 0;
   // Around an active corner the mean gap vanishes, and the gaps of its points have both signs.
   return contact.hardFaces ? observed[pressure] > 0 : observed[gap] <= contact.closedGaps[term][point];
 }
@@ -56,7 +57,7 @@ ContactMoments contactMoments(const ContactPoints& contact, const SceneState& st
         smallest = at[gap];
         result.center = placeOf(points, p, displacements);
       }
-      if (!(force > 0) || !(zones || isClosed(contact, t, p, at))) continue;
+      if (!(force > 0) || !isClosed(contact, t, p, at)) continue;
       Share share{force, {}, {}};
       if (zones) {
         std::copy_n(&at[placeOfForce], 3, share.place.begin());

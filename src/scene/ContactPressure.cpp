@@ -24,6 +24,21 @@ class Numbers {
   ContactPressure& result_;
 };
 
+/// alpha of zones, hard enough for the body and no harder: a zone begins as a line, and the stiffer it is,
+/// the shorter the piece of the path on which its force becomes the body's (docs/theory/contact.md,
+/// Defaults).
+double zoneStiffness(const BodySize& body, int exponent) {
+  const double t = body.thickness, L = body.span, E = body.youngsModulus, depth = 1e-3 * t;
+  // Of a thick body it is the contact that yields: its compliance is to be small against that of a cell.
+  const double ofCell = body.shortestLine > 0 ? 20 * E / body.shortestLine : 0;
+  double alpha = std::max(10 * E / t, ofCell);
+  // A slender one bends: with the force per width E t^3/L^2 a tool of the radius L comes so deep.
+  if (t < 0.2 * L)
+    alpha = std::min(alpha, E * t * t * t / (L * L) * 3 / (4 * std::sqrt(2 * L * depth * depth * depth)));
+  // Other powers have the same pressure there.
+  return alpha * std::pow(depth, 1 - exponent);
+}
+
 }  // namespace
 
 ContactPressure contactPressure(const deck::Contact& contact, const BodySize& body) {
@@ -87,11 +102,8 @@ ContactPressure contactPressure(const deck::Contact& contact, const BodySize& bo
     case Law::Linear:
     case Law::Overclosure: {
       result.text = contact.law == Law::Linear ? "linear" : "power_overclosure";
-      // Of a thick body it is the contact that yields: its compliance is to be small against that of a cell.
-      const double ofCell = body.shortestLine > 0 ? 20 * body.youngsModulus / body.shortestLine : 0;
-      const double chosen = contact.law == Law::Linear ? std::max(alpha0, ofCell) : alpha0;
-      const double alpha = number("stiffness", contact.stiffness, chosen);
       const int m = contact.law == Law::Linear ? 1 : static_cast<int>(contact.exponent);
+      const double alpha = number("stiffness", contact.stiffness, zoneStiffness(body, m));
       if (m > 1) number("exponent", contact.exponent, m);
       result.overclosure = contact::Overclosure{alpha, m};
       result.overclosure->validate();

@@ -15,6 +15,7 @@ namespace atrapos {
 struct BodySize {
   double youngsModulus = 0;  ///< the largest of the deck
   double length = 0;         ///< largest extent of the body
+  double span = 0;           ///< the same without what a solid of revolution measures around its axis
   double thickness = 0;      ///< volume over the product of the two largest extents
   double smallestGap = 0;    ///< > 0, of the contact's points at the start
   double areaPerPoint = 1;   ///< of law points at nodes: forces instead of pressures; 1 at face points

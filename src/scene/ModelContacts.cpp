@@ -271,6 +271,7 @@ BodySize ModelMaker::bodySize() const {
     volume += std::accumulate(points.weights.begin(), points.weights.end(), 0.0);
   }
   double extent[3] = {high[0] - low[0], high[1] - low[1], high[2] - low[2]};
+  body.span = *std::max_element(extent, extent + 3);
   if (plane_)
     extent[2] = plane_->kind == solid::PlaneSection::Kind::axisymmetric ? 2 * std::acos(-1.0) * high[0]
                                                                         : plane_->thickness;

@@ -28,7 +28,7 @@ struct ContactState {
   double normalForce = 0;  ///< sum of weight * R over the points
   double area = 0;         ///< sum of the weights of closed points; of zones the area within them
   /// Closed points: h <= 2 eta/alpha, the vertex of the hyperbola (15); rigid: h <= 1e-3 Delta; h <= 0 with
-  /// laws without eta; hard on faces: pressed by an active corner; zones: points within them.
+  /// laws without eta; hard on faces: pressed by an active corner; zones: points with a part of them.
   int active = 0;
 };
 

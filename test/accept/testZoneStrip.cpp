@@ -1,5 +1,6 @@
 // examples/strip_roll/zones.yaml, zones_solid.yaml and zones_shell.yaml: contact integrated up to its moving
 // edges, against the elastica.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -32,6 +33,15 @@ struct Strip {
     steps = run.summary.at("steps");
   }
 };
+
+/// Solids, of this many cells, with another contact; the tip alone is looked at.
+Strip pressed(int cells, const std::string& contact) {
+  return {"zones_solid.yaml",
+          {{"divisions: [40, 2, 1]", fmt::format("divisions: [{}, 2, 1]", cells)},
+           {"points: zones, law: linear, stiffness: 1.0e3", "points: zones" + contact},
+           {"fields: [displacement, stress, nodal_stress, contact, reaction]", "fields: [displacement]"},
+           {"points_per_step: 10", "points_per_step: 3"}}};
+}
 
 /// Plane cells, solids two cells wide and shells, this many along the strip.
 Strip plane(int cells) {
@@ -82,6 +92,37 @@ TEST(ZoneStrip, OfSolidsIsTheElasticaToo) {
   EXPECT_LE(coarse.steps, 30);
   EXPECT_LT(fine.tip, 0.01);
   EXPECT_LE(fine.steps, 36);
+}
+
+// A deck that names no stiffness: one that is hard against a strip that bends, not against its cells.
+TEST(ZoneStrip, StiffnessThatNobodyChose) {
+  const Strip coarse = pressed(20, ""), strip = pressed(40, "");
+  EXPECT_LT(coarse.tip, 0.05);
+  EXPECT_LT(strip.tip, 0.015);
+  EXPECT_LE(strip.steps, 30);
+  EXPECT_GT(Table(strip.run.folder.results("steps.csv")).column("closed_contacts").back(), 0);
+}
+
+// A hundred times as stiff: the zones of six lines, 1e-7 mm deep, begin with 1 % of the load and push each
+// other off; those of a power begin with next to nothing, and grow by all of themselves within 1e-10 of the
+// load. Nothing of it is seen in the answer.
+TEST(ZoneStrip, StiffZonesBegin) {
+  EXPECT_LT(pressed(20, ", stiffness: 1.0e5").tip, 0.05);
+  EXPECT_LT(pressed(40, ", stiffness: 1.0e5").tip, 0.015);
+  EXPECT_LT(pressed(80, ", law: power_overclosure").tip, 0.01);
+}
+
+// All six lines touch the roll where the path starts, at nodes, and each has next to no load to begin with.
+TEST(ZoneStrip, TouchesAtTheStart) {
+  const auto end = [](const char* center) {
+    const StripRun run("zones_solid.yaml", {{"divisions: [40, 2, 1]", "divisions: [20, 2, 1]"},
+                                            {"center: [200, 0, -54.0]", center},
+                                            {"points_per_step: 10", "points_per_step: 1"}});
+    EXPECT_DOUBLE_EQ(run.column("load_factor").back(), 0.25);
+    return run.column("tip_uz").back();
+  };
+  // The tip moves by some 2 mm with each of the roll.
+  EXPECT_NEAR(end("center: [200, 0, -50.0]"), end("center: [200, 0, -50.001]"), 5e-3);
 }
 
 // Beyond load factor 1.18 the strip wraps the roll: cells of 20 mm, 0.4 of its radius, bend as quadratic

@@ -190,7 +190,8 @@ void expectSeries(Pressed& body, double lambda, std::vector<int> orders = {2, 5,
         } else {
           const int line = (i - ends) / 3;
           if ((i - ends) % 3 != 0) continue;
-          h = body.least(w, line, lambdaThere).second + 1e-7;  // the lines' length is 1
+          const double gap = body.least(w, line, lambdaThere).second;
+          h = gap + (gap < 0 ? 0.5e-7 : 1e-7);  // the lines' length is 1; a zone ends at half its depth
         }
         errors[half] = std::max(errors[half], std::abs(std::abs(g) - std::abs(h)));
       }

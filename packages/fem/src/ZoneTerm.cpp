@@ -242,7 +242,8 @@ class ZoneTerm final : public EventTerm {
       for (int k = 0; k <= laws_.degree; ++k, power *= place.xi) value += nodal(e, n, k) * power;
       for (int i = 0; i < lines_.components; ++i) byU(dofs_[e * N + n] + i) += value * there.gradient[i * L];
     }
-    return {1, place.gap + least(e), there.gradient[3 * L]};
+    // Where what has just begun, or ended, is looked for: at the depth at which it did.
+    return {1, place.gap + changesAt(e, active_[own] == 0), there.gradient[3 * L]};
   }
 
   std::vector<double> covered() const override {
@@ -321,10 +322,12 @@ class ZoneTerm final : public EventTerm {
         u, lambda,
         [&](int e, const double*, const GapShape& shape) {
           const Slots slots = slotsOf(shape);
-          const auto near = [&](double gap) { return std::abs(gap + least(e)) < part * least(e); };
           for (int p = 0; p < kPlaces; ++p) {
             if (!tells(e, p)) continue;
-            double& own = all[conditionOf_[e * kPlaces + p]];
+            const int condition = conditionOf_[e * kPlaces + p];
+            const double depth = changesAt(e, active_[condition] != 0);
+            const auto near = [&](double gap) { return std::abs(gap + depth) < part * least(e); };
+            double& own = all[condition];
             if (p < 2) {
               const auto bottom = bottomAt(e, p, shape);
               own = bottom && near(bottom->gap);
@@ -439,6 +442,9 @@ class ZoneTerm final : public EventTerm {
     const double length = lengths_[e];
     return std::max({std::min(1e-7 * length, options_.mostDepth), 1e-8 * length, 1e-11 * extent_});
   }
+  /// The depth at which a zone that counts ceases to, or another begins to. Less for the first: a zone begins
+  /// with a force, which may push the body back.
+  double changesAt(int e, bool counting) const { return counting ? 0.5 * least(e) : least(e); }
   /// Next to zero the condition says on which side an end is: gaps there are as good as event functions are.
   /// The zone that lies wrong has a depth below it.
   double border(int e) const { return 1e-4 * lengths_[e]; }
@@ -471,7 +477,7 @@ class ZoneTerm final : public EventTerm {
   bool counts(int e, const Extremum& x, const Slots& slots, const GapShape& shape) const {
     const double depth = x.least ? -x.gap : x.gap;
     if (depth >= 4 * least(e)) return true;
-    if (depth < 0.5 * least(e)) return false;
+    if (depth < 0.25 * least(e)) return false;
     const int end = endAt(e, x, shape);
     if (options_.events && end >= 0) return active_[conditionOf_[e * kPlaces + end]] != 0;
     for (int s = 0; options_.events && s < kSlots; ++s)
@@ -619,7 +625,7 @@ class ZoneTerm final : public EventTerm {
           hold[p * L + lane] = Hold::place;
           if (p < 2) {
             const auto bottom = bottomAt(e, p, shape);
-            function = {isIn(e, p, shape.ends[p]) ? -1.0 : 1.0, bottom ? -least(e) : 0.0};
+            function = {isIn(e, p, shape.ends[p]) ? -1.0 : 1.0, bottom ? -changesAt(e, on) : 0.0};
             if (bottom && std::abs(bottom->xi) < 1) {
               xi[p * L + lane] = bottom->xi;
               hold[p * L + lane] = Hold::extremum;
@@ -627,7 +633,7 @@ class ZoneTerm final : public EventTerm {
           } else if (const Extremum* x = slots.of[p - 2]) {
             xi[p * L + lane] = x->xi;
             hold[p * L + lane] = Hold::extremum;
-            const double depth = least(e);
+            const double depth = changesAt(e, on);
             function = endAt(e, *x, shape) >= 0 ? EventFunction{}
                        : x->least               ? EventFunction{on ? -1.0 : 1.0, -depth}
                                                 : EventFunction{on ? 1.0 : -1.0, depth};

@@ -62,25 +62,26 @@ void passJump(PathUnderWay& path) {
 constexpr double kRoundingOfLittle = 1e-3;
 
 /// What begins or ends at an event has a size there: the state that solves the changed Problem with the event
-/// function zero, a little further along the path. Newton iterations with that function as their border, the
-/// first two with factorizations of their own, as the first may be made before there is anything of that
-/// size. The forces of what has just begun may be so small that rounding is more than the bound of them: the
-/// best state is taken then. False, and nothing changed, where the event needs none of it, they do not
-/// converge or would miss a stop.
+/// function zero, a little further along the path. Newton iterations with that function as their border and
+/// factorizations of their own, the first of which may be made before there is anything of that size. The
+/// forces of what has just begun may be so small that rounding is more than the bound of them, or jump as
+/// others begin beside it: the best state is taken then. False, and nothing changed, where the event needs
+/// none of it, they do not converge or would miss a stop.
 bool correctWithEvent(PathUnderWay& path, int event) {
   Calls& calls = path.calls;
   Position& here = path.here;
   auto byU = calls.newVector(), F = calls.newVector(), Uhat = calls.newVector(), x = calls.newVector();
   auto r = calls.newVector();
   State state = here.state.copy();
-  constexpr int maxIterations = 12, factored = 2;
+  std::optional<State> best;
+  double residual = calls.residual(state, *r).relative(), least = kRoundingOfLittle;
+  constexpr int maxIterations = 20, factored = 2, mostRises = 3;
   const double enough = 1e-3 * path.bound();
-  double residual = calls.residual(state, *r).relative();
-  bool rounded = false;
-  for (int i = 0; i < maxIterations && !(i >= factored && residual <= enough); ++i) {
+  bool factor = true, little = false;
+  for (int i = 0, rises = 0; i < maxIterations && rises < mostRises && !little; ++i) {
     double value = 0, byLambda = 0;
     if (!calls.eventGradient(event, state, value, *byU, byLambda)) return false;
-    if (i < factored) {
+    if (factor) {
       calls.factor(state, *F);
       calls.solve(*F, *Uhat);
       path.countCorrections(1);
@@ -93,13 +94,21 @@ bool correctWithEvent(PathUnderWay& path, int event) {
     state.lambda += dLambda;
     const double before = residual;
     residual = calls.residual(state, *r).relative();
-    if (!std::isfinite(residual)) return false;
-    rounded = i >= factored && residual > 0.5 * before;
-    if (rounded) break;
+    if (!std::isfinite(residual)) break;
+    if (i + 1 < factored) continue;
+    if (residual <= least) {
+      least = residual;
+      best = state.copy();
+    }
+    const bool rose = i >= factored && residual > 0.5 * before;
+    if (rose && factor) ++rises;
+    little = residual <= enough || (rose && residual <= path.bound());
+    // What has begun is stiff against the body, and stiffer from iteration to iteration.
+    factor = residual > 0.1 * before;
   }
-  const double enoughForIt = rounded ? std::max(path.bound(), kRoundingOfLittle) : path.bound();
-  if (!(residual <= enoughForIt) || passesStop(path.stops, here.state, state)) return false;
-  here.moveTo(calls.settled(state), r, residual);
+  if (!best || passesStop(path.stops, here.state, *best)) return false;
+  residual = calls.residual(*best, *r).relative();
+  here.moveTo(calls.settled(*best), r, residual);
   return true;
 }
 

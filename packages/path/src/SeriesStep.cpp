@@ -64,14 +64,17 @@ Series buildSeries(Calls& calls, const State& start, const SeriesRequest& reques
   const double hat2 = problem.inner(Xhat, Xhat);  // which the weight may change
   if (!std::isfinite(hat2)) notFinite("the tangent direction", 1, start);
 
-  double lambda1 = request.direction / std::sqrt(1 + w * hat2);
-  if (std::abs(lambda1) < nearlySingular) {
+  // Internal variables may move as fast as they like: widths of zones behind their birth do.
+  const Increment unknowns{Xhat.u, std::vector<double>(Xhat.internal.size(), 0.0)};
+  const double response = std::sqrt(1 + w * problem.inner(unknowns, unknowns));
+  if (1 / response < nearlySingular) {
     std::ostringstream text;
     text << "the tangent is singular to working accuracy at lambda = " << start.lambda
-         << " (lambda_1 = " << lambda1 << ": the response to the load is " << 1 / std::abs(lambda1)
+         << " (the response to the load is " << response
          << " times what path/weight makes one, the first step's where none is given)";
     throw PathError(EndReason::singularTangent, text.str());
   }
+  double lambda1 = request.direction / std::sqrt(1 + w * hat2);
   if (const auto* previous = request.previous) {
     const double along = w * problem.inner(Xhat, previous->x) + previous->lambda;
     lambda1 = std::copysign(lambda1, along);
