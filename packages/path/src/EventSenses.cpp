@@ -65,7 +65,13 @@ double reachOf(const PathUnderWay& path, const Series& series) {
 
 }  // namespace
 
-bool converges(const std::vector<double>& coefficients, double a) { return !(within(coefficients, a) < a); }
+bool converges(const std::vector<double>& c, double a, double part) {
+  if (within(c, a) < a) return false;
+  double last = 0;
+  for (std::size_t k = std::max<std::size_t>(c.size(), 3) - 2; k < c.size(); ++k)
+    last = std::max(last, std::abs(c[k]) * std::pow(a, static_cast<double>(k)));
+  return last <= part * std::max(std::abs(c[0]), size(c, a));
+}
 
 double sizeOfTerms(const std::vector<double>& c, double a) {
   return std::max(std::abs(c[0]), size(c, within(c, a)));

@@ -12,8 +12,9 @@ struct PathUnderWay;
 /// Event function i without its value at the start where that is a known root (one of `zero`).
 Polynomial eventPolynomial(const Series& series, int i, const std::vector<int>& zero);
 
-/// Whether the terms of a function tell what it is at a: the later ones are not the largest there.
-bool converges(const std::vector<double>& coefficients, double a);
+/// Whether the terms of a function tell what it is at a but for this part of its size: the later ones are not
+/// the largest there, and the last two within that part.
+bool converges(const std::vector<double>& coefficients, double a, double part);
 /// How large its terms are up to a, as far as they converge.
 double sizeOfTerms(const std::vector<double>& coefficients, double a);
 

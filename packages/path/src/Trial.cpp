@@ -106,11 +106,12 @@ void limit(const PathUnderWay& path, const Series& series, Trial& trial, const s
 std::vector<int> eventsThatAreNone(const PathUnderWay& path, const Series& series, const Trial& trial) {
   Calls& calls = path.calls;
   const auto& zero = path.here.applied;
+  constexpr double nothing = 1e-2;  // of the size of a function
   std::vector<int> doubtful;
   for (const int i : trial.events)
     if (!path.isBreak(i) && !series.eventGrows(i) &&
         !converges(series.scalar(eventPolynomial(series, i, zero).coefficients()).numerator().coefficients(),
-                   trial.a))
+                   trial.a, 0.1 * nothing))
       doubtful.push_back(i);
   if (doubtful.empty() || calls.problem().remembers()) return {};
   std::vector<double> g;
@@ -121,7 +122,6 @@ std::vector<int> eventsThatAreNone(const PathUnderWay& path, const Series& serie
     g.assign(series.eventCount(), 0.0);  // beyond what the Problem knows: it stays an event
   }
   calls.beginSeries(path.here.state, path.order);  // its pieces are still asked for
-  constexpr double nothing = 1e-2;
   doubtful.erase(
       std::remove_if(
           doubtful.begin(), doubtful.end(),
