@@ -24,8 +24,9 @@ TOOLS = {
     "moving sphere": "{{type: sphere, center: [80, 0, {t} + 20], radius: 20, motion: {{shift: [0, 0, -10]}}}}",
 }
 LAWS = {
-    "hyperbola": "",
-    "hyperbola at nodes": ", points: nodes",
+    "chosen": "",
+    "hyperbola": ", law: hyperbola",
+    "hyperbola at nodes": ", law: hyperbola, points: nodes",
     "curve": ", unknown: curve",
     "barrier": ", law: barrier",
     "power": ", law: power",

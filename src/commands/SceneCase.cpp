@@ -95,7 +95,10 @@ std::unique_ptr<PathCase> SceneCase::moved(const path::Vector& shape, double siz
 }
 
 std::unique_ptr<PathCase> SceneCase::under(const deck::Deck& deck, const path::State& start) const {
-  auto scene = std::make_unique<Scene>(deck, DeckMesh(fem::Mesh(scene_.mesh()), scene_.givenRanks()));
+  // What is free in this stage only must not choose another law: states go on.
+  deck::Deck same = deck;
+  same.contacts = scene_.deck().contacts;
+  auto scene = std::make_unique<Scene>(same, DeckMesh(fem::Mesh(scene_.mesh()), scene_.givenRanks()));
   scene->grow(start);
   scene->problem().beginAt(start);
   return std::make_unique<SceneCase>(std::move(scene));

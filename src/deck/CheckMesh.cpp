@@ -285,7 +285,7 @@ class MeshCheck {
 
   void contact(const Contact& contact) const {
     const std::string path = "contact/" + contact.name;
-    if (contact.points != Contact::Points::Nodes) {
+    if (!isAtNodes(contact, mesh_)) {
       faces(path, contact.set, contact.at);
       return;
     }
@@ -428,6 +428,15 @@ class MeshCheck {
 };
 
 }  // namespace
+
+bool isAtNodes(const Contact& contact, const fem::Mesh& mesh) {
+  if (contact.points != Contact::Points::Auto) {
+    return contact.points == Contact::Points::Nodes;
+  }
+  // The numbers of a law are others at nodes: who gives them says where.
+  return contact.law == Contact::Law::Auto && fem::findSideSet(mesh, contact.set) < 0 &&
+         fem::findNodeSet(mesh, contact.set) >= 0;
+}
 
 void checkAgainstMesh(const Deck& deck, const fem::Mesh& mesh) {
   const MeshCheck check(deck, mesh);

@@ -431,11 +431,13 @@ struct Tool {
 /// Contact of a set with a tool: a law between the pressure R and the gap h with R = 0 at h = Delta.
 struct Contact {
   enum class Points {
+    Auto,        ///< quadrature or zones, as law and scene suggest (scene/ChosenContact.hpp)
     Nodes,       ///< R, eta: force at each node; alpha: force per length
     Quadrature,  ///< R, eta: pressure; alpha: pressure per length
     Zones  ///< the zones of edges where the gap is below zero, up to their limits; alpha as with quadrature
   };
   enum class Law {
+    Auto,         ///< hard, with zones linear, or the hyperbola, as the scene suggests
     Hyperbola,    ///< R (R/alpha + h) = eta (Delta - h), eq. (15) of the paper
     Barrier,      ///< the same with 1/alpha = 0: R = eta (Delta - h)/h
     Power,        ///< (R + eta) ((h + R/alpha)/Delta)^m = eta
@@ -463,11 +465,11 @@ struct Contact {
   std::string name;
   std::string tool;
   std::string set;  ///< side set; with nodes: node set, else side set
-  Points points = Points::Quadrature;
+  Points points = Points::Auto;
   Shares shares = Shares::Equal;       ///< with nodes; not with the hard law
   ShellPlace at = ShellPlace::Middle;  ///< of shells
   int quadratureDegree = 4;            ///< polynomial degree integrated exactly; unused with nodes
-  Law law = Law::Hyperbola;
+  Law law = Law::Auto;
   bool rigid = false;                    ///< 1/alpha = 0: hyperbola and power
   std::optional<double> stiffness;       ///< alpha > 0; empty = chosen, unless rigid
   std::optional<double> regularisation;  ///< eta > 0; empty = chosen
@@ -715,6 +717,9 @@ Deck readDeckText(const std::string& text, const std::string& file);
 /// Checks every block and set name against the mesh, that each block of the mesh has exactly one material,
 /// and that what is meant for shells has shells. Throws DeckError, naming what the mesh has.
 void checkAgainstMesh(const Deck& deck, const fem::Mesh& mesh);
+
+/// Whether a contact acts at nodes: it says so, or its set is one of nodes and it says nothing of a law.
+bool isAtNodes(const Contact& contact, const fem::Mesh& mesh);
 
 /// Throws DeckError about the value at `keys`, "supports/clamp/set", with its place in the deck.
 [[noreturn]] void failAt(const Deck& deck, const std::string& keys, const std::string& what);

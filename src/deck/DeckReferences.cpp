@@ -128,8 +128,9 @@ void checkWay(const Value& at, const InflowLoad& inflow, const Deck& deck) {
     v.fail("stands beside set; expected one of them");
   }
   const Contact& contact = find(v, inflow.contact, deck.contacts, "contact");
-  if (contact.points != Contact::Points::Quadrature || contact.law == Contact::Law::Hard ||
-      contact.unknown == Contact::Unknown::Curve) {
+  if (contact.points == Contact::Points::Nodes || contact.points == Contact::Points::Zones ||
+      contact.law == Contact::Law::Hard || contact.law == Contact::Law::Linear ||
+      contact.law == Contact::Law::Overclosure || contact.unknown == Contact::Unknown::Curve) {
     v.fail(
         fmt::format("the pressure of contact '{}' is no function of the gap at points of faces; expected "
                     "points: quadrature, unknown: displacement and another law than hard",
@@ -647,7 +648,8 @@ void checkReferences(const Value& root, const Deck& deck) {
   checkSolver(root, deck);
   if (deck.path.sharpen) {
     const auto hasEta = [](const Contact& c) {
-      return (c.law == Contact::Law::Hyperbola || c.law == Contact::Law::Barrier) &&
+      const bool open = c.law == Contact::Law::Auto && c.points != Contact::Points::Zones;
+      return (open || c.law == Contact::Law::Hyperbola || c.law == Contact::Law::Barrier) &&
              c.unknown == Contact::Unknown::Displacement;
     };
     if (deck.contacts.empty() || !std::all_of(deck.contacts.begin(), deck.contacts.end(), hasEta)) {

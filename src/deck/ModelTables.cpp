@@ -94,18 +94,28 @@ Field<Contact> positiveOr(std::string key, std::optional<double> Contact::*membe
 using ContactLaw = Contact::Law;
 
 const Choices<ContactLaw>& contactLaws() {
-  static const Choices<ContactLaw> laws{
-      {"hyperbola", ContactLaw::Hyperbola}, {"barrier", ContactLaw::Barrier},
-      {"power", ContactLaw::Power},         {"exponential", ContactLaw::Exponential},
-      {"penalty", ContactLaw::Penalty},     {"hard", ContactLaw::Hard},
-      {"linear", ContactLaw::Linear},       {"power_overclosure", ContactLaw::Overclosure}};
+  static const Choices<ContactLaw> laws{{"auto", ContactLaw::Auto},
+                                        {"hyperbola", ContactLaw::Hyperbola},
+                                        {"barrier", ContactLaw::Barrier},
+                                        {"power", ContactLaw::Power},
+                                        {"exponential", ContactLaw::Exponential},
+                                        {"penalty", ContactLaw::Penalty},
+                                        {"hard", ContactLaw::Hard},
+                                        {"linear", ContactLaw::Linear},
+                                        {"power_overclosure", ContactLaw::Overclosure}};
   return laws;
 }
 
-/// The field where it has a meaning: with one of these laws.
+/// The field where it has a meaning: with one of these laws. A number of the hyperbola, with zones of the
+/// linear law, means that law where the deck names none.
 Field<Contact> ofLaws(Field<Contact> field, const std::vector<ContactLaw>& laws) {
-  const auto has = [=](const Contact& s) { return std::find(laws.begin(), laws.end(), s.law) != laws.end(); };
+  const auto isOf = [=](ContactLaw law) { return std::find(laws.begin(), laws.end(), law) != laws.end(); };
+  const auto has = [=](const Contact& s) { return isOf(s.law); };
   field.read = [=, inner = field.read](const Value& v, Contact& s) {
+    const ContactLaw meant = s.points == Contact::Points::Zones ? ContactLaw::Linear : ContactLaw::Hyperbola;
+    if (s.law == ContactLaw::Auto && isOf(meant)) {
+      s.law = meant;
+    }
     if (!has(s)) {
       v.fail(fmt::format("has no meaning with law: {}", wordOf(s.law, contactLaws())));
     }
@@ -371,27 +381,24 @@ const Variants<Load, decltype(Load::load)>& loadVariants() {
 }
 
 const Table<Contact>& contactTable() {
-  static const Choices<Contact::Points> points{{"nodes", Contact::Points::Nodes},
+  static const Choices<Contact::Points> points{{"auto", Contact::Points::Auto},
+                                               {"nodes", Contact::Points::Nodes},
                                                {"quadrature", Contact::Points::Quadrature},
                                                {"zones", Contact::Points::Zones}};
   static const Table<Contact> table = [] {
-    auto where = choice("points", optional, &Contact::points, points,
-                        "where the law acts; zones: where lines of the surface are in the tool, integrated "
-                        "between their limits");
-    where.read = [inner = where.read](const Value& v, Contact& s) {
-      inner(v, s);
-      if (s.points == Contact::Points::Zones) {
-        s.law = ContactLaw::Linear;
-      }
-    };
+    const auto where =
+        choice("points", optional, &Contact::points, points,
+               "where the law acts; zones: where lines of the surface are in the tool, integrated "
+               "between their limits");
+    using Law = ContactLaw;
     auto law = choice("law", optional, &Contact::law, contactLaws(), "pressure as a function of the gap");
     law.read = [inner = law.read](const Value& v, Contact& s) {
       inner(v, s);
       const bool edge = s.law == ContactLaw::Linear || s.law == ContactLaw::Overclosure;
-      if (edge && s.points != Contact::Points::Zones) {
+      if (edge && s.points != Contact::Points::Zones && s.points != Contact::Points::Auto) {
         v.fail("a pressure with an edge is integrated up to it; expected points: zones beside it");
       }
-      if (!edge && s.points == Contact::Points::Zones) {
+      if (!edge && s.law != Law::Auto && s.points == Contact::Points::Zones) {
         v.fail("zones begin where the pressure does; expected linear or power_overclosure");
       }
     };
@@ -431,7 +438,6 @@ const Table<Contact>& contactTable() {
     shares.print = [inner = shares.print](const Contact& s) {
       return s.points == Contact::Points::Nodes ? inner(s) : Node{};
     };
-    using Law = ContactLaw;
     using Unknown = Contact::Unknown;
     auto carried =
         choice("carried", optional, &Contact::carried,

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 namespace atrapos {
 namespace {
@@ -28,12 +29,12 @@ class Numbers {
 /// the shorter the piece of the path on which its force becomes the body's (docs/theory/contact.md,
 /// Defaults).
 double zoneStiffness(const BodySize& body, int exponent) {
-  const double t = body.thickness, L = body.span, E = body.youngsModulus, depth = 1e-3 * t;
+  const double t = body.thickness, L = body.length, E = body.youngsModulus, depth = 1e-3 * t;
   // Of a thick body it is the contact that yields: its compliance is to be small against that of a cell.
   const double ofCell = body.shortestLine > 0 ? 20 * E / body.shortestLine : 0;
   double alpha = std::max(10 * E / t, ofCell);
   // A slender one bends: with the force per width E t^3/L^2 a tool of the radius L comes so deep.
-  if (t < 0.2 * L)
+  if (body.isSlender())
     alpha = std::min(alpha, E * t * t * t / (L * L) * 3 / (4 * std::sqrt(2 * L * depth * depth * depth)));
   // Other powers have the same pressure there.
   return alpha * std::pow(depth, 1 - exponent);
@@ -58,6 +59,8 @@ ContactPressure contactPressure(const deck::Contact& contact, const BodySize& bo
     return 0.0;
   };
   switch (contact.law) {
+    case Law::Auto:
+      throw std::logic_error("contactPressure: a law that is not chosen yet");
     case Law::Hard:
       result.hard = true;
       result.text = "hard";

@@ -14,12 +14,14 @@ namespace atrapos {
 /// Size and stiffness of what is pressed on a tool, in the deck's units.
 struct BodySize {
   double youngsModulus = 0;  ///< the largest of the deck
-  double length = 0;         ///< largest extent of the body
-  double span = 0;           ///< the same without what a solid of revolution measures around its axis
-  double thickness = 0;      ///< volume over the product of the two largest extents
-  double smallestGap = 0;    ///< > 0, of the contact's points at the start
-  double areaPerPoint = 1;   ///< of law points at nodes: forces instead of pressures; 1 at face points
-  double shortestLine = 0;   ///< of a contact with zones, the shortest of its lines; 0: it has none
+  double length = 0;         ///< largest extent of the body, of plane cells in their plane
+  double thickness =
+      0;  ///< volume over the product of the two largest extents, of plane cells area over length
+  double smallestGap = 0;   ///< > 0, of the contact's points at the start
+  double areaPerPoint = 1;  ///< of law points at nodes: forces instead of pressures; 1 at face points
+  double shortestLine = 0;  ///< of a contact with zones, the shortest of its lines; 0: it has none
+  /// Whether it bends rather than yields where it is pressed.
+  bool isSlender() const { return thickness < 0.2 * length; }
 };
 
 /// A pressure law with all of its numbers.

@@ -9,6 +9,7 @@
 #include "atrapos/fem/Loads.hpp"
 #include "atrapos/fem/ReferenceCell.hpp"
 #include "atrapos/fem/ShellFaces.hpp"
+#include "scene/ChosenContact.hpp"
 #include "scene/ModelMaker.hpp"
 #include "scene/Sets.hpp"
 
@@ -40,14 +41,26 @@ void ModelMaker::addContacts() {
   const bool heldByContacts =
       !fem::freeBodies(mesh_, made_.model.dofs, made_.model.supports, held_, &shells_.geometry, joinedNodes())
            .empty();
-  for (const deck::Contact& contact : deck_.contacts) {
-    const auto position = std::find_if(deck_.tools.begin(), deck_.tools.end(),
-                                       [&](const deck::Tool& tool) { return tool.name == contact.tool; });
+  const auto toolOf = [this](const deck::Contact& contact) {
+    return std::find_if(deck_.tools.begin(), deck_.tools.end(),
+                        [&](const deck::Tool& tool) { return tool.name == contact.tool; }) -
+           deck_.tools.begin();
+  };
+  const auto atStart = [&](const deck::Contact& contact) -> const contact::RigidTool& {
+    const auto number = toolOf(contact);
+    return *(tools_.atStart[number] ? tools_.atStart[number] : tools_.tools[number]);
+  };
+  const bool holds =
+      heldByContacts && std::none_of(deck_.contacts.begin(), deck_.contacts.end(), [&](const auto& contact) {
+        return liesOnTool(contact, mesh_, atStart(contact), body.thickness);
+      });
+  for (const deck::Contact& asked : deck_.contacts) {
     ContactPoints entry;
-    entry.name = contact.name;
-    const auto number = position - deck_.tools.begin();
-    entry.tool = tools_.tools[number].get();
-    entry.atStart = tools_.atStart[number] ? tools_.atStart[number].get() : entry.tool;
+    entry.name = asked.name;
+    entry.tool = tools_.tools[toolOf(asked)].get();
+    entry.atStart = &atStart(asked);
+    const deck::Contact& contact = made_.chosenContacts.emplace_back(
+        chosenContact(asked, {deck_, mesh_, deck_.tools[toolOf(asked)], *entry.atStart, body, holds}));
     const bool zones = contact.points == deck::Contact::Points::Zones;
     if (zones)
       makeLines(contact, entry);
@@ -60,6 +73,7 @@ void ModelMaker::addContacts() {
                      !deck_.path.imperfections.empty();
     measureGaps(contact, entry);
     choosePressure(contact, body, entry);
+    entry.pressure.text = choiceMade(asked, contact) + entry.pressure.text;
     entry.hardFaces = entry.pressure.hard && contact.points == deck::Contact::Points::Quadrature;
     if (zones) {
       addZones(contact, entry);
@@ -241,7 +255,11 @@ void ModelMaker::choosePressure(const deck::Contact& contact, BodySize body, Con
 BodySize ModelMaker::bodySize() const {
   BodySize body;
   body.youngsModulus = deck::largestYoungsModulus(deck_);
-  double low[3], high[3], volume = 0;
+  const auto depthAt = [this](double x) {
+    const bool ring = plane_->kind == solid::PlaneSection::Kind::axisymmetric;
+    return ring ? 2 * std::acos(-1.0) * x : plane_->thickness;
+  };
+  double low[3], high[3], volume = 0, area = 0;  // area: of plane cells
   for (int i = 0; i < 3; ++i) low[i] = high[i] = mesh_.coordinates[i];
   for (std::size_t d = 0; d < mesh_.coordinates.size(); ++d) {
     low[d % 3] = std::min(low[d % 3], mesh_.coordinates[d]);
@@ -269,12 +287,16 @@ BodySize ModelMaker::bodySize() const {
             ? solid::thinValuePoints(mesh_, block, solid::thinTabulation(block.topology), section->second)
             : materialPoints(block, fem::tabulate(block.topology));
     volume += std::accumulate(points.weights.begin(), points.weights.end(), 0.0);
+    for (int p = 0; plane_ && p < points.numPoints(); ++p)
+      area += points.weights[p] / depthAt(points.positions[3 * static_cast<std::size_t>(p)]);
   }
   double extent[3] = {high[0] - low[0], high[1] - low[1], high[2] - low[2]};
-  body.span = *std::max_element(extent, extent + 3);
-  if (plane_)
-    extent[2] = plane_->kind == solid::PlaneSection::Kind::axisymmetric ? 2 * std::acos(-1.0) * high[0]
-                                                                        : plane_->thickness;
+  if (plane_) {
+    body.length = std::max(extent[0], extent[1]);
+    body.areaPerPoint = body.length * depthAt(high[0]);
+    body.thickness = area / body.length;
+    return body;
+  }
   std::sort(extent, extent + 3);
   body.length = extent[2];
   body.areaPerPoint = extent[1] * extent[2];  // of all points together so far

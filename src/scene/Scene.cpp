@@ -47,6 +47,7 @@ fem::FeModel Scene::makeModel() {
   SceneModel made = ModelMaker({deck_, mesh_, givenRanks_, shells_, plane_, tools_}).make();
   bodies_ = std::move(made.bodies);
   contacts_ = std::move(made.contacts);
+  deck_.contacts = std::move(made.chosenContacts);
   shells_.joints = std::move(made.joints);
   ties_ = std::move(made.ties);
   normalForces_ = std::move(made.normalForces);

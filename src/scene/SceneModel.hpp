@@ -70,7 +70,8 @@ struct SceneModel {
   fem::FeModel model;
   std::vector<BodyBlock> bodies;  ///< [block]
   std::vector<ContactPoints> contacts;
-  fem::ShellJoints joints;  ///< folds and branches of shells
+  std::vector<deck::Contact> chosenContacts;  ///< the deck's, with law and points where it leaves them open
+  fem::ShellJoints joints;                    ///< folds and branches of shells
   std::vector<TiedSurfaces> ties;
   std::map<std::string, std::vector<NormalForce>> normalForces;  ///< by support with a normal
   std::map<std::string, int> hinges;  ///< by coupling: the node of a rigid body's angle

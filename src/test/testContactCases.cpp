@@ -84,11 +84,12 @@ output:
 // The body lies on a floor, which holds it: without one its end would go 38 mm down. A thousandth of that is
 // what laws at points, the last of which lie 1.1 mm before the end, and means over faces may leave.
 TEST_F(ContactCases, BodiesMayLieOnTools) {
-  for (const char* law : {"", ", points: nodes", ", law: power", ", law: exponential", ", law: hard"}) {
+  for (const char* law : {"", ", points: nodes", ", law: hyperbola", ", law: hyperbola, points: nodes",
+                          ", law: power", ", law: exponential", ", law: hard"}) {
     SCOPED_TRACE(law);
     EXPECT_NEAR(tip(kFloor, law), 0, 0.038);
   }
-  EXPECT_NEAR(tip(kFloor, ", law: penalty", 5), tip(kFloor, ""),
+  EXPECT_NEAR(tip(kFloor, ", law: penalty", 5), tip(kFloor, ", law: hyperbola"),
               1e-5);  // of quadrature points both; rounded by 1e-6 of the thickness
   const CommandResult curve = run(kFloor, ", unknown: curve");
   EXPECT_EQ(curve.exitCode, 2);
@@ -110,7 +111,7 @@ TEST_F(ContactCases, ZonesOverAFloor) {
 // it.
 TEST_F(ContactCases, PenaltyComesUnseen) {
   const std::string roll = "{type: cylinder, center: [60, 0, -20.5], axis: [0, 1, 0], radius: 20}";
-  const double penalty = tip(roll, ", law: penalty"), hyperbola = tip(roll, "");
+  const double penalty = tip(roll, ", law: penalty"), hyperbola = tip(roll, ", law: hyperbola");
   EXPECT_NEAR(penalty, hyperbola,
               1e-3 * std::abs(hyperbola));  // both laws round the corner by 1e-3 of the thickness
 }
@@ -139,15 +140,16 @@ TEST_F(ContactCases, ZonesOnARingBeginTogether) {
 /// A ball that touches a node comes down by 10 mm at 80 of 100 mm: with few orders residuals within the bound
 /// turn series beside the steep law.
 TEST_F(ContactCases, FewOrdersBesideASteepLaw) {
-  const double many = tipUnderBall(", points: nodes", 20);
+  const double many = tipUnderBall(", law: hyperbola, points: nodes", 20);
   EXPECT_LT(many, -13);
-  EXPECT_NEAR(tipUnderBall(", points: nodes", 5), many, 1e-4);  // both within 1e-6 of the forces
+  EXPECT_NEAR(tipUnderBall(", law: hyperbola, points: nodes", 5), many,
+              1e-4);  // both within 1e-6 of the forces
 }
 
 /// Its force grows from 1e-38 N: what next to nothing moves by does not choose the weight of the path
 /// parameter.
 TEST_F(ContactCases, ForcesThatGrowFromNothing) {
-  const double hyperbola = tipUnderBall("", 20);
+  const double hyperbola = tipUnderBall(", law: hyperbola", 20);
   EXPECT_NEAR(tipUnderBall(", law: exponential", 20), hyperbola, 1e-3 * std::abs(hyperbola));
 }
 

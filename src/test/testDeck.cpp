@@ -150,7 +150,8 @@ TEST(Deck, goodDeckGivesItsValues) {
   EXPECT_EQ(contact.name, "lower");
   EXPECT_EQ(contact.tool, "roll");
   EXPECT_EQ(contact.set, "z_min");
-  EXPECT_EQ(contact.points, Contact::Points::Quadrature);
+  EXPECT_EQ(contact.points, Contact::Points::Auto);
+  EXPECT_EQ(contact.law, Contact::Law::Hyperbola);  // its numbers say so
   EXPECT_EQ(contact.quadratureDegree, 4);
   EXPECT_EQ(contact.stiffness, 1000.0);
   EXPECT_EQ(contact.regularisation, 0.1);

@@ -228,7 +228,8 @@ std::string zonesOf(const std::string& keys) {
     describe(deck, first);
     describe(readDeckText(first.str(), "plane.yaml"), second);
     EXPECT_EQ(first.str(), second.str());
-    return deck.contacts[0].law == Contact::Law::Linear ? "linear" : "another law";
+    const Contact::Law law = deck.contacts[0].law;
+    return law == Contact::Law::Linear ? "linear" : law == Contact::Law::Auto ? "open" : "another law";
   } catch (const DeckError& error) {
     return error.what();
   }
@@ -237,15 +238,16 @@ std::string zonesOf(const std::string& keys) {
 }  // namespace
 
 TEST(PlaneDeck, zonesHavePressuresWithAnEdge) {
-  EXPECT_EQ(zonesOf("points: zones"), "linear");
+  EXPECT_EQ(zonesOf("points: zones"), "open");
+  EXPECT_EQ(zonesOf("law: linear"), "linear");
   EXPECT_EQ(zonesOf("points: zones, law: linear, stiffness: 100"), "linear");
   EXPECT_EQ(zonesOf("points: zones, law: power_overclosure, stiffness: 100, exponent: 3"), "another law");
   EXPECT_EQ(zonesOf("points: zones, law: penalty"),
             "plane.yaml:16:55: contact/lower/law: zones begin where the pressure does; expected linear or "
             "power_overclosure");
   EXPECT_EQ(
-      zonesOf("law: linear"),
-      "plane.yaml:16:40: contact/lower/law: a pressure with an edge is integrated up to it; expected points: "
+      zonesOf("points: quadrature, law: linear"),
+      "plane.yaml:16:60: contact/lower/law: a pressure with an edge is integrated up to it; expected points: "
       "zones beside it");
   EXPECT_EQ(zonesOf("points: zones, law: power_overclosure, exponent: 1.5"),
             "plane.yaml:16:84: contact/lower/exponent: zones have Taylor series for whole exponents only; "

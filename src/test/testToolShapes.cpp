@@ -77,7 +77,7 @@ TEST(ToolShapes, PointsLieOnTheToolWhereverItIs) {
 TEST(ToolShapes, RunsWriteThemBesideTheirResults) {
   TemporaryFolder folder;
   const std::string deck =
-      "mesh: {file: m.exo, generate: {shape: box, lengths: [4, 1, 1], divisions: [4, 1, 1], cell: HEX20, "
+      "mesh: {file: m.exo, generate: {shape: box, lengths: [4, 1, 1], divisions: [4, 2, 1], cell: HEX20, "
       "block: b}}\n"
       "materials:\n  m: {law: saint_venant_kirchhoff, youngs_modulus: 1000, poissons_ratio: 0.3, blocks: "
       "[b]}\n"

@@ -60,16 +60,16 @@ TEST(Hertz, UnderABall) {
   EXPECT_DOUBLE_EQ(run.column("load_factor").back(), 0.1125);
   expectBall(run);
   expectBall(halved);
-  // 40 and 60: each cell that the edge passes is an event or two.
-  EXPECT_LE(steps(run), 45);
-  EXPECT_LE(steps(halved), 1.6 * steps(run));
+  // 32 and 50: each cell that the edge passes is an event or two.
+  EXPECT_LE(steps(run), 38);
+  EXPECT_LE(steps(halved), 1.7 * steps(run));
 }
 
 TEST(Hertz, UnderACylinder) {
   const ExampleRun run("contact/hertz_cylinder.yaml"), halved("contact/hertz_cylinder.yaml", kHalved);
   expectCylinder(run);
   expectCylinder(halved);
-  // 30 and 46
+  // 31 and 44
   EXPECT_LE(steps(run), 35);
   EXPECT_LE(steps(halved), 1.6 * steps(run));
 }
