@@ -299,6 +299,16 @@ class MeshCheck {
     }
   }
 
+  /// Of the contact that a monitor names, which the deck has.
+  void notAtNodes(const std::string& monitor, const std::string& name, const char* why) const {
+    const auto contact = std::find_if(deck_.contacts.begin(), deck_.contacts.end(),
+                                      [&](const Contact& c) { return c.name == name; });
+    if (isAtNodes(*contact, mesh_)) {
+      fail("output/monitors/" + monitor + "/contact",
+           fmt::format("contact '{}' acts at nodes, {}", name, why));
+    }
+  }
+
   void distributionFactors(const std::string& path, const std::string& set) const {
     const int found = fem::findNodeSet(mesh_, set);
     if (found < 0) {
@@ -463,6 +473,10 @@ void checkAgainstMesh(const Deck& deck, const fem::Mesh& mesh) {
       check.inPlane("output/monitors/" + monitor.name, displacement->component == Component::Z);
     } else if (const auto* field = std::get_if<FieldMonitor>(&monitor.quantity)) {
       check.nodes("output/monitors/" + monitor.name + "/set", field->set);
+    } else if (const auto* area = std::get_if<ContactAreaMonitor>(&monitor.quantity)) {
+      check.notAtNodes(monitor.name, area->contact, "which have no area");
+    } else if (const auto* pressure = std::get_if<ContactPressureMonitor>(&monitor.quantity)) {
+      check.notAtNodes(monitor.name, pressure->contact, "by forces and not by a pressure");
     } else if (const auto* center = std::get_if<ContactCenterMonitor>(&monitor.quantity)) {
       check.inPlane("output/monitors/" + monitor.name, center->component == Component::Z);
     } else if (const auto* spread = std::get_if<ContactSpreadMonitor>(&monitor.quantity)) {

@@ -431,7 +431,7 @@ struct Tool {
 /// Contact of a set with a tool: a law between the pressure R and the gap h with R = 0 at h = Delta.
 struct Contact {
   enum class Points {
-    Auto,        ///< quadrature or zones, as law and scene suggest (scene/ChosenContact.hpp)
+    Auto,        ///< nodes, quadrature or zones, as law, set and scene suggest (scene/ChosenContact.hpp)
     Nodes,       ///< R, eta: force at each node; alpha: force per length
     Quadrature,  ///< R, eta: pressure; alpha: pressure per length
     Zones  ///< the zones of edges where the gap is below zero, up to their limits; alpha as with quadrature
@@ -481,6 +481,8 @@ struct Contact {
   Unknown unknown = Unknown::Displacement;
   /// Whether 1/alpha = 0.
   bool isRigid() const { return rigid || law == Law::Barrier; }
+  /// Whether the pressure begins at an edge, up to which zones are integrated.
+  bool hasEdge() const { return law == Law::Linear || law == Law::Overclosure; }
 };
 
 // ----------------------------------------------------------------------------------------------- path
@@ -558,6 +560,8 @@ struct Solver {
   Preconditioner preconditioner = Preconditioner::SingleFactor;  ///< with Belos
   std::optional<double> lowRank;  ///< in (0, 1): what a single-precision factor drops; empty: nothing
   std::optional<double> memory;   ///< GB that Auto may take; empty: what the machine has free
+  /// Whether it iterates, or may where a factor is too large.
+  bool mayIterate() const { return type == Type::Belos || type == Type::Auto; }
   /// As linear::makeTangentSolver takes it: "mumps", "belos", "auto" or "amesos2:<name>".
   std::string spec() const {
     return type == Type::Amesos2 ? "amesos2:" + name

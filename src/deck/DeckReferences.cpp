@@ -129,8 +129,7 @@ void checkWay(const Value& at, const InflowLoad& inflow, const Deck& deck) {
   }
   const Contact& contact = find(v, inflow.contact, deck.contacts, "contact");
   if (contact.points == Contact::Points::Nodes || contact.points == Contact::Points::Zones ||
-      contact.law == Contact::Law::Hard || contact.law == Contact::Law::Linear ||
-      contact.law == Contact::Law::Overclosure || contact.unknown == Contact::Unknown::Curve) {
+      contact.law == Contact::Law::Hard || contact.hasEdge() || contact.unknown == Contact::Unknown::Curve) {
     v.fail(
         fmt::format("the pressure of contact '{}' is no function of the gap at points of faces; expected "
                     "points: quadrature, unknown: displacement and another law than hard",
@@ -380,12 +379,9 @@ void checkMonitor(const Value& v, const Monitor& monitor, const Deck& deck) {
   if (const auto* force = std::get_if<ContactForceMonitor>(&monitor.quantity)) {
     find(v.at("contact"), force->contact, deck.contacts, "contact");
   } else if (const auto* area = std::get_if<ContactAreaMonitor>(&monitor.quantity)) {
-    if (find(v.at("contact"), area->contact, deck.contacts, "contact").points == Contact::Points::Nodes)
-      v.at("contact").fail(fmt::format("contact '{}' acts at nodes, which have no area", area->contact));
+    find(v.at("contact"), area->contact, deck.contacts, "contact");
   } else if (const auto* pressure = std::get_if<ContactPressureMonitor>(&monitor.quantity)) {
-    if (find(v.at("contact"), pressure->contact, deck.contacts, "contact").points == Contact::Points::Nodes)
-      v.at("contact").fail(
-          fmt::format("contact '{}' acts at nodes, by forces and not by a pressure", pressure->contact));
+    find(v.at("contact"), pressure->contact, deck.contacts, "contact");
   } else if (const auto* center = std::get_if<ContactCenterMonitor>(&monitor.quantity)) {
     find(v.at("contact"), center->contact, deck.contacts, "contact");
   } else if (const auto* spread = std::get_if<ContactSpreadMonitor>(&monitor.quantity)) {
@@ -613,7 +609,7 @@ void checkStages(const Value& path, const Deck& deck) {
 }
 
 void checkSolver(const Value& root, const Deck& deck) {
-  if (deck.solver.type != Solver::Type::Belos && deck.solver.type != Solver::Type::Auto) return;
+  if (!deck.solver.mayIterate()) return;
   for (const auto& contact : deck.contacts)
     if (contact.law == Contact::Law::Hard)
       root.at("solver").fail("iterations do not converge on the tangents of hard contact (contact/" +

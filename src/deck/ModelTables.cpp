@@ -141,7 +141,7 @@ Field<Contact> contactStiffness() {
             if (s.rigid && s.law == ContactLaw::Penalty) {
               v.fail("a penalty has a finite stiffness");
             }
-            if (s.rigid && (s.law == ContactLaw::Linear || s.law == ContactLaw::Overclosure)) {
+            if (s.rigid && s.hasEdge()) {
               v.fail("a pressure with an edge has a finite stiffness");
             }
             if (!s.rigid && v.text() != "auto") {
@@ -394,11 +394,10 @@ const Table<Contact>& contactTable() {
     auto law = choice("law", optional, &Contact::law, contactLaws(), "pressure as a function of the gap");
     law.read = [inner = law.read](const Value& v, Contact& s) {
       inner(v, s);
-      const bool edge = s.law == ContactLaw::Linear || s.law == ContactLaw::Overclosure;
-      if (edge && s.points != Contact::Points::Zones && s.points != Contact::Points::Auto) {
+      if (s.hasEdge() && s.points != Contact::Points::Zones && s.points != Contact::Points::Auto) {
         v.fail("a pressure with an edge is integrated up to it; expected points: zones beside it");
       }
-      if (!edge && s.law != Law::Auto && s.points == Contact::Points::Zones) {
+      if (!s.hasEdge() && s.law != Law::Auto && s.points == Contact::Points::Zones) {
         v.fail("zones begin where the pressure does; expected linear or power_overclosure");
       }
     };

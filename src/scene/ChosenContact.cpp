@@ -31,29 +31,14 @@ bool needsPressure(const Contact& contact, const ContactSurroundings& around) {
 }
 
 /// Newton's method and iterations have no hard contact.
-bool mayBeHard(const deck::Deck& deck) {
-  return deck.path.series() && deck.solver.type != deck::Solver::Type::Belos &&
-         deck.solver.type != deck::Solver::Type::Auto;
-}
-
-/// f(face, its nodes) of each side of a set that the mesh has, until it is false; whether it never was.
-template <class F>
-bool allSides(const Contact& contact, const fem::Mesh& mesh, const F& f) {
-  const fem::SideSet& set = sidesOf(mesh, contact.set);
-  return std::all_of(set.sides.begin(), set.sides.end(), [&](const fem::Side& side) {
-    const auto [b, e] = fem::addressOf(mesh, side.element);
-    const fem::Block& block = mesh.blocks[b];
-    const auto first =
-        static_cast<std::size_t>(e) * static_cast<std::size_t>(fem::nodesPerElement(block.topology));
-    std::vector<int> nodes = fem::sideNodes(block.topology, side.side);
-    for (int& node : nodes) node = block.nodes[first + node];
-    return f(fem::sideFace(block.topology, side.side), nodes);
-  });
-}
+bool mayBeHard(const deck::Deck& deck) { return deck.path.series() && !deck.solver.mayIterate(); }
 
 bool hasTriangles(const Contact& contact, const fem::Mesh& mesh) {
-  return !allSides(contact, mesh,
-                   [](fem::Face face, const std::vector<int>&) { return fem::numCorners(face) != 3; });
+  const auto& sides = sidesOf(mesh, contact.set).sides;
+  return std::any_of(sides.begin(), sides.end(), [&](const fem::Side& side) {
+    const fem::Block& block = mesh.blocks[fem::addressOf(mesh, side.element).block];
+    return fem::numCorners(fem::sideFace(block.topology, side.side)) == 3;
+  });
 }
 
 bool meetsAlongLines(const Contact& contact, const ContactSurroundings& around) {
@@ -69,12 +54,15 @@ bool meetsAlongLines(const Contact& contact, const ContactSurroundings& around) 
 bool liesOnTool(const Contact& contact, const fem::Mesh& mesh, const contact::RigidTool& atStart,
                 double thickness) {
   if (deck::isAtNodes(contact, mesh)) return false;
-  return !allSides(contact, mesh, [&](fem::Face, const std::vector<int>& nodes) {
-    return std::any_of(nodes.begin(), nodes.end(), [&](int node) {
-      const double* x = &mesh.coordinates[3 * static_cast<std::size_t>(node)];
-      const double place[4] = {x[0], x[1], x[2], 0};
-      return !(atStart.project(place).gap < 1e-9 * thickness);
-    });
+  const auto touches = [&](int node) {
+    const double* x = &mesh.coordinates[3 * static_cast<std::size_t>(node)];
+    const double place[4] = {x[0], x[1], x[2], 0};
+    return atStart.project(place).gap < 1e-9 * thickness;
+  };
+  const auto& sides = sidesOf(mesh, contact.set).sides;
+  return std::any_of(sides.begin(), sides.end(), [&](const fem::Side& side) {
+    const std::vector<int> nodes = fem::nodesOf(mesh, {"", 0, {side}});
+    return std::all_of(nodes.begin(), nodes.end(), touches);
   });
 }
 
@@ -83,9 +71,8 @@ Contact chosenContact(const Contact& contact, const ContactSurroundings& around)
   using Law = Contact::Law;
   Contact chosen = contact;
   const bool pressure = needsPressure(contact, around);
-  const bool edge = contact.law == Law::Linear || contact.law == Law::Overclosure;
   const auto zones = [&] {
-    return edge || (contact.law == Law::Auto && !pressure && meetsAlongLines(contact, around));
+    return contact.hasEdge() || (contact.law == Law::Auto && !pressure && meetsAlongLines(contact, around));
   };
   if (deck::isAtNodes(contact, around.mesh))
     chosen.points = Points::Nodes;

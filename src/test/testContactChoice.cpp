@@ -82,9 +82,7 @@ TEST_F(ContactChoice, ThickBodiesAndTrianglesAreHard) {
   EXPECT_EQ(of(thick), "quadrature, hard");
   Scene triangles;
   triangles.shape =
-      "{shape: shell_plate, length: 40, width: 4, origin: [0, -2, 0], divisions: [4, 1], cell: SHELL6, "
-      "block: "
-      "body}";
+      "{shape: shell_plate, length: 40, width: 4, divisions: [4, 1], cell: SHELL6, block: body}";
   EXPECT_EQ(of(triangles), "quadrature, hard");
 }
 
@@ -126,6 +124,12 @@ TEST_F(ContactChoice, WhatIsSaidStands) {
   Scene nodes = scene;
   nodes.set = "y_lines";
   EXPECT_EQ(of(nodes), "nodes, hard");
+  nodes.rest = "output: {monitors: {area: {type: contact_area, contact: face}}}\n";
+  writeFile(folder_ / "m.yaml", nodes.deck());
+  const CommandResult check = runAtrapos({"check", "m.yaml"}, folder_.path());
+  EXPECT_EQ(check.exitCode, 2);
+  EXPECT_NE(check.err.find("contact 'face' acts at nodes, which have no area"), std::string::npos)
+      << check.err;
   EXPECT_EQ(with(scene, ", law: power_overclosure"), "zones, ");
   EXPECT_EQ(with(scene, ", law: penalty"), "quadrature, ");
   EXPECT_EQ(with(scene, ", law: hard"), "quadrature, ");

@@ -74,6 +74,7 @@ bool correctWithEvent(PathUnderWay& path, int event) {
   auto r = calls.newVector();
   State state = here.state.copy();
   std::optional<State> best;
+  RCP<Vector> ofBest;
   double residual = calls.residual(state, *r).relative(), least = kRoundingOfLittle;
   constexpr int maxIterations = 20, factored = 2, mostRises = 3;
   const double enough = 1e-3 * path.bound();
@@ -99,6 +100,7 @@ bool correctWithEvent(PathUnderWay& path, int event) {
     if (residual <= least) {
       least = residual;
       best = state.copy();
+      ofBest = copy(*r);
     }
     const bool rose = i >= factored && residual > 0.5 * before;
     if (rose && factor) ++rises;
@@ -107,8 +109,7 @@ bool correctWithEvent(PathUnderWay& path, int event) {
     factor = residual > 0.1 * before;
   }
   if (!best || passesStop(path.stops, here.state, *best)) return false;
-  residual = calls.residual(*best, *r).relative();
-  here.moveTo(calls.settled(*best), r, residual);
+  here.moveTo(calls.settled(*best), ofBest, least);
   return true;
 }
 

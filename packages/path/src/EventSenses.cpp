@@ -19,7 +19,6 @@ double size(const std::vector<double>& c, double length, std::size_t count) {
     largest = std::max(largest, std::abs(c[k]) * power);
   return largest;
 }
-double size(const std::vector<double>& c, double length) { return size(c, length, c.size()); }
 
 /// How far a function is looked at, `length` at most: no farther than its own series converges, whose later
 /// terms are then not the largest. That of the unknowns may reach much farther, as where a body moves as a
@@ -27,7 +26,7 @@ double size(const std::vector<double>& c, double length) { return size(c, length
 double within(const std::vector<double>& c, double length) {
   const std::size_t half = (c.size() + 1) / 2;
   constexpr int most = 200;
-  for (int i = 0; i < most && size(c, length) > size(c, length, half); ++i) length *= 0.5;
+  for (int i = 0; i < most && largestTerm(c, length) > size(c, length, half); ++i) length *= 0.5;
   return length;
 }
 
@@ -35,7 +34,7 @@ double within(const std::vector<double>& c, double length) {
 /// (+1, -1), looked at on this length; what is below `noise` counts as zero.
 bool rises(const std::vector<double>& c, double sense, double length, double noise, std::size_t first = 1) {
   length = within(c, length);
-  const double small = std::max(noise, 1e-9 * size(c, length));
+  const double small = std::max(noise, 1e-9 * largestTerm(c, length));
   double power = std::pow(length, first);
   for (std::size_t k = first; k < c.size(); ++k, power *= length)
     if (std::abs(c[k]) * power > small) return (k % 2 == 1 ? sense : 1) * c[k] > 0;
@@ -44,11 +43,11 @@ bool rises(const std::vector<double>& c, double sense, double length, double noi
 
 /// Whether a function that is known by its growth falls at a = 0, by what counts before it turns.
 bool fallsFromTheStart(const std::vector<double>& c, double reach, double negligible) {
-  if (!(c[1] * reach < -1e-9 * size(c, reach))) return false;
+  if (!(c[1] * reach < -1e-9 * largestTerm(c, reach))) return false;
   // What is small grows exponentially, and a rational series reaches farther.
   const double length = 2 * reach;
   const bool turns = c.size() > 2 && c[2] > 0 && -c[1] < 2 * c[2] * length;
-  return (turns ? 0.25 * c[1] * c[1] / c[2] : size(c, within(c, length))) > negligible;
+  return (turns ? 0.25 * c[1] * c[1] / c[2] : largestTerm(c, within(c, length))) > negligible;
 }
 
 /// The length on which senses are looked at. At a start no step says how long steps are, and a series that is
@@ -65,16 +64,21 @@ double reachOf(const PathUnderWay& path, const Series& series) {
 
 }  // namespace
 
+double largestTerm(const std::vector<double>& c, double a) { return size(c, a, c.size()); }
+
+double lastTerms(const std::vector<double>& c, double a) {
+  double last = 0, power = a;
+  for (std::size_t k = 1; k < c.size(); ++k, power *= a)
+    if (k + 2 >= c.size()) last = std::max(last, std::abs(c[k]) * power);
+  return last;
+}
+
 bool converges(const std::vector<double>& c, double a, double part) {
-  if (within(c, a) < a) return false;
-  double last = 0;
-  for (std::size_t k = std::max<std::size_t>(c.size(), 3) - 2; k < c.size(); ++k)
-    last = std::max(last, std::abs(c[k]) * std::pow(a, static_cast<double>(k)));
-  return last <= part * std::max(std::abs(c[0]), size(c, a));
+  return !(within(c, a) < a) && lastTerms(c, a) <= part * sizeOfTerms(c, a);
 }
 
 double sizeOfTerms(const std::vector<double>& c, double a) {
-  return std::max(std::abs(c[0]), size(c, within(c, a)));
+  return std::max(std::abs(c[0]), largestTerm(c, within(c, a)));
 }
 
 Polynomial eventPolynomial(const Series& series, int i, const std::vector<int>& zero) {
@@ -91,7 +95,7 @@ std::vector<int> falling(const PathUnderWay& path, const Series& series, const s
   for (const int i : candidates)
     if (i < functions) {
       const auto c = series.eventCoefficients(i);
-      sizes[i] = size(c, within(c, reach));
+      sizes[i] = largestTerm(c, within(c, reach));
     }
   double largest = 0;
   for (const auto& [i, own] : sizes) largest = std::max(largest, own);

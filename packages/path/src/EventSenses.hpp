@@ -12,6 +12,10 @@ struct PathUnderWay;
 /// Event function i without its value at the start where that is a known root (one of `zero`).
 Polynomial eventPolynomial(const Series& series, int i, const std::vector<int>& zero);
 
+/// max |c_k| a^k over k >= 1, and over the last two of these: those of even and odd functions vanish in turn.
+double largestTerm(const std::vector<double>& coefficients, double a);
+double lastTerms(const std::vector<double>& coefficients, double a);
+
 /// Whether the terms of a function tell what it is at a but for this part of its size: the later ones are not
 /// the largest there, and the last two within that part.
 bool converges(const std::vector<double>& coefficients, double a, double part);
