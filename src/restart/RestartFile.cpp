@@ -18,7 +18,7 @@ namespace {
 /// At the head of the file: the format's name and version, and a number that tells another byte order.
 struct Head {
   char name[16] = "atrapos restart";
-  std::uint32_t version = 10, byteOrder = 0x01020304;
+  std::uint32_t version = 11, byteOrder = 0x01020304;
 };
 
 std::uint64_t checkSum(const std::string& bytes) {

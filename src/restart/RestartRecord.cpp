@@ -201,8 +201,8 @@ class Unpacker {
 /// ways.
 template <class Start, class F>
 void plainMembers(Start& s, path::Start*, const F& f) {
-  f(s.steps), f(s.pathLength), f(s.limitPoints), f(s.bifurcations), f(s.length), f(s.fieldSizes), f(s.events),
-      f(s.due);
+  f(s.steps), f(s.pathLength), f(s.limitPoints), f(s.bifurcations), f(s.length), f(s.relaxLength),
+      f(s.fieldSizes), f(s.events), f(s.due);
   f(s.order), f(s.padeFailures), f(s.padeWait), f(s.expectedNegative), f(s.stop);
 }
 template <class Landmark, class F>

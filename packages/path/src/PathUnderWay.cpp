@@ -18,6 +18,7 @@ PathUnderWay::PathUnderWay(Calls& calls_, const Options& options_, const Stops& 
   here.weight = start.weight ? start.weight : options.weight;
   here.tangent = start.tangent;
   here.lastLength = start.length;
+  here.relaxLength = start.relaxLength;
   here.due = start.due;
   here.applied = start.events;
   outcome.steps = start.steps;
@@ -42,6 +43,9 @@ void PathUnderWay::accept(Trial trial, StepReport report, LastStep step) {
   here.moveTo(trial.state, trial.r, trial.residual);
   here.pathLength = report.pathLengthEnd;
   here.tangent = last->series.tangent(trial.a);
+  // Behind events a step is short for what begins there, and says little about the next.
+  constexpr double longer = 8;
+  here.relaxLength = (last->behindEvents ? longer : 1) * trial.a;
   here.lastLength = trial.a;
   here.stop = trial.stop;
   here.due = trial.events;

@@ -19,6 +19,7 @@ struct Position {
   std::optional<double> weight;        ///< w of the path parameter; empty: the first step chooses it
   std::optional<PathTangent> tangent;  ///< of what led here; none where a path starts
   double lastLength = 0;               ///< of the last accepted step; 0 before the first
+  double relaxLength = 0;              ///< over which the next series may take R to zero; 0 before the first
   std::optional<StopHit> stop;         ///< that the path has reached
   std::vector<int> due;                ///< event functions that fell to zero here and are not applied yet
   std::vector<int> applied;            ///< applied here: their functions start at zero

@@ -174,6 +174,7 @@ Start Run::next() const {
   next.weight = here.weight;
   next.fieldSizes = path_.fieldSizes.sizes();
   next.length = here.lastLength;
+  next.relaxLength = here.relaxLength;
   next.events = here.applied;
   next.due = here.due;
   next.order = path_.order;

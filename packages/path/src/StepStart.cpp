@@ -66,7 +66,7 @@ Series StepStart::smoothSeries(StepReport& report) {
   Position& here = path_.here;
   for (int attempt = 1;;) {
     SeriesRequest request;
-    here.relaxOver = path_.options.relaxResidual ? here.lastLength : 0;
+    here.relaxOver = path_.options.relaxResidual ? here.relaxLength : 0;
     if (here.relaxOver > 0) {
       request.residual = here.r.get();
       request.relaxOver = here.relaxOver;

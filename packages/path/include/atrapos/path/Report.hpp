@@ -99,6 +99,7 @@ struct Start {
   /// unknowns have one unit.
   std::vector<double> fieldSizes;
   double length = 0;                   ///< of the step that led here; 0: none
+  double relaxLength = 0;              ///< over which its residual is taken away; 0: none
   std::vector<int> events;             ///< applied at this state: their functions are zero here
   std::vector<int> due;                ///< not applied yet at this state, and their functions are zero here
   int order = 0;                       ///< of the series to come; 0: Options::order
