@@ -187,11 +187,18 @@ std::vector<int> EventTerms::beside(const std::vector<int>& indices, const Const
     }
     const auto own = [&](int i) { return i >= entry.first && i < end; };
     if (!entry.term->renews() || std::none_of(indices.begin(), indices.end(), own)) continue;
-    const auto near = sum(entry, [&](const EventTerm& term) { return term.nearChange(u, lambda); });
-    // What begins with what is due, and what ends with it.
+    EventTerm::Nearness near;
+    const auto known = sum(entry, [&](const EventTerm& term) {
+      near = term.nearChange(u, lambda);
+      return near.known;
+    });
+    const auto distance = sum(entry, [&](const EventTerm&) { return near.distance; });
+    // What begins with what is due, and what ends with it: as far from its change as that one, which the
+    // series took for zero.
     for (int c = entry.first; c < end; ++c)
-      if (near[c] > 0 && std::any_of(indices.begin(), indices.end(), [&](int i) {
-            return own(i) && near[i] > 0 && conditions_[i] == conditions_[c];
+      if (known[c] > 0 && std::any_of(indices.begin(), indices.end(), [&](int i) {
+            return own(i) && known[i] > 0 && std::abs(distance[c] - distance[i]) < 1 &&
+                   conditions_[i] == conditions_[c];
           }))
         all.push_back(c);
   }

@@ -11,7 +11,7 @@ struct ZoneBatch {
   int lanes = 0;
   std::vector<double> limits;     ///< [2][lane] xi
   std::vector<Hold> hold;         ///< [2][lane] of the limits
-  std::vector<bool> grows;        ///< [lane] whether its width is what changes most where it is narrow
+  std::vector<double> widthUnit;  ///< [lane] of its width among the internal variables; 0: it is none
   std::vector<double> deepest;    ///< [2][lane] xi of the least gap of the zone, and that gap
   std::vector<double> c;          ///< [coefficient][lane] of the places
   std::vector<double> reference;  ///< [coefficient][lane] of the undeformed lines

@@ -134,11 +134,7 @@ class ZoneTerm final : public EventTerm {
     forEachBatch(u, lambda, [&](const ZoneBatch& batch, const int* lines) {
       zones.push_back(batch);
       seriesLines_.emplace_back(lines, lines + batch.lanes);
-      for (int lane = 0; lane < L; ++lane) {
-        constexpr double line = 2;
-        const double width = batch.limits[L + lane] - batch.limits[lane];
-        seriesWidths_.push_back(batch.grows[lane] ? width : moves(batch, lane) ? line : 0);
-      }
+      seriesWidths_.insert(seriesWidths_.end(), batch.widthUnit.begin(), batch.widthUnit.end());
     });
     forces_.reserve(static_cast<int>(zones.size()), maxOrder);
     PointFailure failure;
@@ -313,11 +309,13 @@ class ZoneTerm final : public EventTerm {
     return all;
   }
 
-  /// Depths of zones that symmetry lets begin together differ by what the residual's bound leaves of a state.
-  std::vector<double> nearChange(const ConstDofView& u, double lambda) const override {
-    constexpr double part = 0.1;
-    std::vector<double> all(numbers_.size(), 0.0);
-    if (!options_.events) return all;
+  /// The unit is what lines differ by that symmetry lets change together: rounding, and what the residual's
+  /// bound leaves of a state, some 1e-9 of their length where contact is stiff. A zone that is begun at 0.7 d
+  /// stays clear of d/2, where it would cease; of ends the condition tells within more than that (border).
+  Nearness nearChange(const ConstDofView& u, double lambda) const override {
+    constexpr double partOfDepth = 0.3, partOfBorder = 1e-3;
+    Nearness near{std::vector<double>(numbers_.size(), 0.0), std::vector<double>(numbers_.size(), 0.0)};
+    if (!options_.events) return near;
     forEachShape(
         u, lambda,
         [&](int e, const double*, const GapShape& shape) {
@@ -326,18 +324,21 @@ class ZoneTerm final : public EventTerm {
             if (!tells(e, p)) continue;
             const int condition = conditionOf_[e * kPlaces + p];
             const double depth = changesAt(e, active_[condition] != 0);
-            const auto near = [&](double gap) { return std::abs(gap + depth) < part * least(e); };
-            double& own = all[condition];
+            const auto ofDepth = [&](double gap) { return (gap + depth) / (partOfDepth * least(e)); };
+            const auto tell = [&](double distance) {
+              near.known[condition] = 1;
+              near.distance[condition] = distance;
+            };
             if (p < 2) {
               const auto bottom = bottomAt(e, p, shape);
-              own = bottom && near(bottom->gap);
+              tell(bottom ? ofDepth(bottom->gap) : shape.ends[p] / (partOfBorder * border(e)));
             } else if (const Extremum* x = slots.of[p - 2]) {
-              own = x->least && std::abs(x->xi) < 1 && endAt(e, *x, shape) < 0 && near(x->gap);
+              if (x->least && endAt(e, *x, shape) < 0) tell(ofDepth(x->gap));
             }
           }
         },
         true);
-    return all;
+    return near;
   }
 
   std::vector<double> leastStiffness(const std::vector<double>&) const override {
@@ -404,14 +405,11 @@ class ZoneTerm final : public EventTerm {
   }
 
  private:
-  static bool moves(const ZoneBatch& batch, int lane) {
-    return batch.hold[lane] == Hold::root || batch.hold[L + lane] == Hold::root;
-  }
   struct Zone {
     int line;
     double limits[2];
     Hold hold[2];
-    bool grows;
+    double widthUnit;
     double deepest[2];  ///< xi of the least gap, and that gap
   };
   /// sign (h - level) >= 0; sign 0: nothing to tell.
@@ -485,6 +483,24 @@ class ZoneTerm final : public EventTerm {
     return depth >= least(e);
   }
 
+  /// What the width of a zone is measured by: the width itself between two roots, or from a bottom to a root;
+  /// the line where another limit moves; 0 where none does. At a bottom that a limit has just come past the
+  /// width is next to nothing and grows to that of a zone that counts, whatever it was: that is the least.
+  double widthUnit(const Zone& zone, const GapShape& shape) const {
+    constexpr double line = 2;
+    const bool from = zone.hold[0] == Hold::root, to = zone.hold[1] == Hold::root;
+    if (!from && !to) return 0;
+    const double width = zone.limits[1] - zone.limits[0];
+    if (from && to) return width;
+    const int end = from ? 1 : 0;
+    for (const Extremum& x : shape.extrema)
+      if (endAt(zone.line, x, shape) == end) {
+        const double depth = least(zone.line), rise = shape.ends[1 - end] - x.gap;
+        return std::max(width, rise > depth ? line * std::sqrt(depth / rise) : 0.0);
+      }
+    return line;
+  }
+
   /// The zones of a line. Between neighbours of which one is in contact and one is not lies one limit.
   void addZones(int e, const double* c, double lambda, const GapShape& shape,
                 std::vector<Zone>& zones) const {
@@ -503,11 +519,10 @@ class ZoneTerm final : public EventTerm {
       const Stop& end = !a.end ? b : !b.end ? a : std::abs(a.gap) < std::abs(b.gap) ? a : b;
       return rootNear(laws_, c, lambda, end.xi, 0.5);
     };
-    Zone zone{e, {-1, 1}, {Hold::place, Hold::place}, false, {stops[0].xi, stops[0].gap}};
+    Zone zone{e, {-1, 1}, {Hold::place, Hold::place}, 0, {stops[0].xi, stops[0].gap}};
     bool open = stops[0].in;
     const auto close = [&] {
-      const bool from = zone.hold[0] == Hold::root, to = zone.hold[1] == Hold::root;
-      zone.grows = (from || to) && (from || bottoms(e, 0, shape)) && (to || bottoms(e, 1, shape));
+      zone.widthUnit = widthUnit(zone, shape);
       zones.push_back(zone);
       open = false;
     };
@@ -520,7 +535,7 @@ class ZoneTerm final : public EventTerm {
       const auto at = limit(stops[i], stops[i + 1]);
       if (stops[i + 1].in) {
         open = at.has_value();
-        if (open) zone = {e, {*at, 1}, {Hold::root, Hold::place}, false, {stops[i + 1].xi, stops[i + 1].gap}};
+        if (open) zone = {e, {*at, 1}, {Hold::root, Hold::place}, 0, {stops[i + 1].xi, stops[i + 1].gap}};
       } else if (open && at) {
         zone.limits[1] = *at;
         zone.hold[1] = Hold::root;
@@ -545,7 +560,7 @@ class ZoneTerm final : public EventTerm {
       batch.lanes = static_cast<int>(std::min<std::size_t>(L, zones.size() - first));
       batch.limits.resize(2 * L);
       batch.hold.resize(2 * L);
-      batch.grows.resize(L);
+      batch.widthUnit.resize(L);
       batch.deepest.resize(2 * L);
       batch.c.resize(C * L);
       batch.reference.resize(C * L);
@@ -554,7 +569,7 @@ class ZoneTerm final : public EventTerm {
       for (int lane = 0; lane < L; ++lane) {
         const Zone& zone = zones[first + (lane < batch.lanes ? lane : 0)];
         lines[lane] = zone.line;
-        batch.grows[lane] = zone.grows;
+        batch.widthUnit[lane] = zone.widthUnit;
         for (int r = 0; r < 2; ++r) {
           batch.deepest[r * L + lane] = zone.deepest[r];
           batch.limits[r * L + lane] = zone.limits[r];

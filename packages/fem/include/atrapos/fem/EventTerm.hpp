@@ -74,10 +74,13 @@ class EventTerm : public Term {
   /// `renews`.
   virtual std::vector<double> renewed(const ConstDofView& /*u*/, double /*lambda*/) const { return {}; }
 
-  /// Not 0 of own conditions that begin or end with a size of their own (eventGradient) and are next to that
-  /// change at a state, in parts that sum over all ranks; asked where `renews`.
-  virtual std::vector<double> nearChange(const ConstDofView& /*u*/, double /*lambda*/) const {
-    return std::vector<double>(eventNumbers().size(), 0.0);
+  /// How far own conditions are from their change at a state, in units of what those differ by that change
+  /// together, where that is known (1, else 0); in parts that sum over all ranks. Asked where `renews`.
+  struct Nearness {
+    std::vector<double> known, distance;
+  };
+  virtual Nearness nearChange(const ConstDofView& /*u*/, double /*lambda*/) const {
+    return {std::vector<double>(eventNumbers().size(), 0.0), std::vector<double>(eventNumbers().size(), 0.0)};
   }
 
   /// The least stiffness of the body (force per length) at a node of each own condition, given those of the
