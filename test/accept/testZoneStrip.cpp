@@ -136,6 +136,21 @@ TEST(ZoneStrip, OfShellsWrapsTheRoll) {
   EXPECT_LE(fine.steps, 56);
 }
 
+// Lines along one side of each triangle, which the two halves of a rectangle share.
+TEST(ZoneStrip, OnTriangles) {
+  const Edits triangles{{"block: strip}", "cell: SHELL6, block: strip}"}};
+  const Strip paper = shell(20, triangles), fine = shell(40, triangles);
+  EXPECT_LT(paper.tip, 0.15);
+  EXPECT_LT(fine.tip, 0.05);
+  EXPECT_LT(fine.force, 0.4);  // of 242 N
+  const Strip solids{
+      "zones_solid.yaml",
+      {{"cell: HEX20", "cell: TET10"},
+       {"fields: [displacement, stress, nodal_stress, contact, reaction]", "fields: [displacement]"},
+       {"points_per_step: 10", "points_per_step: 3"}}};
+  EXPECT_LT(solids.tip, 0.4);
+}
+
 // On the lower faces of shells, half a thickness from where their unknowns are: the roll of case A once more.
 TEST(ZoneStrip, OnTheFacesOfShells) {
   const Strip strip =

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
-#include <stdexcept>
 
 #include "atrapos/fem/LineSet.hpp"
 #include "atrapos/fem/ReferenceCell.hpp"
@@ -145,15 +144,64 @@ TEST(FaceLines, GoOnWhereNeighboursAreTurned) {
   }
 }
 
-TEST(FaceLines, RefuseTriangles) {
+// Triangles that halve quadrilaterals: lines along the sides of these, through both halves.
+TEST(FaceLines, OfTriangles) {
+  for (const auto cell : {Topology::Tet4, Topology::Tet10})
+    for (const auto& gap : {alongX, alongY})
+      for (const int degree : {1, 4, 8}) {
+        SCOPED_TRACE(topologyName(cell));
+        const Mesh mesh = distorted(box(cell), 0.02);
+        const auto faces = faceLines(mesh, {}, sideSet(mesh, "z_max"), 0, degree, gap).at(0);
+        const int across = (degree + 1) / 2 + 1;
+        EXPECT_EQ(faces.lines.numLines(), 18 * across);
+        EXPECT_EQ(faces.lines.numEnds(), 7 * 3 * across);
+        EXPECT_LT(difference(faces), 1e-14);
+        expectEndsToMeet(faces.lines);
+        const double* c = &faces.lines.coefficients[3];
+        EXPECT_GT(std::abs(c[gap == alongX ? 0 : 1]), 2 * std::abs(c[gap == alongX ? 1 : 0]));
+      }
+}
+
+// Over a plane floor nothing chooses but the edges' lengths: the diagonals.
+TEST(FaceLines, OfTrianglesOverNothingThatChanges) {
   const Mesh mesh = box(Topology::Tet10);
-  try {
-    faceLines(mesh, {}, sideSet(mesh, "z_max"), 0, 4, alongX);
-    FAIL();
-  } catch (const std::runtime_error& error) {
-    EXPECT_NE(std::string(error.what())
-                  .find("is a triangle; zones of contact are found on lines across quadrilaterals"),
-              std::string::npos)
-        << error.what();
+  const auto lines =
+      faceLines(mesh, {}, sideSet(mesh, "z_max"), 0, 4, [](const double* x) { return x[2]; }).at(0).lines;
+  const double* c = &lines.coefficients[3];
+  EXPECT_NEAR(std::abs(c[0]), std::abs(c[1]), 1e-14);
+  expectEndsToMeet(lines);
+}
+
+// The rule is exact to the degree that it is asked for.
+TEST(FaceLines, IntegratePolynomialsOverTriangles) {
+  const Mesh mesh = box(Topology::Tet4, {2, 3, 1}, {1, 1, 1});
+  for (const int degree : {1, 2, 3, 4, 6}) {
+    const PointSet points = faceLines(mesh, {}, sideSet(mesh, "z_max"), 0, degree, alongX).at(0).points;
+    for (int i = 0; i <= degree; ++i) {
+      double sum = 0;
+      for (std::size_t p = 0; p < points.weights.size(); ++p)
+        sum += points.weights[p] * std::pow(points.positions[3 * p], i) *
+               std::pow(points.positions[3 * p + 1], degree - i);
+      EXPECT_NEAR(sum, 1.0 / ((i + 1) * (degree - i + 1)), 1e-14) << degree << ' ' << i;
+    }
   }
+}
+
+// Quadrilaterals and triangles beside each other are two sets of lines.
+TEST(FaceLines, OfBothShapes) {
+  const Mesh first = box(Topology::Hex20, {2, 2, 1}, {2, 2, 1});
+  Mesh second = box(Topology::Tet10, {2, 2, 1}, {2, 2, 1});
+  for (int n = 0; n < second.numNodes(); ++n) second.coordinates[3 * n] += 2;
+  const Mesh both = glued({first, second});
+  SideSet tops{"tops", 99, sideSet(first, "z_max").sides};
+  for (const Side& side : sideSet(second, "z_max").sides)
+    tops.sides.push_back({first.numElements() + side.element, side.side});
+  const auto faces = faceLines(both, {}, tops, 0, 4, alongX);
+  ASSERT_EQ(faces.size(), 2);
+  double area = 0;
+  for (const FaceLines& own : faces) {
+    EXPECT_LT(difference(own), 1e-14);
+    for (const double weight : own.points.weights) area += weight;
+  }
+  EXPECT_NEAR(area, 8, 1e-13);
 }

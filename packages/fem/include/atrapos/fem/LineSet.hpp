@@ -37,13 +37,14 @@ struct FaceLines {
   PointSet points;
 };
 
-/// Lines across the quadrilateral faces of a side set, one FaceLines for each shape: at the points of Gauss'
-/// rule that is exact to `degree` in one direction of a face, along the other. That is, of the two directions
-/// that go through a whole set of faces which hang together, the one in which `gap`, of places (3) of the
-/// undeformed body, changes more. Lines of faces that share an edge go on in each other. Shells:
-/// shellFacePoints says where.
+/// Lines across the faces of a side set, one FaceLines for each shape: at the points of Gauss' rule that is
+/// exact to `degree` in one direction of a face, along the other. On quadrilaterals that is, of the two
+/// directions that go through a whole set of faces which hang together, the one in which `gap`, of places (3)
+/// of the undeformed body, changes more; on each triangle the edge, of three, along which it changes most.
+/// Lines of faces that share an edge and both cross it go on in each other. Shells: shellFacePoints says
+/// where.
 ///
-/// Throws std::runtime_error for other faces and those without area.
+/// Throws std::runtime_error for faces without area.
 std::vector<FaceLines> faceLines(const Mesh& mesh, const ShellGeometry& shells, const SideSet& set,
                                  double zeta, int degree, const std::function<double(const double*)>& gap);
 
