@@ -64,7 +64,7 @@ def _input_file(mesh, groups, shells):
     points = np.column_stack([points, np.zeros((len(points), 3 - points.shape[1]))])
     known = _SOLID if dimension == 3 else _SHELL if shells or np.any(points[:, 2] != 0) else _PLANE
     text = ["*NODE\n"] + [f"{n}, {x[0]!r}, {x[1]!r}, {x[2]!r}\n" for n, x in enumerate(points.tolist(), 1)]
-    element, faces = 0, {}
+    element, elements, faces = 0, {}, {}
     for block, names in zip(mesh.cells, groups):
         if block.dim < dimension:
             continue
@@ -74,6 +74,7 @@ def _input_file(mesh, groups, shells):
             text.append(f"*ELEMENT, TYPE={known[block.type]}, ELSET=\"{name or 'body'}\"\n")
             for nodes in block.data[[n == name for n in names]]:
                 element += 1
+                elements.setdefault(name or "body", []).append(element)
                 text.append(_lines([element, *(nodes + 1)]))
                 for side, corners in enumerate(_FACES[_corners(block.type)], 1):
                     faces.setdefault(frozenset(nodes[list(corners)].tolist()), []).append((element, side))
@@ -91,9 +92,12 @@ def _input_file(mesh, groups, shells):
                 sides.setdefault(name, []).extend(of if len(of) == 1 else [])
     for name, nodes in nodes_of.items():
         text.append(f"*NSET, NSET=\"{name}\"\n" + _lines(np.unique(nodes) + 1))
-    if known is not _SHELL:  # whose S1 and S2 are faces, and not edges
-        for name, own in sides.items():
-            text.append(f"*SURFACE, NAME=\"{name}\"\n" + "".join(f"{e}, S{s}\n" for e, s in own) if own else "")
+    label = "E" if known is _SHELL else "S"  # edges of shells, whose S1 and S2 are faces
+    for name, own in sides.items():
+        text.append(f"*SURFACE, NAME=\"{name}\"\n" + "".join(f"{e}, {label}{s}\n" for e, s in own) if own else "")
+    if known is _SHELL:
+        for name, own in elements.items():
+            text.append(f"*SURFACE, NAME=\"{name}\"\n" + "".join(f"{e}, SPOS\n" for e in own))
     return "".join(text)
 
 
@@ -102,7 +106,8 @@ def import_mesh(source, file, groups=None, shells=False):
 
     Cells of the highest dimension are elements. Blocks are the mesh's sets of cells, or with `groups` those with the same whole
     number in that array of cell data. Cells of lower dimension become node sets, and side sets where they are sides of the body,
-    by the same names (`faces`, `lines`, `points` without). Quadrilaterals in z = 0 are plane bodies, with `shells` shells.
+    by the same names (`faces`, `lines`, `points` without). Quadrilaterals in z = 0 are plane bodies, with `shells` shells, whose
+    blocks are side sets too: the faces from which the cells' nodes go round counter-clockwise.
     Returns what `atrapos import` says; raises MeshError, one line, of what has no equal.
     """
     import meshio

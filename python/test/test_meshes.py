@@ -96,6 +96,24 @@ class Meshes(InFolder):
         stress = states.element(-1, "stress_xx")
         np.testing.assert_allclose(stress, stress[0], rtol=1e-7)
 
+    def test_faces_and_edges_of_shells_take_loads(self):
+        points = [[x, y, 0] for y in (0, 1) for x in (0, 1, 2)]
+        cells = [("quad", [[0, 1, 4, 3], [1, 2, 5, 4]]), ("line", [[2, 5]]), ("vertex", [[0], [3]])]
+        told = atrapos.import_mesh(meshio.Mesh(points, cells), "part.exo", shells=True)
+        self.assertIn("2 node sets, 2 side sets", told)
+        deck = {"mesh": {"file": "part.exo"},
+                "materials": {"m": {"law": "saint_venant_kirchhoff", "youngs_modulus": 1e6, "poissons_ratio": 0, "blocks": ["body"]}},
+                "shells": {"sections": {"all": {"blocks": ["body"], "thickness": 0.1}}},
+                "supports": {"held": {"set": "points", "condition": "clamped"}},
+                "loads": {"push": {"type": "surface", "set": "body", "pressure": 3e-3},
+                          "pull": {"type": "edge", "set": "lines", "total": [5e-3, 0, 0]}},
+                "path": {"stop": {"load_factor": 1}},
+                "output": {"monitors": {name: {"type": "reaction", "support": "held", "component": name} for name in ("x", "z")}}}
+        path = atrapos.run(deck, "pushed").path
+        # The pressure acts against z, from where the nodes go round counter-clockwise.
+        self.assertAlmostEqual(path["z"][-1], 2 * 3e-3, delta=1e-7)
+        self.assertAlmostEqual(path["x"][-1], -5e-3, delta=1e-7)
+
     def test_groups_of_an_array_on_the_command_line(self):
         points = [[0, 0, 0], [1, 0, 0], [2, 0, 0], [0, 1, 0], [1, 1, 0], [2, 1, 0]]
         cells = [("quad", [[0, 1, 4, 3], [1, 2, 5, 4]]), ("line", [[1, 4], [2, 5]])]

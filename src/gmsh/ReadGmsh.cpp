@@ -166,6 +166,7 @@ class Reader {
     countSides();
     for (const Group& group : groups_)
       if (group.dimension < dimension_) addSets(group);
+    for (const auto& [name, elements] : shells_) addFaces(name, elements);
     return std::move(model_);
   }
 
@@ -244,6 +245,7 @@ class Reader {
     std::map<Topology, fem::Block> blocks;
     std::map<Topology, std::vector<long long>> ids;
     std::size_t twice = 0;
+    const int before = mesh().numElements();
     for (const Elements& elements : group.elements) {
       const auto topology = topologyOf(dimension_, elements.type.nodes, isShells_);
       const auto order = topology ? nodeOrder(*topology, elements.type) : std::vector<int>();
@@ -272,9 +274,19 @@ class Reader {
       mesh().blocks.push_back(std::move(block));
       mesh().elementIds.insert(mesh().elementIds.end(), ids[topology].begin(), ids[topology].end());
     }
+    if (isShells_) shells_.push_back({group.name, {before, mesh().numElements()}});
     if (twice > 0)
       remark(fmt::format("group '{}': {} elements are in the block of an earlier group",
                          plainName(group.name), twice));
+  }
+
+  /// The faces of a group's shells, for pressures and contact: those from which their nodes go round
+  /// counter-clockwise.
+  void addFaces(const std::string& name, std::pair<int, int> elements) {
+    if (elements.first == elements.second) return;
+    fem::SideSet set{sideSetNames_.take(name), static_cast<long long>(mesh().sideSets.size()) + 1, {}};
+    for (int e = elements.first; e < elements.second; ++e) set.sides.push_back({e, 0});
+    mesh().sideSets.push_back(std::move(set));
   }
 
   void keepUsedNodes() {
@@ -360,6 +372,7 @@ class Reader {
   std::vector<int> newNode_;                             ///< -1: of no cell
   std::vector<Group> groups_;
   std::set<std::size_t> taken_;  ///< elements in blocks
+  std::vector<std::pair<std::string, std::pair<int, int>>> shells_;  ///< groups, from which to which element
   std::map<Corners, std::vector<fem::Side>> sides_;
   Names blockNames_, nodeSetNames_, sideSetNames_;
 };

@@ -148,7 +148,7 @@ TEST_F(Import, BoxColumnOfGmshBuckles) {
   drawBoxColumn((folder_ / "column.msh").string());
   const CommandResult r = import({"column.msh"});
   ASSERT_EQ(r.exitCode, 0) << r.err;
-  EXPECT_EQ(r.out, "column.exo: 1344 nodes, 432 SHELL8 in block 'walls', 2 node sets, 2 side sets\n");
+  EXPECT_EQ(r.out, "column.exo: 1344 nodes, 432 SHELL8 in block 'walls', 2 node sets, 3 side sets\n");
   writeFile(folder_ / "column.yaml", R"(mesh: {file: column.exo}
 materials:
   steel: {law: saint_venant_kirchhoff, youngs_modulus: 210000, poissons_ratio: 0, blocks: [walls]}

@@ -132,7 +132,10 @@ TEST(Gmsh, SurfacesArePlaneBodiesOrShells) {
   EXPECT_EQ(shell.blocks.at(0).topology, fem::Topology::Shell8);
   ASSERT_EQ(plane.sideSets.size(), 1u);
   EXPECT_EQ(plane.sideSets[0].sides.size(), 2u);
-  ASSERT_EQ(shell.sideSets.size(), 1u);
+  ASSERT_EQ(shell.sideSets.size(), 2u);
+  EXPECT_EQ(shell.sideSets[1].name, shell.blocks[0].name);
+  EXPECT_EQ(shell.sideSets[1].sides.size(), shell.blocks[0].nodes.size() / 8);
+  for (const fem::Side& side : shell.sideSets[1].sides) EXPECT_EQ(side.side, 0);
   for (std::size_t i = 0; i < 2; ++i)  // two faces come before the edges of shells
     EXPECT_EQ(shell.sideSets[0].sides[i].side, plane.sideSets[0].sides[i].side + 2);
   double area = 0;  // of the corners' quadrilaterals, by their diagonals
@@ -156,7 +159,7 @@ TEST(Gmsh, TrianglesAreShellsOfThreeOrSixNodes) {
     ASSERT_EQ(mesh.blocks.size(), 1u);
     EXPECT_EQ(mesh.blocks[0].topology, cell);
     EXPECT_EQ(mesh.blocks[0].nodes.size(), N * 8);
-    ASSERT_EQ(mesh.sideSets.size(), 1u);
+    ASSERT_EQ(mesh.sideSets.size(), 2u);
     ASSERT_EQ(mesh.sideSets[0].sides.size(), 2u);
     for (const fem::Side& side : mesh.sideSets[0].sides) {
       const auto local = fem::sideNodes(cell, side.side);
