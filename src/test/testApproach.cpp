@@ -87,6 +87,28 @@ TEST_F(Approach, GoesOnFromBeforeTheTouch) {
   EXPECT_EQ(readFile(folder_ / "rest" / "path.csv"), readFile(folder_ / "whole" / "path.csv"));
 }
 
+/// The same under a penalty, whose force is below any number where the tool is not near.
+std::string softened(std::string text) {
+  return text.replace(text.find("law: hard"), 9, "law: penalty, stiffness: 1.0e4, length: 1.0e-3");
+}
+
+// No event tells where forces begin; the residual does. (With a gap below the length the law, zero at that
+// gap, is another.)
+TEST_F(Approach, PenaltiesFromAfar) {
+  for (const double gap : {0.1, 3.0}) {
+    const CommandResult r = run(gap < 1 ? "near" : "far", softened(deck(10.4 + gap, 1 + gap)));
+    ASSERT_EQ(r.exitCode, 0) << r.err;
+  }
+  const auto near = last("near"), far = last("far");
+  EXPECT_LT(near[1], -0.9);
+  EXPECT_NEAR(far[1], near[1], 2e-6 * std::abs(near[1]));
+  EXPECT_NEAR(far[2], near[2], 1e-5 * std::abs(near[2]));
+  const CommandResult beside = run("beside", softened(deck(10.5, 3, 0)));
+  EXPECT_EQ(beside.exitCode, 3);
+  EXPECT_NE(beside.err.find("the load parameter does not move the unknowns"), std::string::npos)
+      << beside.err;
+}
+
 // A tool that goes away moves nothing up to the stop; one that stands still is no path.
 TEST_F(Approach, NothingTouches) {
   const CommandResult away = run("away", deck(10.5, 3, -1));

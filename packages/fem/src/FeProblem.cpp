@@ -360,11 +360,12 @@ struct FeProblem::Impl {
       if (std::isfinite(driving[b])) size[b] = std::max(size[b], driving[b]);
       scaleFloor[b] = std::max(1e-6 * size[b], 1e-300);
     }
-    if (*std::min_element(size.begin(), size.end()) > 0 || events->empty()) return;
-    // Tools that come from afar and may go again: without them there are no forces but those of rounding.
+    // Tools that come from afar and may go again: without them there are no forces but those of rounding,
+    // below which laws that fall off are as good as zero.
     const Sizes rounding = forcesOfRounding();
     for (std::size_t b = 0; b < size.size(); ++b)
-      if (size[b] == 0 && std::isfinite(rounding[b])) scaleFloor[b] = std::max(scaleFloor[b], rounding[b]);
+      if (std::isfinite(rounding[b]) && (numBalances() == 1 ? size[b] < rounding[b] : size[b] == 0))
+        scaleFloor[b] = std::max(scaleFloor[b], rounding[b]);
   }
 
   /// The unknowns before any load acts, the first out.size() of this rank's.
@@ -376,10 +377,15 @@ struct FeProblem::Impl {
   }
 
   /// Sizes of the forces of terms that do not see lambda where places are off by their rounding, from node to
-  /// node to and fro.
+  /// node to and fro; zero where it is not known.
   Sizes forcesOfRounding() {
     constexpr double part = 1e-5;  // of gaps that count as none
-    const double off = part * events->touching(DofView("rest", rate.extent(0)));
+    double off = 0;
+    if (!events->empty())
+      off = part * events->touching(DofView("rest", rate.extent(0)));
+    else if (numBalances() == 1)  // the unknowns are places
+      off = 1e-16 * model.size;
+    if (off == 0) return Sizes(numBalances(), 0.0);
     std::vector<double> whole(model.dofs.numDofs());
     for (std::size_t d = 0; d < whole.size(); ++d) whole[d] = d % 2 == 0 ? off : -off;
     return forcesAt(here(whole), 0);

@@ -13,6 +13,10 @@ namespace {
 /// that lambda_1 is short of 1, and half of them must stay.
 constexpr double nearlySingular = 1e-8;
 
+/// Squares of norms below this are no motion: forces that fall off exponentially are never quite zero, and
+/// what is divided by these squares is to stay a number.
+constexpr double nothing = 1e-60;
+
 [[noreturn]] void notFinite(const char* what, int k, const State& start) {
   std::ostringstream text;
   text << what << " of order " << k << " is not finite (series at lambda = " << start.lambda << ")";
@@ -56,10 +60,13 @@ Series buildSeries(Calls& calls, const State& start, const SeriesRequest& reques
   calls.beginSeries(start, request.order);
   auto Fk = calls.newVector();
   calls.orderRhs(1, *Fk);  // zero at a solution; called for what it leaves behind for the later orders
-  const Increment Xhat = calls.internalOrder(1, Uhat, 1);
-  // Nothing moves yet: lambda alone goes on, up to an event that its motion brings.
-  const bool still = problem.inner(Xhat, Xhat) == 0;
-  if (still && problem.eventCount() == 0) withoutEffect(start);
+  Increment Xhat = calls.internalOrder(1, Uhat, 1);
+  // Nothing moves yet: lambda alone goes on, up to an event that its motion brings, or to where forces begin.
+  const bool still = problem.inner(Xhat, Xhat) < nothing;
+  if (still) {
+    Uhat->putScalar(0);
+    Xhat = calls.internalOrder(1, Uhat, 1);
+  }
   const double w = still ? request.weight.value_or(1) : calls.weight(Xhat, request.weight);
   const double hat2 = problem.inner(Xhat, Xhat);  // which the weight may change
   if (!std::isfinite(hat2)) notFinite("the tangent direction", 1, start);
@@ -94,7 +101,7 @@ Series buildSeries(Calls& calls, const State& start, const SeriesRequest& reques
       if (request.residual) Fk->update(-1 / request.relaxOver, *request.residual, 1);
       if (request.perturbation) Fk->update(1, *request.perturbation, 1);
     }
-    if (!zero) calls.solve(*Fk, *V);
+    if (!zero && !still) calls.solve(*Fk, *V);
     const Increment Xv = calls.internalOrder(k, V, 0);
     // <X_k, D> w + lambda_k lambda_1 = [k = 1] with D = lambda_1 Xhat, (1 + w <Xhat, Xhat>) lambda_1^2 = 1.
     const double lambdaK = lambda1 * ((k == 1 ? 1.0 : 0.0) - w * lambda1 * problem.inner(Xv, Xhat));
@@ -107,7 +114,7 @@ Series buildSeries(Calls& calls, const State& start, const SeriesRequest& reques
     series.appendEvents(calls.eventOrder(k));
     if (k < request.order && request.enough && request.enough(series)) break;
   }
-  if (still && !series.eventsMove()) withoutEffect(start);
+  if (still && problem.eventCount() > 0 && !series.eventsMove()) withoutEffect(start);
   series.setMemory(calls.memoryOrders());
   return series;
 }

@@ -27,6 +27,12 @@ void keepClearOfLimitPoints(const PathUnderWay& path, const Series& series, Tria
     }
 }
 
+/// Whether lambda alone goes from the path's start to its stop, with no event functions that could say that
+/// something is to come.
+bool hasNoEffect(const PathUnderWay& path, const Series& series, const Trial& trial) {
+  return series.standsStill() && trial.stop && !path.here.tangent && path.calls.problem().eventCount() == 0;
+}
+
 /// Whether lambda alone goes on, by the longest step there is, with nothing ahead that could end that.
 bool goesNowhere(const PathUnderWay& path, const Series& series, const Trial& trial) {
   if (!series.standsStill() || trial.stop || !trial.events.empty()) return false;
@@ -45,6 +51,10 @@ Trial acceptedTrial(const PathUnderWay& path, Series& series, StepReport& report
   auto rational = RationalStep(path, series, report).trial(modes, patience);
   Trial trial = rational ? std::move(*rational) : PolynomialStep(path, series, report).trial();
   keepClearOfLimitPoints(path, series, trial);
+  if (hasNoEffect(path, series, trial))
+    throw PathError(EndReason::loadWithoutEffect,
+                    line("the load parameter does not move the unknowns from lambda = ",
+                         path.here.state.lambda, " to ", trial.state.lambda));
   if (goesNowhere(path, series, trial))
     throw PathError(EndReason::loadWithoutEffect,
                     line("from lambda = ", path.here.state.lambda,

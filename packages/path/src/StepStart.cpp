@@ -66,7 +66,10 @@ Series StepStart::smoothSeries(StepReport& report) {
   Position& here = path_.here;
   for (int attempt = 1;;) {
     SeriesRequest request;
-    here.relaxOver = path_.options.relaxResidual ? here.relaxLength : 0;
+    // Beside next to no forces that far less counts for motion than what a residual may be.
+    constexpr double nothing = 1e-9;
+    const bool relaxes = path_.options.relaxResidual && here.residual > nothing * path_.bound();
+    here.relaxOver = relaxes ? here.relaxLength : 0;
     if (here.relaxOver > 0) {
       request.residual = here.r.get();
       request.relaxOver = here.relaxOver;
@@ -121,6 +124,7 @@ void StepStart::stepOverSingularity(const PathError& cause, int attempt) {
 bool StepStart::directionAgrees(const Series& series) const {
   if (path_.order < 3) return true;  // a straight or parabolic step may turn by any angle
   if (!path_.last) return true;      // a direction given at the start says the sense only
+  if (!path_.here.weight) return true;  // next to nothing has moved: its direction is none
   // Of the unknowns alone: which internal variables take part may differ from series to series.
   const PathTangent& previous = *path_.here.tangent;
   const Augmented before{previous.x.u, previous.lambda};
