@@ -166,11 +166,17 @@ class Reader {
     countSides();
     for (const Group& group : groups_)
       if (group.dimension < dimension_) addSets(group);
-    for (const auto& [name, elements] : shells_) addFaces(name, elements);
+    for (const Shells& group : shells_) addFaces(group);
     return std::move(model_);
   }
 
  private:
+  /// The elements of a group of shells: from `first` on, before `end`.
+  struct Shells {
+    std::string name;
+    int first, end;
+  };
+
   fem::Mesh& mesh() { return model_.mesh; }
   [[noreturn]] void fail(const std::string& what) const { throw Error(file_ + ": " + what); }
   void remark(const std::string& what) { model_.remarks.push_back(file_ + ": " + what); }
@@ -274,7 +280,7 @@ class Reader {
       mesh().blocks.push_back(std::move(block));
       mesh().elementIds.insert(mesh().elementIds.end(), ids[topology].begin(), ids[topology].end());
     }
-    if (isShells_) shells_.push_back({group.name, {before, mesh().numElements()}});
+    if (isShells_) shells_.push_back({group.name, before, mesh().numElements()});
     if (twice > 0)
       remark(fmt::format("group '{}': {} elements are in the block of an earlier group",
                          plainName(group.name), twice));
@@ -282,10 +288,17 @@ class Reader {
 
   /// The faces of a group's shells, for pressures and contact: those from which their nodes go round
   /// counter-clockwise.
-  void addFaces(const std::string& name, std::pair<int, int> elements) {
-    if (elements.first == elements.second) return;
+  void addFaces(const Shells& group) {
+    std::set<std::pair<int, int>> sides;
+    for (int e = group.first; e < group.end; ++e) sides.insert({e, 0});
+    addSideSet(group.name, sides);
+  }
+
+  /// Of elements and their sides, if there are any.
+  void addSideSet(const std::string& name, const std::set<std::pair<int, int>>& sides) {
+    if (sides.empty()) return;
     fem::SideSet set{sideSetNames_.take(name), static_cast<long long>(mesh().sideSets.size()) + 1, {}};
-    for (int e = elements.first; e < elements.second; ++e) set.sides.push_back({e, 0});
+    for (const auto& [element, side] : sides) set.sides.push_back({element, side});
     mesh().sideSets.push_back(std::move(set));
   }
 
@@ -355,10 +368,7 @@ class Reader {
       const auto id = static_cast<long long>(mesh().nodeSets.size()) + 1;
       mesh().nodeSets.push_back({nodeSetNames_.take(group.name), id, {nodes.begin(), nodes.end()}});
     }
-    if (sides.empty()) return;
-    fem::SideSet set{sideSetNames_.take(group.name), static_cast<long long>(mesh().sideSets.size()) + 1, {}};
-    for (const auto& [element, side] : sides) set.sides.push_back({element, side});
-    mesh().sideSets.push_back(std::move(set));
+    addSideSet(group.name, sides);
   }
 
   std::string file_;
@@ -372,7 +382,7 @@ class Reader {
   std::vector<int> newNode_;                             ///< -1: of no cell
   std::vector<Group> groups_;
   std::set<std::size_t> taken_;  ///< elements in blocks
-  std::vector<std::pair<std::string, std::pair<int, int>>> shells_;  ///< groups, from which to which element
+  std::vector<Shells> shells_;
   std::map<Corners, std::vector<fem::Side>> sides_;
   Names blockNames_, nodeSetNames_, sideSetNames_;
 };

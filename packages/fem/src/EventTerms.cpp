@@ -187,12 +187,14 @@ std::vector<int> EventTerms::beside(const std::vector<int>& indices, const Const
     }
     const auto own = [&](int i) { return i >= entry.first && i < end; };
     if (!entry.term->renews() || std::none_of(indices.begin(), indices.end(), own)) continue;
-    EventTerm::Nearness near;
-    const auto known = sum(entry, [&](const EventTerm& term) {
-      near = term.nearChange(u, lambda);
-      return near.known;
+    std::vector<double> known(count(), 0.0), distance(count(), 0.0);
+    ranks_.together([&] {
+      const EventTerm::Nearness near = entry.term->nearChange(u, lambda);
+      put(entry, near.known, known);
+      put(entry, near.distance, distance);
     });
-    const auto distance = sum(entry, [&](const EventTerm&) { return near.distance; });
+    ranks_.sum(known);
+    ranks_.sum(distance);
     // What begins with what is due, and what ends with it: as far from its change as that one, which the
     // series took for zero.
     for (int c = entry.first; c < end; ++c)

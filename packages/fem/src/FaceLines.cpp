@@ -36,28 +36,21 @@ int numFamilies(Face face) { return isTriangle(face) ? 3 : 2; }
 
 using Point2 = std::array<double, 2>;
 
-Point2 cornerOf(Face face, int corner) {
-  static constexpr double quadrilateral[4][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
-  static constexpr double triangle[3][2] = {{0, 0}, {1, 0}, {0, 1}};
-  const double* at = isTriangle(face) ? triangle[corner] : quadrilateral[corner];
-  return {at[0], at[1]};
-}
-
 /// A place on a line: xi in [-1, 1] along line t, and the derivative by t.
 struct OnLine {
   Point2 at, across;
   double area;  ///< of the reference face by xi and t
 };
 
-OnLine onLine(Face face, const Family& family, double t, double xi) {
+/// `nodes`: referenceNodes of the face.
+OnLine onLine(const std::vector<double>& nodes, const Family& family, double t, double xi) {
   Point2 end[2], rate[2];
-  for (int e = 0; e < 2; ++e) {
-    const Point2 from = cornerOf(face, family.ends[e].from), to = cornerOf(face, family.ends[e].to);
+  for (int e = 0; e < 2; ++e)
     for (int i = 0; i < 2; ++i) {
-      rate[e][i] = to[i] - from[i];
-      end[e][i] = from[i] + t * rate[e][i];
+      const double from = nodes[2 * family.ends[e].from + i];
+      rate[e][i] = nodes[2 * family.ends[e].to + i] - from;
+      end[e][i] = from + t * rate[e][i];
     }
-  }
   OnLine p;
   Point2 along;
   for (int i = 0; i < 2; ++i) {
@@ -91,16 +84,17 @@ struct Pattern {
   std::vector<double> shape, slope;  ///< [line][a][k]: N_a along the line, and its derivative across
 
   Pattern(Face face, const Family& family, int degree, const Tabulation& lines, const Tabulation& shown) {
+    const std::vector<double> nodes = referenceNodes(face);
     std::vector<double> at, along, weights;
     std::vector<Point2> across;
     for (int j = 0; j < lines.numPoints; ++j) {
       for (int s = 0; s < shown.numPoints; ++s) {
-        const OnLine p = onLine(face, family, lines.points[j], shown.points[s]);
+        const OnLine p = onLine(nodes, family, lines.points[j], shown.points[s]);
         at.insert(at.end(), p.at.begin(), p.at.end());
         weights.push_back(lines.weights[j] * shown.weights[s] * p.area);
       }
       for (const double xi : {-1.0, 0.0, 1.0}) {
-        const OnLine p = onLine(face, family, lines.points[j], xi);
+        const OnLine p = onLine(nodes, family, lines.points[j], xi);
         along.insert(along.end(), p.at.begin(), p.at.end());
         across.push_back(p.across);
       }
@@ -151,11 +145,12 @@ class Corners {
 
 /// Where the gap is looked at to choose between the families of lines: three places on three lines of each.
 Tabulation placesToLook(Face face) {
+  const std::vector<double> nodes = referenceNodes(face);
   std::vector<double> at;
   for (int d = 0; d < numFamilies(face); ++d)
     for (const double t : {0.25, 0.5, 0.75})
       for (const double xi : {-0.5, 0.0, 0.5}) {
-        const OnLine p = onLine(face, familiesOf(face)[d], t, xi);
+        const OnLine p = onLine(nodes, familiesOf(face)[d], t, xi);
         at.insert(at.end(), p.at.begin(), p.at.end());
       }
   return tabulateFaceAt(face, at);
@@ -177,8 +172,8 @@ std::vector<double> changes(const SurfaceFace& face, const Tabulation& grid,
   return sums;
 }
 
-double edgeLength(const SurfaceFace& face, const Edge& edge) {
-  const Vec3 &a = face.places[edge.from], &b = face.places[edge.to];
+double edgeLength(const SurfaceFace& face, int from, int to) {
+  const Vec3 &a = face.places[from], &b = face.places[to];
   return std::hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]);
 }
 
@@ -205,7 +200,7 @@ struct Families {
 /// that can be: from face to face through each set of faces that hangs together.
 std::vector<int> throughQuadrilaterals(const std::vector<SurfaceFace>& faces, const Corners& corners,
                                        const std::function<double(const double*)>& gap) {
-  // [edge] its family, then the other one's.
+  // Those that the first family's lines cross, then those of the second's: edge / 2 is the family.
   constexpr const Family* families = kAcrossQuadrilateral;
   const Edge edges[4] = {families[0].ends[0], families[0].ends[1], families[1].ends[0], families[1].ends[1]};
   std::map<std::pair<int, int>, std::vector<std::pair<int, int>>> byEdge;  // face, its edge
@@ -225,7 +220,7 @@ std::vector<int> throughQuadrilaterals(const std::vector<SurfaceFace>& faces, co
       for (int edge = 0; edge < 4; ++edge) {
         const bool crossed = edge / 2 == result[f];
         const auto& sharing = byEdge.at(corners.ofEdge(f, edges[edge]));
-        const double length = edgeLength(faces[f], edges[edge]);
+        const double length = edgeLength(faces[f], edges[edge].from, edges[edge].to);
         sums.size += length;
         if (sharing.size() == 1) sums.border[crossed ? 0 : 1] += length;
         for (const auto& [other, otherEdge] : sharing) {
@@ -252,7 +247,7 @@ std::vector<int> throughTriangles(const std::vector<SurfaceFace>& faces,
     auto slope = changes(face, grid, gap);
     double length[3];
     for (int d = 0; d < 3; ++d) {
-      length[d] = edgeLength(face, {kAcrossTriangle[d].ends[0].from, kAcrossTriangle[d].ends[1].from, 0});
+      length[d] = edgeLength(face, kAcrossTriangle[d].ends[0].from, kAcrossTriangle[d].ends[1].from);
       slope[d] /= length[d];
     }
     int best = 0;

@@ -344,6 +344,7 @@ struct FeProblem::Impl {
       for (std::size_t b = 0; b < size.size(); ++b)
         if (std::isfinite(driving[b])) size[b] = std::max(size[b], 10 * driving[b]);
     }
+    const bool loaded = *std::min_element(size.begin(), size.end()) > 0;
     Kokkos::deep_copy(sum, 0.0);
     const DofView start("start", value.extent(0));
     setStart(0, start);
@@ -360,6 +361,7 @@ struct FeProblem::Impl {
       if (std::isfinite(driving[b])) size[b] = std::max(size[b], driving[b]);
       scaleFloor[b] = std::max(1e-6 * size[b], 1e-300);
     }
+    if (loaded) return;
     // Tools that come from afar and may go again: without them there are no forces but those of rounding,
     // below which laws that fall off are as good as zero.
     const Sizes rounding = forcesOfRounding();

@@ -71,24 +71,30 @@ void expectEndsToMeet(const LineSet& lines) {
     for (std::size_t i = 3; i < own.size(); ++i) EXPECT_NEAR(own[i], own[i % 3], 1e-14);
 }
 
+/// Lines on the top of a distorted box of 3 x 3 cells along the sides of its quadrilaterals, for gaps that
+/// change along either and rules of several degrees: this many faces in a row, `more` degrees across.
+void expectLinesOnABox(Topology cell, double amount, int inARow, int more) {
+  SCOPED_TRACE(topologyName(cell));
+  const Mesh mesh = distorted(box(cell), amount);
+  for (const auto& gap : {alongX, alongY})
+    for (const int degree : {1, 4, 8}) {
+      const auto faces = faceLines(mesh, {}, sideSet(mesh, "z_max"), 0, degree, gap).at(0);
+      const int rows = 3 * ((degree + more) / 2 + 1);
+      EXPECT_EQ(faces.lines.numLines(), inARow * rows);
+      EXPECT_EQ(faces.lines.numEnds(), (inARow + 1) * rows);
+      EXPECT_LT(difference(faces), 1e-14);
+      expectEndsToMeet(faces.lines);
+      // Along where the gap changes: so many in a row of the box's unit length.
+      const double* c = &faces.lines.coefficients[3];
+      EXPECT_GT(std::abs(c[gap == alongX ? 0 : 1]), 2 * std::abs(c[gap == alongX ? 1 : 0]));
+    }
+}
+
 }  // namespace
 
 TEST(FaceLines, AreThePointsOfTheirFaces) {
   for (const auto cell : {Topology::Hex8, Topology::Hex20, Topology::Hex27})
-    for (const auto& gap : {alongX, alongY})
-      for (const int degree : {1, 4, 8}) {
-        SCOPED_TRACE(topologyName(cell));
-        const Mesh mesh = distorted(box(cell), 0.05);
-        const auto faces = faceLines(mesh, {}, sideSet(mesh, "z_max"), 0, degree, gap).at(0);
-        const int across = degree / 2 + 1;
-        EXPECT_EQ(faces.lines.numLines(), 9 * across);
-        EXPECT_EQ(faces.lines.numEnds(), 4 * 3 * across);
-        EXPECT_LT(difference(faces), 1e-14);
-        expectEndsToMeet(faces.lines);
-        // Along where the gap changes: three in a row of the box's unit length.
-        const double* c = &faces.lines.coefficients[3];
-        EXPECT_GT(std::abs(c[gap == alongX ? 0 : 1]), 2 * std::abs(c[gap == alongX ? 1 : 0]));
-      }
+    expectLinesOnABox(cell, 0.05, 3, 0);
 }
 
 TEST(FaceLines, OfShellsAtTheirFaces) {
@@ -146,20 +152,7 @@ TEST(FaceLines, GoOnWhereNeighboursAreTurned) {
 
 // Triangles that halve quadrilaterals: lines along the sides of these, through both halves.
 TEST(FaceLines, OfTriangles) {
-  for (const auto cell : {Topology::Tet4, Topology::Tet10})
-    for (const auto& gap : {alongX, alongY})
-      for (const int degree : {1, 4, 8}) {
-        SCOPED_TRACE(topologyName(cell));
-        const Mesh mesh = distorted(box(cell), 0.02);
-        const auto faces = faceLines(mesh, {}, sideSet(mesh, "z_max"), 0, degree, gap).at(0);
-        const int across = (degree + 1) / 2 + 1;
-        EXPECT_EQ(faces.lines.numLines(), 18 * across);
-        EXPECT_EQ(faces.lines.numEnds(), 7 * 3 * across);
-        EXPECT_LT(difference(faces), 1e-14);
-        expectEndsToMeet(faces.lines);
-        const double* c = &faces.lines.coefficients[3];
-        EXPECT_GT(std::abs(c[gap == alongX ? 0 : 1]), 2 * std::abs(c[gap == alongX ? 1 : 0]));
-      }
+  for (const auto cell : {Topology::Tet4, Topology::Tet10}) expectLinesOnABox(cell, 0.02, 6, 1);
 }
 
 // Over a plane floor nothing chooses but the edges' lengths: the diagonals.
