@@ -125,6 +125,17 @@ TEST(ZoneStrip, TouchesAtTheStart) {
   EXPECT_NEAR(end("center: [200, 0, -50.0]"), end("center: [200, 0, -50.001]"), 5e-3);
 }
 
+// The lowest place of the flat strip is next to a node, and leaves it by 8 mm before it touches.
+TEST(ZoneStrip, ALowestPlaceThatLeavesItsNode) {
+  for (const char* x : {"199.99", "199.9999", "199.999999"}) {
+    const Strip strip("zones.yaml", {{"center: [200, -54.0, 0]", fmt::format("center: [{}, -54.0, 0]", x)},
+                                     {"points_per_step: 10", "points_per_step: 3"}});
+    EXPECT_LT(strip.tip, 0.03) << x;  // of a roll at 200: 0.008 for each 0.01
+    EXPECT_LT(strip.force, 0.03);
+    EXPECT_LE(strip.steps, 22);
+  }
+}
+
 // Beyond load factor 1.18 the strip wraps the roll: cells of 20 mm, 0.4 of its radius, bend as quadratic
 // curves do.
 TEST(ZoneStrip, OfShellsWrapsTheRoll) {

@@ -451,7 +451,9 @@ class ZoneTerm final : public EventTerm {
     return gap < 0;
   }
   /// The end (0, 1) of its line that a minimum cannot be told from, as far as a birth is concerned; -1: none.
+  /// Far from the tool each is told by itself, for until it gets there the minimum may have left the end.
   int endAt(int e, const Extremum& x, const GapShape& shape) const {
+    if (x.gap > border(e)) return -1;
     for (int end = 0; end < 2; ++end)
       if (x.least && std::abs(x.xi - (end == 0 ? -1 : 1)) < kBeyondEnds &&
           std::abs(shape.ends[end] - x.gap) <= 2 * least(e))
