@@ -292,16 +292,16 @@ TEST(SceneInput, ContactsThatCannotBe) {
       "them, got 1e-09");
 }
 
-TEST(SceneInput, ZonesThatCannotBe) {
+TEST(SceneInput, ZonesOnTrianglesAndPatches) {
   const std::string zones =
       edited(bar, "path:\n", "contact:\n  below: {tool: floor, set: z_min, points: zones}\npath:\n");
   EXPECT_EQ(refusal(zones), "no error");
   EXPECT_EQ(refusal(edited(zones, "cell: HEX8", "cell: TET4")), "no error");
-  expectRefused(
-      edited(zones, "floor: {type: plane, point: [0, 0, -1], normal: [0, 0, 1]}",
-             "floor: {type: patches, surfaces: {s: {degree: [1, 1], points: [[-9, -9, -1], [-9, 9, -1], "
-             "[9, -9, -1], [9, 9, -1]]}}}"),
-      "zones of contact are found on smooth tools, not on patches");
+  EXPECT_EQ(refusal(edited(
+                zones, "floor: {type: plane, point: [0, 0, -1], normal: [0, 0, 1]}",
+                "floor: {type: patches, surfaces: {s: {degree: [1, 1], points: [[-9, -9, -1], [-9, 9, -1], "
+                "[9, -9, -1], [9, 9, -1]]}}}")),
+            "no error");
 }
 
 TEST(SceneInput, InflowThroughContacts) {

@@ -33,8 +33,8 @@ class Chain {
     return outputs;
   }
 
-  /// h, n of the point whose place is on the wires x; lambda: the wire that the motion follows. Delta: its
-  /// datum, -1: 0. firstPatch: the first of the patches' data.
+  /// h, n (and t1, t2 of patches) of the point whose place is on the wires x; lambda: the wire that the
+  /// motion follows. Delta: its datum, -1: 0. firstPatch: the first of the patches' data.
   std::vector<int> project(const ToolStages& tool, std::vector<int> x, int lambda,
                            const std::optional<Motion>& motion, int Delta, int firstPatch) {
     if (motion) {
@@ -55,8 +55,9 @@ class Chain {
   }
 
   /// -R n, R by h, n.
-  std::vector<int> press(const AnyPressure& pressure, const std::vector<int>& hn, int Delta) {
+  std::vector<int> press(const AnyPressure& pressure, std::vector<int> hn, int Delta) {
     std::vector<int> f;
+    hn.resize(4);
     pressure.with([&](const auto& one) {
       f = add(fem::pointLaw(PressureStage<std::decay_t<decltype(one)>>{one}), hn, {Delta});
     });
@@ -153,8 +154,7 @@ std::unique_ptr<fem::PointLaw> stagedSharpenedContact(const ToolStages& tool,
 }
 
 std::unique_ptr<fem::PointLaw> stagedProjection(const ToolStages& tool) {
-  if (tool.patches) throw std::logic_error("stagedProjection: of tools without patches");
-  Chain chain(tool.motion ? 4 : 3, 0, tool.symmetric);
+  Chain chain(tool.motion ? 4 : 3, tool.patches ? patchData : 0, tool.symmetric);
   return chain.law(chain.project(tool, {0, 1, 2}, 3, tool.motion, -1, 0));
 }
 

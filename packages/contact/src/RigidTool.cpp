@@ -99,14 +99,12 @@ class StagedTool : public RigidTool {
 
   std::unique_ptr<fem::Term> zones(const Overclosure& pressure, const fem::LineSet& lines,
                                    fem::ZoneOptions options) const override {
-    if (stages_.patches)
-      throw std::invalid_argument(
-          "zones of contact are found on smooth tools, not on patches: expected nodes or quadrature");
     if (!stages_.symmetric)
       throw std::invalid_argument("zones of contact need a tool whose normal is the gradient of its gap");
     pressure.validate();
-    return fem::zoneTerm({stagedProjection(stages_), fem::pointLaw(OverclosureStage{pressure})}, lines,
-                         options);
+    return fem::zoneTerm({stagedProjection(stages_), fem::pointLaw(OverclosureStage{pressure}),
+                          pieces(moves() ? 4 : 3, 0, placeAmong(3, 3))},
+                         lines, options);
   }
 
   std::unique_ptr<fem::Term> sharpened(const RegularisedPressure& pressure, const fem::PointSet& points,

@@ -10,6 +10,7 @@
 #include "atrapos/contact/Cylinder.hpp"
 #include "atrapos/contact/Plane.hpp"
 #include "support/ContactModel.hpp"
+#include "support/PatchSurfaces.hpp"
 #include "support/PlaneContact.hpp"
 
 using namespace atrapos;
@@ -24,19 +25,28 @@ fem::Mesh stripMesh(int cells, fem::Topology cell = fem::Topology::Quad8) {
   return planeMesh(cell, {cells, 1}, {kLength, kHeight});
 }
 
-/// A strip that is clamped on the left and pulled down on the right over a roll, which may move along it.
-fem::FeModel strip(const fem::Mesh& mesh, bool alone, double slide = 0, int exponent = 1) {
+/// A strip that is clamped on the left and pulled down on the right over a tool.
+fem::FeModel strip(const fem::Mesh& mesh, bool alone, const RigidTool& tool, double load = -1) {
   fem::FeModel model = planeModel(mesh, {}, 1000, 0.2);
   for (const int n : fem::test::nodesOfSet(mesh, "x_min"))
     for (int i = 0; i < 2; ++i) model.prescribe(n, i, 0, 0);
-  for (const int n : fem::test::nodesOfSet(mesh, "x_max")) model.load[2 * n + 1] = slide == 0 ? -1 : -0.1;
+  for (const int n : fem::test::nodesOfSet(mesh, "x_max")) model.load[2 * n + 1] = load;
+  addZones(model, mesh, {}, tool, {2e3, 1});
+  if (alone) model.comm = linear::rcp(new Teuchos::MpiComm<int>(MPI_COMM_SELF));
+  return model;
+}
+/// Over a roll, which may move along it.
+fem::FeModel strip(const fem::Mesh& mesh, bool alone, double slide = 0) {
   Motion motion;
   motion.shift[1][0] = slide;
   const auto roll =
       rigidTool(Cylinder{{5.3, -2.06, 0}, {0, 0, 1}, 2}, slide == 0 ? std::nullopt : std::optional(motion));
-  addZones(model, mesh, {}, *roll, {exponent == 1 ? 2e3 : 1e5, exponent});
-  if (alone) model.comm = linear::rcp(new Teuchos::MpiComm<int>(MPI_COMM_SELF));
-  return model;
+  return strip(mesh, alone, *roll, slide == 0 ? -1 : -0.1);
+}
+/// Over the same roll, of half the radius from 4 degrees behind its top on.
+fem::FeModel stripOverArcs(const fem::Mesh& mesh, bool alone) {
+  const double angle = std::acos(-1.0) / 2 - 0.07;
+  return strip(mesh, alone, *rigidTool(std::make_shared<const PatchSet>(twoArcs(5.3, -2.06, 2, 1, angle))));
 }
 
 /// Events, and where the path went.
@@ -153,6 +163,26 @@ TEST(ZonePaths, FlatContactIsUniform) {
     }
 }
 
+// Over the border of two arcs: each of the zone's limits that passes it ends a step at most, and the steps in
+// between are few. The path leads to the equilibrium, there and back.
+TEST(ZonePaths, OverTheBorderOfTwoArcs) {
+  const auto mesh = stripMesh(12);
+  fem::FeProblem smooth(strip(mesh, true)), problem(stripOverArcs(mesh, true));
+  Walk walk, back;
+  const auto out = follow(problem, {problem.initialState(0), 0.0}, 1, walk, loose(1e-8));
+  ASSERT_EQ(out.reason, path::EndReason::stopReached) << out.text;
+  EXPECT_LT(walk.worst, 1e-8);
+  const auto onRoll = follow(smooth, {smooth.initialState(0), 0.0}, 1, loose(1e-8));
+  EXPECT_LE(out.steps, onRoll.steps + 20);
+  const Numbers u = fem::FeProblem::values(*out.final.u), onlyRoll = fem::FeProblem::values(*onRoll.final.u);
+  const Numbers exact = fem::test::equilibrium(problem, 1, u, 1e-11).u;
+  EXPECT_LE(fem::test::largest(fem::test::sum(u, -1, exact)), 1e-5 * fem::test::largest(exact));
+  EXPECT_GT(fem::test::largest(fem::test::sum(u, -1, onlyRoll)), 1e-3 * fem::test::largest(exact));
+  const auto home = follow(problem, out.final, 0, back, loose(1e-8));
+  ASSERT_EQ(home.reason, path::EndReason::stopReached) << home.text;
+  EXPECT_LE(fem::test::largest(fem::FeProblem::values(*home.final.u)), 1e-5);
+}
+
 // Steps go with events and not with the mesh nor the stiffness.
 TEST(ZonePaths, RollThatSlidesFromEdgeToEdge) {
   int steps[2], events[2];
@@ -176,54 +206,61 @@ TEST(ZonePaths, RollThatSlidesFromEdgeToEdge) {
 // Conditions, state and direction are all that a path needs to go on, also from a state at which an event is
 // due.
 TEST(ZonePaths, RunThatIsTakenUpAgainGoesTheSameWay) {
-  const auto mesh = stripMesh(12);
-  fem::FeProblem whole(strip(mesh, true));
-  struct Keep final : path::Observer {
-    std::vector<path::Start> starts;
-    std::vector<std::vector<int>> conditions;
-    std::vector<double> ends;
-    bool onStep(const path::StepReport& report, const path::Series& series) override {
-      starts.push_back(report.next);
-      ends.push_back(report.end.lambda);
-      (void)series;
-      return true;
+  for (const bool arcs : {false, true}) {
+    const auto model = [&, mesh = stripMesh(12)] {
+      return arcs ? stripOverArcs(mesh, true) : strip(mesh, true);
+    };
+    fem::FeProblem whole(model());
+    struct Keep final : path::Observer {
+      std::vector<path::Start> starts;
+      std::vector<std::vector<int>> conditions;
+      std::vector<double> ends;
+      bool onStep(const path::StepReport& report, const path::Series& series) override {
+        starts.push_back(report.next);
+        ends.push_back(report.end.lambda);
+        (void)series;
+        return true;
+      }
+    } keep;
+    follow(whole, {whole.initialState(0), 0.0}, 1, keep, loose(1e-7));
+    ASSERT_GE(keep.starts.size(), 4u);
+    for (std::size_t i = 0; i + 1 < keep.starts.size(); ++i) {
+      fem::FeProblem again(model());
+      Keep rest;
+      const auto solver = linear::makeTangentSolver();
+      path::Stops stops;
+      stops.loadFactors = {1};
+      path::PathFollower follower(again, *solver, loose(1e-7), stops);
+      follower.runFrom(keep.starts[i], rest);
+      ASSERT_EQ(rest.ends.size(), keep.ends.size() - i - 1) << i;
+      for (std::size_t j = 0; j < rest.ends.size(); ++j)
+        EXPECT_EQ(rest.ends[j], keep.ends[i + 1 + j]) << i << ' ' << j;
     }
-  } keep;
-  follow(whole, {whole.initialState(0), 0.0}, 1, keep, loose(1e-7));
-  ASSERT_GE(keep.starts.size(), 4u);
-  for (std::size_t i = 0; i + 1 < keep.starts.size(); ++i) {
-    fem::FeProblem again(strip(mesh, true));
-    Keep rest;
-    const auto solver = linear::makeTangentSolver();
-    path::Stops stops;
-    stops.loadFactors = {1};
-    path::PathFollower follower(again, *solver, loose(1e-7), stops);
-    follower.runFrom(keep.starts[i], rest);
-    ASSERT_EQ(rest.ends.size(), keep.ends.size() - i - 1) << i;
-    for (std::size_t j = 0; j < rest.ends.size(); ++j)
-      EXPECT_EQ(rest.ends[j], keep.ends[i + 1 + j]) << i << ' ' << j;
   }
 }
 
 TEST(ZoneRanks, SumsAndEventsAreThoseOfOneRank) {
-  const auto mesh = stripMesh(12);
-  fem::FeProblem shared(strip(mesh, false)), whole(strip(mesh, true));
-  ASSERT_EQ(shared.eventCount(), whole.eventCount());
-  Walk walk, walk1;
-  const auto end = follow(shared, {shared.initialState(0), 0.0}, 1, walk, loose(1e-8));
-  const auto end1 = follow(whole, {whole.initialState(0), 0.0}, 1, walk1, loose(1e-8));
-  EXPECT_EQ(walk.ofSteps, walk1.ofSteps);
-  EXPECT_EQ(shared.conditionsAt(end.final), whole.conditionsAt(end1.final));
-  const auto& memory = end1.final.memory;
-  const Numbers u = fem::FeProblem::values(*end.final.u), u1 = fem::FeProblem::values(*end1.final.u);
-  // Rounding of sums at shared nodes, times the condition of the strip.
-  EXPECT_LE(fem::test::largest(fem::test::sum(u, -1, u1)), 1e-8 * fem::test::largest(u1));
-  const Numbers x = fem::test::randomNumbers(u.size(), 1, 6);
-  const auto K = fem::test::tangentTimes(shared, u1, 1, x, memory),
-             K1 = fem::test::tangentTimes(whole, u1, 1, x, memory);
-  EXPECT_LE(fem::test::largest(fem::test::sum(K.Kx, -1, K1.Kx)), 1e-12 * fem::test::largest(K1.Kx));
-  const auto seen = shared.observe(1, {fem::test::vectorOf(shared, u1), 1, memory}),
-             seen1 = whole.observe(1, {fem::test::vectorOf(whole, u1), 1, memory});
-  EXPECT_LE(fem::test::largest(fem::test::sum(seen.values, -1, seen1.values)),
-            1e-12 * fem::test::largest(seen1.values));
+  for (const bool arcs : {false, true}) {
+    const auto mesh = stripMesh(12);
+    const auto model = [&](bool alone) { return arcs ? stripOverArcs(mesh, alone) : strip(mesh, alone); };
+    fem::FeProblem shared(model(false)), whole(model(true));
+    ASSERT_EQ(shared.eventCount(), whole.eventCount());
+    Walk walk, walk1;
+    const auto end = follow(shared, {shared.initialState(0), 0.0}, 1, walk, loose(1e-8));
+    const auto end1 = follow(whole, {whole.initialState(0), 0.0}, 1, walk1, loose(1e-8));
+    EXPECT_EQ(walk.ofSteps, walk1.ofSteps);
+    EXPECT_EQ(shared.conditionsAt(end.final), whole.conditionsAt(end1.final));
+    const auto& memory = end1.final.memory;
+    const Numbers u = fem::FeProblem::values(*end.final.u), u1 = fem::FeProblem::values(*end1.final.u);
+    // Rounding of sums at shared nodes, times the condition of the strip.
+    EXPECT_LE(fem::test::largest(fem::test::sum(u, -1, u1)), 1e-8 * fem::test::largest(u1));
+    const Numbers x = fem::test::randomNumbers(u.size(), 1, 6);
+    const auto K = fem::test::tangentTimes(shared, u1, 1, x, memory),
+               K1 = fem::test::tangentTimes(whole, u1, 1, x, memory);
+    EXPECT_LE(fem::test::largest(fem::test::sum(K.Kx, -1, K1.Kx)), 1e-12 * fem::test::largest(K1.Kx));
+    const auto seen = shared.observe(1, {fem::test::vectorOf(shared, u1), 1, memory}),
+               seen1 = whole.observe(1, {fem::test::vectorOf(whole, u1), 1, memory});
+    EXPECT_LE(fem::test::largest(fem::test::sum(seen.values, -1, seen1.values)),
+              1e-12 * fem::test::largest(seen1.values));
+  }
 }

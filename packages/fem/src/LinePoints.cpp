@@ -1,6 +1,8 @@
 #include "LinePoints.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -20,7 +22,8 @@ LineLaws::LineLaws(int lineDegree, ZoneLaws laws)
     : degree(lineDegree),
       slope(pointLaw(SlopeStage{})),
       projection(std::move(laws.projection)),
-      pressure(std::move(laws.pressure)) {
+      pressure(std::move(laws.pressure)),
+      pieces(std::move(laws.pieces)) {
   if (degree == 1)
     makeStages<1>(*this);
   else if (degree == 2)
@@ -28,14 +31,57 @@ LineLaws::LineLaws(int lineDegree, ZoneLaws laws)
   else
     throw std::logic_error("LineLaws: lines of degree 1 and 2 only");
   const LawShape place = projection->shape(), own = pressure->shape();
-  if ((place.inputs != 3 && place.inputs != 4) || place.outputs != 4 || place.data != 0 || own.inputs != 1 ||
-      own.outputs != 1 || own.data != 0)
+  if ((place.inputs != 3 && place.inputs != 4) || place.outputs != (hasPieces() ? 6 : 4) ||
+      place.data != (hasPieces() ? pieces.numData : 0) || own.inputs != 1 || own.outputs != 1 ||
+      own.data != 0)
     throw std::logic_error(
-        "LineLaws: a projection of (x, y, z, lambda) on (h, n) and a pressure p(h), without data");
+        "LineLaws: a projection of (x, y, z, lambda) on (h, n), with the data of its pieces and coordinates "
+        "in "
+        "them, and a pressure p(h) without data");
 }
 
-LineProbe probe(const LineLaws& laws, int Q, const double* xi, const double* c, double lambda) {
-  const int J = laws.placeInputs(), P = laws.degree;
+std::vector<double> LineLaws::located(int numPoints, const double* places, const int* preferred) const {
+  if (!hasPieces()) return {};
+  const int J = placeInputs(), D = pieces.numData;
+  const auto prefers = [&](int q, int lane) {
+    return preferred == nullptr ? PointPieces::any : preferred[q * L + lane];
+  };
+  // Lanes that repeat the first, as those beyond the last line do, are not looked for.
+  const auto repeats = [&](int q, int lane) {
+    if (prefers(q, lane) != prefers(q, 0)) return false;
+    for (int j = 0; j < J; ++j)
+      if (places[(q * J + j) * L + lane] != places[(q * J + j) * L]) return false;
+    return true;
+  };
+  std::vector<int> of(numPoints * L);
+  std::vector<double> own;
+  std::vector<int> wanted;
+  int count = 0;
+  for (int q = 0; q < numPoints; ++q)
+    for (int lane = 0; lane < L; ++lane) {
+      if (lane > 0 && repeats(q, lane)) {
+        of[q * L + lane] = of[q * L];
+        continue;
+      }
+      of[q * L + lane] = count++;
+      wanted.push_back(prefers(q, lane));
+      for (int j = 0; j < J; ++j) own.push_back(places[(q * J + j) * L + lane]);
+    }
+  std::vector<double> found(count * D, 0.0), data(numPoints * D * L);
+  pieces.update(count, own.data(), wanted.data(), found.data());
+  for (int q = 0; q < numPoints; ++q)
+    for (int d = 0; d < D; ++d)
+      for (int lane = 0; lane < L; ++lane) data[(q * D + d) * L + lane] = found[of[q * L + lane] * D + d];
+  return data;
+}
+
+namespace {
+
+/// dataAt(places): the projection's data, [point][datum][lane].
+template <class DataAt>
+LineProbe probeWith(const LineLaws& laws, int Q, const double* xi, const double* c, double lambda,
+                    const DataAt& dataAt) {
+  const int J = laws.placeInputs(), H = laws.placeOutputs(), P = laws.degree;
   LineProbe r;
   r.along.resize(3 * Q * L);
   std::vector<double> in(Q * J * L, 0.0), bend(3 * Q * L, 0.0);
@@ -51,30 +97,57 @@ LineProbe probe(const LineLaws& laws, int Q, const double* xi, const double* c, 
       }
       if (J == 4) in[(q * J + 3) * L + lane] = lambda;
     }
-  std::vector<double> scratch(laws.projection->historyDoubles(0)), out(4 * Q * L), jacobian(4 * J * Q * L);
-  laws.projection->tangent({Q, L, nullptr, scratch.data()}, in.data(), out.data(), jacobian.data());
+  std::vector<double> scratch(laws.projection->historyDoubles(0)), out(H * Q * L), jacobian(H * J * Q * L);
+  const std::vector<double> data = dataAt(in.data());
+  laws.projection->tangent({Q, L, data.data(), scratch.data()}, in.data(), out.data(), jacobian.data());
   r.gap.resize(Q * L);
   r.slope.assign(Q * L, 0.0);
   r.bend.assign(Q * L, 0.0);
   r.gradient.assign(4 * Q * L, 0.0);
   r.normal.resize(3 * Q * L);
   r.turn.assign(12 * Q * L, 0.0);
+  r.in.resize((H - 4) * Q * L);
+  r.inBy.assign((H - 4) * 4 * Q * L, 0.0);
   for (int q = 0; q < Q; ++q)
     for (int lane = 0; lane < L; ++lane) {
       const std::size_t m = static_cast<std::size_t>(q) * L + lane;
-      const auto by = [&](int o, int j) { return jacobian[((q * 4 + o) * J + j) * L + lane]; };
-      r.gap[m] = out[(4 * q) * L + lane];
+      const auto by = [&](int o, int j) { return jacobian[((q * H + o) * J + j) * L + lane]; };
+      r.gap[m] = out[H * q * L + lane];
       for (int j = 0; j < J; ++j) r.gradient[(4 * q + j) * L + lane] = by(0, j);
       for (int i = 0; i < 3; ++i) {
-        const double n = out[(4 * q + 1 + i) * L + lane], x1 = r.along[(3 * q + i) * L + lane];
+        const double n = out[(H * q + 1 + i) * L + lane], x1 = r.along[(3 * q + i) * L + lane];
         r.normal[(3 * q + i) * L + lane] = n;
         r.slope[m] += n * x1;
         r.bend[m] += n * bend[(3 * q + i) * L + lane];
         for (int j = 0; j < J; ++j) r.turn[((3 * q + i) * 4 + j) * L + lane] = by(1 + i, j);
         for (int j = 0; j < 3; ++j) r.bend[m] += x1 * by(1 + i, j) * r.along[(3 * q + j) * L + lane];
       }
+      for (int i = 0; i < H - 4; ++i) {
+        r.in[(2 * q + i) * L + lane] = out[(H * q + 4 + i) * L + lane];
+        for (int j = 0; j < J; ++j) r.inBy[((2 * q + i) * 4 + j) * L + lane] = by(4 + i, j);
+      }
+      if (!laws.hasPieces() || data[(q * laws.pieces.numData + laws.pieces.piece) * L + lane] >= 0) continue;
+      r.gap[m] = std::numeric_limits<double>::infinity();
+      r.slope[m] = r.bend[m] = 0;
+      for (int j = 0; j < 4; ++j) r.gradient[(4 * q + j) * L + lane] = 0;
     }
   return r;
+}
+
+/// dt/dxi along the line of a coordinate in the piece.
+double slopeOf(const LineProbe& at, int coordinate, int p, int lane) {
+  double slope = 0;
+  for (int i = 0; i < 3; ++i)
+    slope += at.inBy[((2 * p + coordinate) * 4 + i) * L + lane] * at.along[(3 * p + i) * L + lane];
+  return slope;
+}
+
+}  // namespace
+
+LineProbe probe(const LineLaws& laws, int Q, const double* xi, const double* c, double lambda,
+                const int* preferred) {
+  return probeWith(laws, Q, xi, c, lambda,
+                   [&](const double* places) { return laws.located(Q, places, preferred); });
 }
 
 void LinePoints::reserve(int batches, int maxOrder) {
@@ -83,6 +156,7 @@ void LinePoints::reserve(int batches, int maxOrder) {
   projectionDoubles_ = P_ * laws_.projection->seriesDoubles(start_);
   perBatch_ = curveDoubles_ + projectionDoubles_ + P_ * laws_.slope->seriesDoubles(start_);
   history_.resize(batches * perBatch_);
+  data_.resize(batches * dataSize());
   points_.assign(static_cast<std::size_t>(batches) * P_ * L, {});
 }
 
@@ -93,10 +167,10 @@ std::size_t LinePoints::bytes(int batches, int maxOrder) const {
           laws_.slope->seriesDoubles(order));
 }
 
-void LinePoints::start(int b, const double* xi, const Hold* hold, const double* c, double lambda, double* gap,
-                       PointFailure& failure) {
-  const int C = laws_.coefficients(), J = laws_.placeInputs();
-  std::vector<double> in(P_ * (1 + C) * L), x(6 * P_ * L), place(P_ * J * L, 0.0), hn(4 * P_ * L),
+void LinePoints::start(int b, const double* xi, const Hold* hold, const double* c, double lambda,
+                       const int* preferred, double* gap, PointFailure& failure) {
+  const int C = laws_.coefficients(), J = laws_.placeInputs(), H = laws_.placeOutputs();
+  std::vector<double> in(P_ * (1 + C) * L), x(6 * P_ * L), place(P_ * J * L, 0.0), hn(H * P_ * L),
       onSlope(6 * P_ * L), slope(P_ * L);
   for (int p = 0; p < P_; ++p) {
     std::copy_n(xi + p * L, L, &in[p * (1 + C) * L]);
@@ -108,15 +182,17 @@ void LinePoints::start(int b, const double* xi, const Hold* hold, const double* 
     std::copy_n(&x[6 * p * L], 3 * L, &place[p * J * L]);
     if (J == 4) std::fill_n(&place[(p * J + 3) * L], L, lambda);
   }
-  laws_.projection->start({P_, L, nullptr, own + curveDoubles_}, start_, place.data(), hn.data(), failure);
+  const auto located = laws_.located(P_, place.data(), preferred);
+  double* data = std::copy(located.begin(), located.end(), data_.data() + b * dataSize()) - located.size();
+  laws_.projection->start({P_, L, data, own + curveDoubles_}, start_, place.data(), hn.data(), failure);
   for (int p = 0; p < P_; ++p) {
-    std::copy_n(&hn[(4 * p + 1) * L], 3 * L, &onSlope[6 * p * L]);
+    std::copy_n(&hn[(H * p + 1) * L], 3 * L, &onSlope[6 * p * L]);
     std::copy_n(&x[(6 * p + 3) * L], 3 * L, &onSlope[(6 * p + 3) * L]);
-    std::copy_n(&hn[4 * p * L], L, gap + p * L);
+    std::copy_n(&hn[H * p * L], L, gap + p * L);
   }
   laws_.slope->start({P_, L, nullptr, own + curveDoubles_ + projectionDoubles_}, start_, onSlope.data(),
                      slope.data(), failure);
-  const LineProbe at = probe(laws_, P_, xi, c, lambda);
+  const LineProbe at = probe(laws_, P_, xi, c, lambda, preferred);
   for (int p = 0; p < P_; ++p)
     for (int lane = 0; lane < L; ++lane) {
       Point& point = points_[(static_cast<std::size_t>(b) * P_ + p) * L + lane];
@@ -126,12 +202,47 @@ void LinePoints::start(int b, const double* xi, const Hold* hold, const double* 
       if (hold[m] == Hold::root) point.byGap = -1 / at.slope[m];
       if (hold[m] == Hold::extremum) point.bySlope = -1 / at.bend[m];
       for (int j = 0; j < 4; ++j) point.gradient[j] = at.gradient[(4 * p + j) * L + lane];
+      if (isBorder(hold[m])) {
+        const int i = hold[m] == Hold::border1 ? 0 : 1;
+        point.output = 4 + i;
+        for (int j = 0; j < 4; ++j) point.gradient[j] = at.inBy[((2 * p + i) * 4 + j) * L + lane];
+        point.byGap = -1 / slopeOf(at, i, p, lane);
+      }
       for (int i = 0; i < 3; ++i) {
         point.normal[i] = at.normal[(3 * p + i) * L + lane];
         const double along = at.along[(3 * p + i) * L + lane];
         for (int j = 0; j < 4; ++j) point.slopeBy[j] += along * at.turn[((3 * p + i) * 4 + j) * L + lane];
       }
     }
+}
+
+std::vector<double> LinePoints::rootsNear(int b, std::vector<double> xi, const double* c,
+                                          double lambda) const {
+  const double* first = data_.data() + b * dataSize();
+  const std::vector<double> data(first, first + dataSize());
+  for (int p = 0; p < P_; ++p)
+    for (int lane = 0; lane < L; ++lane)
+      if (at(b, p, lane).byGap == 0) xi[p * L + lane] = at(b, p, lane).xi;
+  constexpr int most = 20;
+  for (int i = 0; i < most; ++i) {
+    const LineProbe here = probeWith(laws_, P_, xi.data(), c, lambda,
+                                     [&](const double*) -> const std::vector<double>& { return data; });
+    double moved = 0;
+    for (int p = 0; p < P_; ++p)
+      for (int lane = 0; lane < L; ++lane) {
+        const Point& point = at(b, p, lane);
+        if (point.byGap == 0) continue;
+        double step = here.gap[p * L + lane] / here.slope[p * L + lane];
+        if (const int i = point.output - 4; i >= 0) {
+          const double t = here.in[(2 * p + i) * L + lane];
+          step = (t - std::round(t)) / slopeOf(here, i, p, lane);
+        }
+        xi[p * L + lane] -= step;
+        moved = std::max(moved, std::abs(step));
+      }
+    if (moved <= 4e-16) break;
+  }
+  return xi;
 }
 
 void LinePoints::motion(const Point& point, const double* c, int lane, double* x, double* along) const {
@@ -163,13 +274,13 @@ double LinePoints::placeBy(int b, int p, int lane, const double* c, double lambd
 
 void LinePoints::advance(int b, const SeriesOrder& order, const double* last, double lastLambda,
                          Orders& out) {
-  const int C = laws_.coefficients(), J = laws_.placeInputs(), P = P_;
+  const int C = laws_.coefficients(), J = laws_.placeInputs(), H = laws_.placeOutputs(), P = P_;
   const bool completes = order.k > 1;
   out.last.assign(P * L, 0.0);
   out.current.assign(P * L, 0.0);
   out.gap.assign(P * L, 0.0);
   std::vector<double> lastIn(P * (1 + C) * L), lastX(6 * P * L), x(6 * P * L), lastPlace(P * J * L, 0.0),
-      place(P * J * L, 0.0), lastHn(4 * P * L), hn(4 * P * L), lastSlopeIn(6 * P * L), slopeIn(6 * P * L),
+      place(P * J * L, 0.0), lastHn(H * P * L), hn(H * P * L), lastSlopeIn(6 * P * L), slopeIn(6 * P * L),
       lastSlope(P * L), slope(P * L);
   if (completes)
     for (int p = 0; p < P; ++p) {
@@ -187,11 +298,11 @@ void LinePoints::advance(int b, const SeriesOrder& order, const double* last, do
     std::copy_n(&lastX[6 * p * L], 3 * L, &lastPlace[p * J * L]);
     if (J == 4) std::fill_n(&lastPlace[(p * J + 3) * L], L, lastLambda);
   }
-  laws_.projection->advance({P, L, nullptr, own + curveDoubles_}, order, {lastPlace.data(), place.data()},
-                            {lastHn.data(), hn.data()});
+  laws_.projection->advance({P, L, data_.data() + b * dataSize(), own + curveDoubles_}, order,
+                            {lastPlace.data(), place.data()}, {lastHn.data(), hn.data()});
   for (int p = 0; p < P; ++p) {
-    std::copy_n(&hn[(4 * p + 1) * L], 3 * L, &slopeIn[6 * p * L]);
-    std::copy_n(&lastHn[(4 * p + 1) * L], 3 * L, &lastSlopeIn[6 * p * L]);
+    std::copy_n(&hn[(H * p + 1) * L], 3 * L, &slopeIn[6 * p * L]);
+    std::copy_n(&lastHn[(H * p + 1) * L], 3 * L, &lastSlopeIn[6 * p * L]);
     std::copy_n(&x[(6 * p + 3) * L], 3 * L, &slopeIn[(6 * p + 3) * L]);
     std::copy_n(&lastX[(6 * p + 3) * L], 3 * L, &lastSlopeIn[(6 * p + 3) * L]);
   }
@@ -201,7 +312,7 @@ void LinePoints::advance(int b, const SeriesOrder& order, const double* last, do
     for (int lane = 0; lane < L; ++lane) {
       Point& point = points_[(static_cast<std::size_t>(b) * P + p) * L + lane];
       const std::size_t m = static_cast<std::size_t>(p) * L + lane;
-      out.gap[m] = hn[4 * p * L + lane];
+      out.gap[m] = hn[(H * p + point.output) * L + lane];
       point.pending = out.current[m] = point.byGap * out.gap[m] + point.bySlope * slope[m];
     }
 }

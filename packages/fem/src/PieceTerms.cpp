@@ -2,6 +2,7 @@
 
 #include <Tpetra_Vector.hpp>
 #include <algorithm>
+#include <map>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -53,8 +54,7 @@ std::vector<int> PieceTerms::piecesAt(const Entry& entry, const path::State& sta
   return ofAllPoints(entry, [&](int p) { return entry.pieces->pieceAt(p, &places[p * stride]); });
 }
 
-int PieceTerms::pieceAt(const Entry& entry, int point, const path::State& state) const {
-  const auto places = entry.term->places(local_(state), state.lambda);
+int PieceTerms::pieceAt(const Entry& entry, int point, const std::vector<double>& places) const {
   const std::size_t stride = entry.pieces->numInputs();
   return ofPoint(entry, point, [&](int p) { return entry.pieces->pieceAt(p, &places[p * stride]); });
 }
@@ -86,9 +86,15 @@ std::vector<path::Break> PieceTerms::breaks(const path::Series& series, double e
   path::State state = series.state(0);
   std::vector<path::Break> found;
   for (const Entry& entry : entries_) {
+    // Points that symmetry lets pass together are looked for at the same places.
+    std::map<double, std::vector<double>> placesOn;
     const auto pieceOn = [&](double a, int point) {
-      state.lambda = series.evaluate(a, *state.u);
-      return pieceAt(entry, point, state);
+      auto at = placesOn.find(a);
+      if (at == placesOn.end()) {
+        state.lambda = series.evaluate(a, *state.u);
+        at = placesOn.emplace(a, entry.term->places(local_(state), state.lambda)).first;
+      }
+      return pieceAt(entry, point, at->second);
     };
     auto before = ofAllPoints(entry, [&](int p) { return entry.pieces->pieceOfSeries(p); });
     for (int j = 1; j <= intervals; ++j) {
@@ -96,8 +102,8 @@ std::vector<path::Break> PieceTerms::breaks(const path::Series& series, double e
       state.lambda = series.evaluate(to, *state.u);
       const auto lasts = piecesAt(entry, state);
       for (std::size_t p = 0; p < before.size(); ++p) {
-        if (before[p] == PointPieces::any) continue;  // has no part in the series
         const int last = lasts[p];
+        if (before[p] == PointPieces::any || last == PointPieces::any) continue;  // has no part in the series
         double from = end * (j - 1) / intervals;
         for (int n = 0; before[p] != last && n < mostBetween; ++n) {
           double low = from, high = to;
@@ -113,6 +119,7 @@ std::vector<path::Break> PieceTerms::breaks(const path::Series& series, double e
               beyond = piece;
             }
           }
+          if (beyond == PointPieces::any) break;
           // Before it, where nothing has jumped yet; only at the series' start there is no before.
           const int index = static_cast<int>(p) * (entry.pieces->count() + 1) + beyond + 1;
           found.push_back({low > 0 ? low : high, entry.firstIndex + index});
@@ -143,7 +150,7 @@ bool PieceTerms::continues(const path::State& state, int index) const {
   // High above a crease a point may prefer a piece that it is not over: its place alone decides.
   const auto prefers = [&](int p) { return at.entry->pieces->preferred()[p]; };
   if (own != at.piece && ofPoint(*at.entry, at.point, prefers) == at.piece) return true;
-  return pieceAt(*at.entry, at.point, state) == own;
+  return pieceAt(*at.entry, at.point, at.entry->term->places(local_(state), state.lambda)) == own;
 }
 
 std::string PieceTerms::text(int index) const {

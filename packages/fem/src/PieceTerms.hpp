@@ -59,7 +59,7 @@ class PieceTerms final : public path::Pieces {
   template <class Of>
   int ofPoint(const Entry& entry, int point, const Of& of) const;
   std::vector<int> piecesAt(const Entry& entry, const path::State& state) const;
-  int pieceAt(const Entry& entry, int point, const path::State& state) const;
+  int pieceAt(const Entry& entry, int point, const std::vector<double>& places) const;
   int pieceOfSeries(const Entry& entry, int point) const;
 
   const EventTerms& events_;

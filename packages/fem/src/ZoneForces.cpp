@@ -17,6 +17,13 @@ void put(int count, const std::vector<double>& from, int start, int fromWidth, i
     std::copy_n(&from[(q * fromWidth + start) * L], count * L, &to[(q * toWidth + first) * L]);
 }
 
+/// [point][lane] the pieces of the points of zones.
+std::vector<int> preferred(const ZoneBatch& zones) {
+  std::vector<int> all;
+  for (int q = 0; q < Q; ++q) all.insert(all.end(), zones.piece.begin(), zones.piece.end());
+  return all;
+}
+
 }  // namespace
 
 ZoneForces::ZoneForces(const LineLaws& laws) : laws_(laws), limits_(laws, 2) {
@@ -50,8 +57,8 @@ std::vector<double> ZoneForces::dataOf(const ZoneBatch& zones) const {
   return data;
 }
 
-ZoneForces::Points ZoneForces::pointsOf(const ZoneBatch& zones, double lambda) const {
-  const int J = laws_.placeInputs();
+ZoneForces::Points ZoneForces::pointsOf(const ZoneBatch& zones, double lambda, const double* pieces) const {
+  const int J = laws_.placeInputs(), H = laws_.placeOutputs();
   const auto in = inputs(zones.limits.data(), zones.c.data()), data = dataOf(zones);
   std::vector<double> scratch(
       std::max({laws_.cubature->historyDoubles(0), laws_.projection->historyDoubles(0),
@@ -62,13 +69,16 @@ ZoneForces::Points ZoneForces::pointsOf(const ZoneBatch& zones, double lambda) c
   put(3, x, 0, 5, 0, J, place);
   if (J == 4)
     for (int q = 0; q < Q; ++q) std::fill_n(&place[(q * J + 3) * L], L, lambda);
-  points.hn.resize(4 * Q * L);
+  points.hn.resize(H * Q * L);
   points.positions.resize(3 * Q * L);
   points.places.resize(Q * L);
   points.weights.resize(Q * L);
   points.pressure.resize(Q * L);
-  laws_.projection->value({Q, L, nullptr, scratch.data()}, place.data(), points.hn.data());
-  put(1, points.hn, 0, 4, 0, 1, h);
+  std::vector<double> located;
+  if (pieces == nullptr) located = laws_.located(Q, place.data(), preferred(zones).data());
+  laws_.projection->value({Q, L, pieces == nullptr ? located.data() : pieces, scratch.data()}, place.data(),
+                          points.hn.data());
+  put(1, points.hn, 0, H, 0, 1, h);
   laws_.pressure->value({Q, L, nullptr, scratch.data()}, h.data(), points.pressure.data());
   put(3, x, 0, 5, 0, 3, points.positions);
   put(1, x, 3, 5, 0, 1, points.places);
@@ -77,14 +87,25 @@ ZoneForces::Points ZoneForces::pointsOf(const ZoneBatch& zones, double lambda) c
 }
 
 void ZoneForces::value(const ZoneBatch& zones, double lambda, double* forces) const {
-  const Points points = pointsOf(zones, lambda);
+  add(pointsOf(zones, lambda), forces);
+}
+
+void ZoneForces::valueOfSeries(int b, const std::vector<double>& limits, const std::vector<double>& c,
+                               double lambda, double* forces) const {
+  ZoneBatch zones = ofSeries_[b];
+  zones.limits = limits_.rootsNear(b, limits, c.data(), lambda);
+  zones.c = c;
+  add(pointsOf(zones, lambda, pieces_.data() + b * (pieces_.size() / ofSeries_.size())), forces);
+}
+
+void ZoneForces::add(const Points& points, double* forces) const {
   std::fill_n(forces, laws_.coefficients() * L, 0.0);
   for (int q = 0; q < Q; ++q)
     for (int lane = 0; lane < L; ++lane) {
       double share = -points.pressure[q * L + lane] * points.weights[q * L + lane];
       for (int k = 0; k <= laws_.degree; ++k, share *= points.places[q * L + lane])
         for (int i = 0; i < 3; ++i)
-          forces[(3 * k + i) * L + lane] += share * points.hn[(4 * q + 1 + i) * L + lane];
+          forces[(3 * k + i) * L + lane] += share * points.hn[(laws_.placeOutputs() * q + 1 + i) * L + lane];
     }
 }
 
@@ -132,9 +153,9 @@ void ZoneForces::tangent(const ZoneBatch& zones, double lambda, double* forces, 
   value(zones, lambda, forces);
   const Points points = pointsOf(zones, lambda);
   const int C = laws_.coefficients(), P = laws_.degree;
-  const LineProbe at = probe(laws_, Q, points.places.data(), zones.c.data(), lambda);
+  const LineProbe at = probe(laws_, Q, points.places.data(), zones.c.data(), lambda, preferred(zones).data());
   std::vector<double> scratch(laws_.pressure->historyDoubles(0)), h(Q * L), p(Q * L), rate(Q * L);
-  put(1, points.hn, 0, 4, 0, 1, h);
+  put(1, points.hn, 0, laws_.placeOutputs(), 0, 1, h);
   laws_.pressure->tangent({Q, L, nullptr, scratch.data()}, h.data(), p.data(), rate.data());
   std::fill_n(jacobian, C * (C + 1) * L, 0.0);
   for (int q = 0; q < Q; ++q)
@@ -169,6 +190,8 @@ void ZoneForces::reserve(int batches, int maxOrder) {
       cubatureDoubles_ + projectionDoubles_ + pressureDoubles_ + Q * laws_.force->seriesDoubles(start_);
   history_.resize(batches * perBatch_);
   data_.resize(static_cast<std::size_t>(batches) * Q * laws_.cubature->shape().data * L);
+  ofSeries_.resize(batches);
+  pieces_.resize(static_cast<std::size_t>(batches) * Q * laws_.projection->shape().data * L);
 }
 
 std::size_t ZoneForces::bytes(int batches, int maxOrder) const {
@@ -180,26 +203,31 @@ std::size_t ZoneForces::bytes(int batches, int maxOrder) const {
 }
 
 void ZoneForces::start(int b, const ZoneBatch& zones, double lambda, PointFailure& failure) {
-  const int J = laws_.placeInputs();
+  const int J = laws_.placeInputs(), H = laws_.placeOutputs();
   std::vector<double> gaps(2 * L);
-  limits_.start(b, zones.limits.data(), zones.hold.data(), zones.c.data(), lambda, gaps.data(), failure);
+  ofSeries_[b] = zones;
+  limits_.start(b, zones.limits.data(), zones.hold.data(), zones.c.data(), lambda, zones.limitPiece.data(),
+                gaps.data(), failure);
   const auto own = dataOf(zones);
   double* data = std::copy(own.begin(), own.end(), &data_[b * own.size()]) - own.size();
   double* memory = &history_[b * perBatch_];
   const auto in = inputs(zones.limits.data(), zones.c.data());
-  std::vector<double> x(5 * Q * L), place(Q * J * L, 0.0), hn(4 * Q * L), h(Q * L), p(Q * L),
+  std::vector<double> x(5 * Q * L), place(Q * J * L, 0.0), hn(H * Q * L), h(Q * L), p(Q * L),
       onForce(6 * Q * L), out(Q * laws_.coefficients() * L);
   laws_.cubature->start({Q, L, data, memory}, start_, in.data(), x.data(), failure);
   put(3, x, 0, 5, 0, J, place);
   if (J == 4)
     for (int q = 0; q < Q; ++q) std::fill_n(&place[(q * J + 3) * L], L, lambda);
   memory += cubatureDoubles_;
-  laws_.projection->start({Q, L, nullptr, memory}, start_, place.data(), hn.data(), failure);
-  put(1, hn, 0, 4, 0, 1, h);
+  const auto located = laws_.located(Q, place.data(), preferred(zones).data());
+  double* pieces =
+      std::copy(located.begin(), located.end(), pieces_.data() + b * located.size()) - located.size();
+  laws_.projection->start({Q, L, pieces, memory}, start_, place.data(), hn.data(), failure);
+  put(1, hn, 0, H, 0, 1, h);
   memory += projectionDoubles_;
   laws_.pressure->start({Q, L, nullptr, memory}, start_, h.data(), p.data(), failure);
   put(1, p, 0, 1, 0, 6, onForce);
-  put(3, hn, 1, 4, 1, 6, onForce);
+  put(3, hn, 1, H, 1, 6, onForce);
   put(2, x, 3, 5, 4, 6, onForce);
   memory += pressureDoubles_;
   laws_.force->start({Q, L, nullptr, memory}, start_, onForce.data(), out.data(), failure);
@@ -207,7 +235,7 @@ void ZoneForces::start(int b, const ZoneBatch& zones, double lambda, PointFailur
 
 void ZoneForces::advance(int b, const SeriesOrder& order, const double* last, double lastLambda,
                          double* forces) {
-  const int C = laws_.coefficients(), J = laws_.placeInputs();
+  const int C = laws_.coefficients(), J = laws_.placeInputs(), H = laws_.placeOutputs();
   LinePoints::Orders limits;
   limits_.advance(b, order, last, lastLambda, limits);
   // Of order k - 1 the Gauss points have had what the limits were then; of order k they get what they are.
@@ -215,7 +243,7 @@ void ZoneForces::advance(int b, const SeriesOrder& order, const double* last, do
   const auto lastIn = inputs(limits.last.data(), order.k > 1 ? last : none.data()),
              in = inputs(limits.current.data(), none.data());
   std::vector<double> lastX(5 * Q * L), x(5 * Q * L), lastPlace(Q * J * L, 0.0), place(Q * J * L, 0.0),
-      lastHn(4 * Q * L), hn(4 * Q * L), lastH(Q * L), h(Q * L), lastP(Q * L), p(Q * L), lastOn(6 * Q * L),
+      lastHn(H * Q * L), hn(H * Q * L), lastH(Q * L), h(Q * L), lastP(Q * L), p(Q * L), lastOn(6 * Q * L),
       on(6 * Q * L), out(Q * C * L);
   const double* data = &data_[static_cast<std::size_t>(b) * Q * laws_.cubature->shape().data * L];
   double* memory = &history_[b * perBatch_];
@@ -225,17 +253,19 @@ void ZoneForces::advance(int b, const SeriesOrder& order, const double* last, do
   if (J == 4)
     for (int q = 0; q < Q; ++q) std::fill_n(&lastPlace[(q * J + 3) * L], L, lastLambda);
   memory += cubatureDoubles_;
-  laws_.projection->advance({Q, L, nullptr, memory}, order, {lastPlace.data(), place.data()},
+  const double* pieces =
+      pieces_.data() + static_cast<std::size_t>(b) * Q * laws_.projection->shape().data * L;
+  laws_.projection->advance({Q, L, pieces, memory}, order, {lastPlace.data(), place.data()},
                             {lastHn.data(), hn.data()});
-  put(1, hn, 0, 4, 0, 1, h);
-  put(1, lastHn, 0, 4, 0, 1, lastH);
+  put(1, hn, 0, H, 0, 1, h);
+  put(1, lastHn, 0, H, 0, 1, lastH);
   memory += projectionDoubles_;
   laws_.pressure->advance({Q, L, nullptr, memory}, order, {lastH.data(), h.data()}, {lastP.data(), p.data()});
   put(1, p, 0, 1, 0, 6, on);
-  put(3, hn, 1, 4, 1, 6, on);
+  put(3, hn, 1, H, 1, 6, on);
   put(2, x, 3, 5, 4, 6, on);
   put(1, lastP, 0, 1, 0, 6, lastOn);
-  put(3, lastHn, 1, 4, 1, 6, lastOn);
+  put(3, lastHn, 1, H, 1, 6, lastOn);
   put(2, lastX, 3, 5, 4, 6, lastOn);
   memory += pressureDoubles_;
   laws_.force->advance({Q, L, nullptr, memory}, order, {lastOn.data(), on.data()}, {nullptr, out.data()});

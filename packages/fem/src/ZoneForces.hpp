@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "LinePoints.hpp"
@@ -16,6 +17,10 @@ struct ZoneBatch {
   std::vector<double> c;          ///< [coefficient][lane] of the places
   std::vector<double> reference;  ///< [coefficient][lane] of the undeformed lines
   std::vector<double> across;     ///< [coefficient][lane]: dA = |dX/dxi x across| dxi
+  std::vector<int> piece;         ///< [lane] of the tool that the zone is over; PointPieces::any: it has none
+  std::vector<int> limitPiece;    ///< [2][lane] that the limit is held on: of a border the one below it
+  std::string wrong;              ///< with one of the zones, in a line; empty where nothing is
+  std::vector<int> nth;           ///< [lane] of the zones of its line
 };
 
 /// What the pressure on zones does on the lines' coefficients: F_k = integral from xi_1 to xi_2 of -p n xi^k
@@ -46,6 +51,10 @@ class ZoneForces {
   void reserve(int batches, int maxOrder);
   std::size_t bytes(int batches, int maxOrder) const;
   void start(int b, const ZoneBatch& zones, double lambda, PointFailure& failure);
+  /// Forces where the lines have the coefficients c, by zones that go on from those of the series on the same
+  /// pieces of the tool: their roots are near the limits, [2][lane].
+  void valueOfSeries(int b, const std::vector<double>& limits, const std::vector<double>& c, double lambda,
+                     double* forces) const;
   /// Makes order k - 1 that of the coefficients (last, lastLambda), then forces of order k with c_k = 0.
   void advance(int b, const SeriesOrder& order, const double* last, double lastLambda, double* forces);
 
@@ -57,7 +66,9 @@ class ZoneForces {
     std::vector<double> places, weights, hn, pressure;  ///< xi; dA; h, n; p
     std::vector<double> positions;                      ///< x, y, z
   };
-  Points pointsOf(const ZoneBatch& zones, double lambda) const;
+  /// pieces: the projection's data of the points; null: where they are.
+  Points pointsOf(const ZoneBatch& zones, double lambda, const double* pieces = nullptr) const;
+  void add(const Points& points, double* forces) const;
   std::vector<double> inputs(const double* limits, const double* c) const;
   std::vector<double> dataOf(const ZoneBatch& zones) const;
 
@@ -67,6 +78,8 @@ class ZoneForces {
   SeriesOrder start_;
   std::size_t cubatureDoubles_ = 0, projectionDoubles_ = 0, pressureDoubles_ = 0, perBatch_ = 0;
   std::vector<double> history_, data_;
+  std::vector<ZoneBatch> ofSeries_;
+  std::vector<double> pieces_;  ///< [batch] the projection's data, those of the start
 };
 
 }  // namespace atrapos::fem

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "OneLine.hpp"
+
 namespace atrapos::fem {
 namespace {
 
@@ -17,27 +19,6 @@ const std::vector<double>& samples() {
   }();
   return xi;
 }
-
-/// One line, side by side in all lanes.
-class OneLine {
- public:
-  OneLine(const LineLaws& laws, const double* c, double lambda) : laws_(laws), lambda_(lambda) {
-    for (int m = 0; m < laws.coefficients(); ++m) c_.insert(c_.end(), L, c[m]);
-  }
-  struct At {
-    double gap, slope, bend;
-  };
-  At operator()(double xi) const {
-    const std::vector<double> places(L, xi);
-    const LineProbe p = probe(laws_, 1, places.data(), c_.data(), lambda_);
-    return {p.gap[0], p.slope[0], p.bend[0]};
-  }
-
- private:
-  const LineLaws& laws_;
-  double lambda_;
-  std::vector<double> c_;
-};
 
 /// The root of f between two places where it has different signs; of(xi) gives f and f'. Newton's method,
 /// held in what bisection leaves.
@@ -84,6 +65,7 @@ std::vector<GapShape> gapShapes(const LineLaws& laws, const double* c, double la
     };
     for (int q = 0; q + 1 < Q; ++q) {
       const double left = p.slope[q * L + lane], right = p.slope[(q + 1) * L + lane];
+      if (std::isinf(p.gap[q * L + lane]) || std::isinf(p.gap[(q + 1) * L + lane])) continue;
       if (!((left < 0) != (right < 0))) continue;
       const double at = bracketedRoot(slope, places[q], places[q + 1]);
       shape.extrema.push_back({at, line(at).gap, left < 0});
@@ -94,12 +76,7 @@ std::vector<GapShape> gapShapes(const LineLaws& laws, const double* c, double la
 
 double rootBetween(const LineLaws& laws, const double* c, double lambda, double from, double to) {
   const OneLine line(laws, c, lambda);
-  return bracketedRoot(
-      [&](double at) {
-        const auto f = line(at);
-        return std::pair(f.gap, f.slope);
-      },
-      from, to);
+  return bracketedRoot([&](double at) { return line.gapAndSlope(at); }, from, to);
 }
 
 std::optional<double> rootNear(const LineLaws& laws, const double* c, double lambda, double from,
@@ -108,8 +85,8 @@ std::optional<double> rootNear(const LineLaws& laws, const double* c, double lam
   double xi = from;
   constexpr int most = 30;
   for (int i = 0; i < most; ++i) {
-    const auto f = line(xi);
-    const double next = xi - f.gap / f.slope;
+    const auto [gap, slope] = line.gapAndSlope(xi);
+    const double next = xi - gap / slope;
     if (!(std::abs(next - from) < within)) return std::nullopt;
     if (std::abs(next - xi) <= 4e-16) return next;
     xi = next;

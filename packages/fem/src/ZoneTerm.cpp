@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "ZoneForces.hpp"
-#include "ZoneSearch.hpp"
+#include "ZoneLine.hpp"
 #include "atrapos/fem/DofMap.hpp"
 #include "atrapos/fem/Rows.hpp"
 #include "atrapos/taylor/Domain.hpp"
@@ -17,11 +17,10 @@
 namespace atrapos::fem {
 namespace {
 
-constexpr int kSlots = 3;  ///< extrema of a line that events know: two minima, a maximum
-
 class ZoneTerm final : public EventTerm {
   static constexpr int kPlaces = 2 + kSlots;
   static constexpr int kMostCoefficients = 9;
+  static constexpr int kLimits = 4;  ///< of a line that are followed over borders of pieces: of two zones
 
  public:
   ZoneTerm(ZoneLaws laws, const LineSet& lines, ZoneOptions options)
@@ -37,6 +36,7 @@ class ZoneTerm final : public EventTerm {
         int& first = firstLine_[lines_.ends[2 * e + end]];
         first = std::min(first, e);
       }
+    if (laws_.hasPieces() && options_.events) pieces_ = makePieces();
     lineNumbers_.resize(numLines_);
     std::iota(lineNumbers_.begin(), lineNumbers_.end(), 0);
     for (const double x : lines_.coefficients) extent_ = std::max(extent_, std::abs(x));
@@ -74,6 +74,12 @@ class ZoneTerm final : public EventTerm {
     lines_.middleNodes = rowsOf(lines_.middleNodes, part.entities, 1);
     lines_.nodes = part.nodes;
     lineNumbers_ = part.entities;
+    if (pieces_) {
+      std::vector<int> points;
+      for (const int e : part.entities)
+        for (int p = 0; p < kLimits; ++p) points.push_back(kLimits * e + p);
+      pieces_->keep(points);
+    }
     makeArrays();
   }
 
@@ -91,10 +97,35 @@ class ZoneTerm final : public EventTerm {
   OwnForces addResidual(const ConstDofView& u, double lambda, const DofView& f) const override {
     double squares = 0;
     std::vector<double> forces(laws_.coefficients() * L);
-    forEachBatch(u, lambda, [&](const ZoneBatch& batch, const int* lines) {
-      forces_.value(batch, lambda, forces.data());
-      for (int lane = 0; lane < batch.lanes; ++lane) squares += scatter(lines[lane], &forces[lane], f);
-    });
+    if (pieces_ && pieces_->held()) {
+      std::vector<double> c(laws_.coefficients() * L), limits(2 * L);
+      std::vector<std::vector<Zone>> zones(numEntities());
+      forEachShape(
+          u, lambda,
+          [&](int e, const double* own, const GapShape& shape) {
+            zones[e] = lineAt(e).zones(laws_, own, lambda, shape);
+          },
+          true);
+      for (std::size_t b = 0; b < seriesLines_.size(); ++b) {
+        const auto& lines = seriesLines_[b];
+        gather(lines.data(), static_cast<int>(lines.size()), u, 1, c.data());
+        for (int lane = 0; lane < L; ++lane) {
+          const std::size_t at = lane < static_cast<int>(lines.size()) ? lane : 0, nth = seriesNth_[b][at];
+          const auto& own = zones[lines[at]];
+          for (int r = 0; r < 2; ++r)
+            limits[r * L + lane] =
+                nth < own.size() ? own[nth].limits[r] : std::numeric_limits<double>::quiet_NaN();
+        }
+        forces_.valueOfSeries(static_cast<int>(b), limits, c, lambda, forces.data());
+        for (std::size_t lane = 0; lane < lines.size(); ++lane)
+          squares += scatter(lines[lane], &forces[lane], f);
+      }
+    } else {
+      forEachBatch(u, lambda, [&](const ZoneBatch& batch, const int* lines) {
+        forces_.value(batch, lambda, forces.data());
+        for (int lane = 0; lane < batch.lanes; ++lane) squares += scatter(lines[lane], &forces[lane], f);
+      });
+    }
     OwnForces own(balance_ + 1, 0.0);
     own[balance_] = squares;
     return own;
@@ -104,6 +135,7 @@ class ZoneTerm final : public EventTerm {
     const int C = laws_.coefficients(), N = lines_.nodesPerLine, K = laws_.degree + 1, D = lines_.components;
     std::vector<double> forces(C * L), jacobian(C * (C + 1) * L);
     forEachBatch(u, lambda, [&](const ZoneBatch& batch, const int* lines) {
+      if (!batch.wrong.empty()) throw std::runtime_error(batch.wrong);
       forces_.tangent(batch, lambda, forces.data(), jacobian.data());
       for (int lane = 0; lane < batch.lanes; ++lane) {
         const int e = lines[lane];
@@ -130,12 +162,16 @@ class ZoneTerm final : public EventTerm {
     maxOrder_ = maxOrder;
     seriesLines_.clear();
     seriesWidths_.clear();
+    seriesNth_.clear();
     std::vector<ZoneBatch> zones;
     forEachBatch(u, lambda, [&](const ZoneBatch& batch, const int* lines) {
+      if (!batch.wrong.empty()) throw std::runtime_error(batch.wrong);
       zones.push_back(batch);
       seriesLines_.emplace_back(lines, lines + batch.lanes);
       seriesWidths_.insert(seriesWidths_.end(), batch.widthUnit.begin(), batch.widthUnit.end());
+      seriesNth_.push_back(batch.nth);
     });
+    if (pieces_) pieces_->beginSeries(limitPieces(zones));
     forces_.reserve(static_cast<int>(zones.size()), maxOrder);
     PointFailure failure;
     for (std::size_t b = 0; b < zones.size(); ++b) {
@@ -164,6 +200,35 @@ class ZoneTerm final : public EventTerm {
       for (std::size_t lane = 0; lane < lines.size(); ++lane)
         for (int p = 0; p < kPlaces; ++p) eventGap_[lines[lane] * kPlaces + p] = points.gap[p * L + lane];
     }
+  }
+
+  PointPieces* pieces() override { return pieces_.get(); }
+  /// The limits of the first zones of each line, of which a piece is left or reached; not a number where
+  /// there are fewer.
+  std::vector<double> places(const ConstDofView& u, double lambda) const override {
+    const int J = laws_.placeInputs();
+    std::vector<double> all(static_cast<std::size_t>(numEntities()) * kLimits * J,
+                            std::numeric_limits<double>::quiet_NaN());
+    forEachShape(
+        u, lambda,
+        [&](int e, const double* c, const GapShape& shape) {
+          for (const Zone& zone : lineAt(e).zones(laws_, c, lambda, shape))
+            for (int r = 0; r < 2; ++r) {
+              const int point = pointOf(e, zone.nth, r);
+              if (point < 0) continue;
+              // A limit that the edge of the surface makes is over it, and not on either side by rounding.
+              constexpr double outside = 1e-9;
+              const double* at = zone.limits;
+              const double xi = at[r] + (zone.hold[r] == Hold::root ? outside * (at[r] - at[1 - r]) : 0);
+              double* x = &all[static_cast<std::size_t>(point) * J];
+              for (int i = 0; i < 3; ++i) x[i] = 0;
+              for (int k = laws_.degree; k >= 0; --k)
+                for (int i = 0; i < 3; ++i) x[i] = x[i] * xi + c[3 * k + i];
+              if (J == 4) x[3] = lambda;
+            }
+        },
+        true);
+    return all;
   }
 
   /// Of each line the width of zones between two roots, or from a bottom to a root, in units of what it was
@@ -222,7 +287,7 @@ class ZoneTerm final : public EventTerm {
     const GapShape shape = gapShapes(laws_, c.data(), lambda)[0];
     Extremum place;
     if (p < 2) {
-      const auto bottom = bottomAt(e, p, shape);
+      const auto bottom = lineAt(e).bottomAt(p, shape);
       if (!bottom) return {};
       place = *bottom;
     } else {
@@ -239,7 +304,7 @@ class ZoneTerm final : public EventTerm {
       for (int i = 0; i < lines_.components; ++i) byU(dofs_[e * N + n] + i) += value * there.gradient[i * L];
     }
     // Where what has just begun, or ended, is looked for: at the depth at which it did.
-    return {1, place.gap + changesAt(e, active_[own] == 0), there.gradient[3 * L]};
+    return {1, place.gap + lineAt(e).changesAt(active_[own] == 0), there.gradient[3 * L]};
   }
 
   std::vector<double> covered() const override {
@@ -259,7 +324,7 @@ class ZoneTerm final : public EventTerm {
       for (int end = 0; end < 2; ++end) {
         const int own = conditionOf_[e * kPlaces + end];
         if (!tells(e, end) || active_[own] != 0 || !(std::abs(shape.ends[end]) <= small)) continue;
-        if (bottoms(e, end, shape)) continue;  // in contact from a depth on
+        if (lineAt(e).bottomAt(end, shape)) continue;  // in contact from a depth on
         gaps.sum[own] = shape.ends[end];
         gaps.covered[own] = 1;
       }
@@ -287,23 +352,22 @@ class ZoneTerm final : public EventTerm {
     std::vector<double> all(numbers_.size(), 0.0);
     if (!options_.events) return all;
     forEachShape(u, lambda, [&](int e, const double*, const GapShape& shape) {
+      const ZoneLine line = lineAt(e);
       const Slots slots = slotsOf(shape);
       for (int p = 0; p < kPlaces; ++p) {
         if (!tells(e, p)) continue;
-        const int own = conditionOf_[e * kPlaces + p];
-        bool on = active_[own] != 0;
+        bool on = line.on[p];
         if (p < 2) {
-          on = isIn(e, p, shape.ends[p]);
+          on = line.isIn(p, shape.ends[p]);
         } else if (const Extremum* x = slots.of[p - 2]) {
           const double depth = x->least ? -x->gap : x->gap;
-          if (const int end = endAt(e, *x, shape); end >= 0)
-            on = active_[conditionOf_[e * kPlaces + end]] != 0;
-          if (depth >= 4 * least(e)) on = true;
-          if (depth < -border(e)) on = false;
+          if (const int end = line.endAt(*x, shape); end >= 0) on = line.on[end];
+          if (depth >= 4 * line.least) on = true;
+          if (depth < -line.border) on = false;
         } else {
           on = false;
         }
-        all[own] = on;
+        all[conditionOf_[e * kPlaces + p]] = on;
       }
     });
     return all;
@@ -319,21 +383,22 @@ class ZoneTerm final : public EventTerm {
     forEachShape(
         u, lambda,
         [&](int e, const double*, const GapShape& shape) {
+          const ZoneLine line = lineAt(e);
           const Slots slots = slotsOf(shape);
           for (int p = 0; p < kPlaces; ++p) {
             if (!tells(e, p)) continue;
             const int condition = conditionOf_[e * kPlaces + p];
-            const double depth = changesAt(e, active_[condition] != 0);
-            const auto ofDepth = [&](double gap) { return (gap + depth) / (partOfDepth * least(e)); };
+            const double depth = line.changesAt(line.on[p]);
+            const auto ofDepth = [&](double gap) { return (gap + depth) / (partOfDepth * line.least); };
             const auto tell = [&](double distance) {
               near.known[condition] = 1;
               near.distance[condition] = distance;
             };
             if (p < 2) {
-              const auto bottom = bottomAt(e, p, shape);
-              tell(bottom ? ofDepth(bottom->gap) : shape.ends[p] / (partOfBorder * border(e)));
+              const auto bottom = line.bottomAt(p, shape);
+              tell(bottom ? ofDepth(bottom->gap) : shape.ends[p] / (partOfBorder * line.border));
             } else if (const Extremum* x = slots.of[p - 2]) {
-              if (x->least && endAt(e, *x, shape) < 0) tell(ofDepth(x->gap));
+              if (x->least && line.endAt(*x, shape) < 0) tell(ofDepth(x->gap));
             }
           }
         },
@@ -405,157 +470,41 @@ class ZoneTerm final : public EventTerm {
   }
 
  private:
-  struct Zone {
-    int line;
-    double limits[2];
-    Hold hold[2];
-    double widthUnit;
-    double deepest[2];  ///< xi of the least gap, and that gap
-  };
   /// sign (h - level) >= 0; sign 0: nothing to tell.
   struct EventFunction {
     double sign = 0, level = 0;
   };
-  /// The extrema that events know: the two deepest minima, the highest maximum.
-  struct Slots {
-    const Extremum* of[kSlots] = {nullptr, nullptr, nullptr};
-  };
-  static Slots slotsOf(const GapShape& shape) {
-    Slots slots;
-    for (const Extremum& x : shape.extrema) {
-      if (!x.least) {
-        if (!slots.of[2] || x.gap > slots.of[2]->gap) slots.of[2] = &x;
-      } else if (!slots.of[0] || x.gap < slots.of[0]->gap) {
-        slots.of[1] = std::exchange(slots.of[0], &x);
-      } else if (!slots.of[1] || x.gap < slots.of[1]->gap) {
-        slots.of[1] = &x;
-      }
-    }
-    return slots;
-  }
-
-  /// The depth from which on a zone counts that does not reach an end of its line: well above the rounding of
-  /// coordinates, of which a gap is a difference.
-  double least(int e) const {
+  /// Its own line e with the conditions that it has.
+  ZoneLine lineAt(int e) const {
+    ZoneLine line;
     const double length = lengths_[e];
-    return std::max({std::min(1e-7 * length, options_.mostDepth), 1e-8 * length, 1e-11 * extent_});
-  }
-  /// The depth at which a zone that counts ceases to, or another begins to. Less for the first: a zone begins
-  /// with a force, which may push the body back.
-  double changesAt(int e, bool counting) const { return counting ? 0.5 * least(e) : least(e); }
-  /// Next to zero the condition says on which side an end is: gaps there are as good as event functions are.
-  /// The zone that lies wrong has a depth below it.
-  double border(int e) const { return 1e-4 * lengths_[e]; }
-  bool isIn(int e, int end, double gap) const {
-    if (options_.events && std::abs(gap) <= border(e)) return active_[conditionOf_[e * kPlaces + end]] != 0;
-    return gap < 0;
-  }
-  /// The end (0, 1) of its line that a minimum cannot be told from, as far as a birth is concerned; -1: none.
-  /// Far from the tool each is told by itself, for until it gets there the minimum may have left the end.
-  int endAt(int e, const Extremum& x, const GapShape& shape) const {
-    if (x.gap > border(e)) return -1;
-    for (int end = 0; end < 2; ++end)
-      if (x.least && std::abs(x.xi - (end == 0 ? -1 : 1)) < kBeyondEnds &&
-          std::abs(shape.ends[end] - x.gap) <= 2 * least(e))
-        return end;
-    return -1;
-  }
-  /// The deepest place at an end that a minimum cannot be told from: the end, or that minimum where it lies
-  /// inside the line, for a zone that has begun at the end may leave it while it lasts. There, as at a
-  /// minimum, a zone has no series at the gap zero, and the end's condition is that of the minimum too.
-  std::optional<Extremum> bottomAt(int e, int end, const GapShape& shape) const {
-    std::optional<Extremum> deepest;
-    for (const Extremum& x : shape.extrema) {
-      if (endAt(e, x, shape) != end) continue;
-      if (!deepest) deepest = Extremum{end == 0 ? -1.0 : 1.0, shape.ends[end]};
-      if (std::abs(x.xi) < 1 && x.gap < deepest->gap) deepest = x;
-    }
-    return deepest;
-  }
-  bool bottoms(int e, int end, const GapShape& shape) const { return bottomAt(e, end, shape).has_value(); }
-  /// Whether a minimum is in contact, or a maximum is out of it.
-  bool counts(int e, const Extremum& x, const Slots& slots, const GapShape& shape) const {
-    const double depth = x.least ? -x.gap : x.gap;
-    if (depth >= 4 * least(e)) return true;
-    if (depth < 0.25 * least(e)) return false;
-    const int end = endAt(e, x, shape);
-    if (options_.events && end >= 0) return active_[conditionOf_[e * kPlaces + end]] != 0;
-    for (int s = 0; options_.events && s < kSlots; ++s)
-      if (slots.of[s] == &x) return active_[conditionOf_[e * kPlaces + 2 + s]] != 0;
-    return depth >= least(e);
-  }
-
-  /// What the width of a zone is measured by: the width itself between two roots, or from a bottom to a root;
-  /// the line where another limit moves; 0 where none does. At a bottom that a limit has just come past the
-  /// width is next to nothing and grows to that of a zone that counts, whatever it was: that is the least.
-  double widthUnit(const Zone& zone, const GapShape& shape) const {
-    constexpr double line = 2;
-    const bool from = zone.hold[0] == Hold::root, to = zone.hold[1] == Hold::root;
-    if (!from && !to) return 0;
-    const double width = zone.limits[1] - zone.limits[0];
-    if (from && to) return width;
-    const int end = from ? 1 : 0;
-    for (const Extremum& x : shape.extrema)
-      if (endAt(zone.line, x, shape) == end) {
-        const double depth = least(zone.line), rise = shape.ends[1 - end] - x.gap;
-        return std::max(width, rise > depth ? line * std::sqrt(depth / rise) : 0.0);
-      }
+    line.number = e;
+    line.least = std::max({std::min(1e-7 * length, options_.mostDepth), 1e-8 * length, 1e-11 * extent_});
+    line.border = 1e-4 * length;
+    line.events = options_.events;
+    for (int p = 0; p < kPlaces && line.events; ++p) line.on[p] = active_[conditionOf_[e * kPlaces + p]] != 0;
     return line;
   }
 
-  /// The zones of a line. Between neighbours of which one is in contact and one is not lies one limit.
-  void addZones(int e, const double* c, double lambda, const GapShape& shape,
-                std::vector<Zone>& zones) const {
-    struct Stop {
-      double xi, gap;
-      bool in, end;
-    };
-    const Slots slots = slotsOf(shape);
-    std::vector<Stop> stops{{-1, shape.ends[0], isIn(e, 0, shape.ends[0]), true}};
-    for (const Extremum& x : shape.extrema)
-      if (std::abs(x.xi) < 1 && counts(e, x, slots, shape)) stops.push_back({x.xi, x.gap, x.least, false});
-    stops.push_back({1, shape.ends[1], isIn(e, 1, shape.ends[1]), true});
-    const auto limit = [&](const Stop& a, const Stop& b) -> std::optional<double> {
-      if ((a.gap < 0) != (b.gap < 0)) return rootBetween(laws_, c, lambda, a.xi, b.xi);
-      // An end that is on the other side by its condition: the limit lies there, or just beyond.
-      const Stop& end = !a.end ? b : !b.end ? a : std::abs(a.gap) < std::abs(b.gap) ? a : b;
-      return rootNear(laws_, c, lambda, end.xi, 0.5);
-    };
-    Zone zone{e, {-1, 1}, {Hold::place, Hold::place}, 0, {stops[0].xi, stops[0].gap}};
-    bool open = stops[0].in;
-    const auto close = [&] {
-      zone.widthUnit = widthUnit(zone, shape);
-      zones.push_back(zone);
-      open = false;
-    };
-    for (std::size_t i = 0; i + 1 < stops.size(); ++i) {
-      if (stops[i].in && stops[i + 1].in && stops[i + 1].gap < zone.deepest[1]) {
-        zone.deepest[0] = stops[i + 1].xi;
-        zone.deepest[1] = stops[i + 1].gap;
-      }
-      if (stops[i].in == stops[i + 1].in) continue;
-      const auto at = limit(stops[i], stops[i + 1]);
-      if (stops[i + 1].in) {
-        open = at.has_value();
-        if (open) zone = {e, {*at, 1}, {Hold::root, Hold::place}, 0, {stops[i + 1].xi, stops[i + 1].gap}};
-      } else if (open && at) {
-        zone.limits[1] = *at;
-        zone.hold[1] = Hold::root;
-        close();
-      } else {
-        open = false;
-      }
-    }
-    if (open) close();
-  }
-
-  /// f(batch of zones, [lane] their lines), in the lines' order.
+  /// f(batch of zones, [lane] their lines), in the lines' order. What is wrong with a zone is told by the
+  /// batch, and makes its forces not a number.
   template <class F>
   void forEachBatch(const ConstDofView& u, double lambda, const F& f) const {
     std::vector<Zone> zones;
     forEachShape(
         u, lambda,
-        [&](int e, const double* c, const GapShape& shape) { addZones(e, c, lambda, shape, zones); }, true);
+        [&](int e, const double* c, const GapShape& shape) {
+          const ZoneLine line = lineAt(e);
+          for (const Zone& zone : line.zones(laws_, c, lambda, shape)) {
+            int preferred[2] = {PointPieces::any, PointPieces::any};
+            for (int r = 0; r < 2; ++r)
+              if (const int point = pointOf(e, zone.nth, r); pieces_ && point >= 0)
+                preferred[r] = pieces_->preferred()[point];
+            const auto parts = line.parts(zone, preferred, laws_, c, lambda);
+            zones.insert(zones.end(), parts.begin(), parts.end());
+          }
+        },
+        true);
     const int C = laws_.coefficients();
     for (std::size_t first = 0; first < zones.size(); first += L) {
       ZoneBatch batch;
@@ -567,20 +516,29 @@ class ZoneTerm final : public EventTerm {
       batch.c.resize(C * L);
       batch.reference.resize(C * L);
       batch.across.resize(C * L);
+      batch.piece.resize(L);
+      batch.limitPiece.resize(2 * L);
+      batch.nth.resize(L);
       int lines[L];
       for (int lane = 0; lane < L; ++lane) {
         const Zone& zone = zones[first + (lane < batch.lanes ? lane : 0)];
         lines[lane] = zone.line;
         batch.widthUnit[lane] = zone.widthUnit;
+        batch.piece[lane] = zone.piece;
+        batch.nth[lane] = zone.nth;
         for (int r = 0; r < 2; ++r) {
           batch.deepest[r * L + lane] = zone.deepest[r];
           batch.limits[r * L + lane] = zone.limits[r];
           batch.hold[r * L + lane] = zone.hold[r];
+          batch.limitPiece[r * L + lane] = zone.limitPiece[r];
         }
         for (int m = 0; m < C; ++m) {
           batch.reference[m * L + lane] = lines_.coefficients[zone.line * C + m];
-          batch.across[m * L + lane] = lines_.across[zone.line * C + m];
+          batch.across[m * L + lane] = zone.wrong.empty() ? lines_.across[zone.line * C + m]
+                                                          : std::numeric_limits<double>::quiet_NaN();
         }
+        if (lane < batch.lanes && batch.wrong.empty() && !zone.wrong.empty())
+          batch.wrong = "contact line " + std::to_string(lineNumbers_[zone.line] + 1) + ": " + zone.wrong;
       }
       gather(lines, L, u, 1, batch.c.data());
       f(batch, lines);
@@ -614,7 +572,8 @@ class ZoneTerm final : public EventTerm {
       double reach = 0;
       for (int k = 1; k <= laws_.degree; ++k)
         reach += std::hypot(c[3 * k * L + lane], c[(3 * k + 1) * L + lane], c[(3 * k + 2) * L + lane]);
-      if (!(at.gap[lane] > reach)) return true;
+      if (!(at.gap[lane] > reach) || std::isinf(at.gap[lane]))
+        return true;  // over nothing: its ends may not be
     }
     return false;
   }
@@ -634,15 +593,17 @@ class ZoneTerm final : public EventTerm {
         const bool real = lane < static_cast<int>(lines.size());
         const int e = lines[real ? lane : 0];
         const GapShape& shape = shapes[real ? lane : 0];
+        const ZoneLine line = lineAt(e);
         const Slots slots = slotsOf(shape);
         for (int p = 0; p < kPlaces; ++p) {
           EventFunction function;
-          const bool on = active_[conditionOf_[e * kPlaces + p]] != 0;
+          const bool on = line.on[p];
           xi[p * L + lane] = p == 0 ? -1 : 1;
           hold[p * L + lane] = Hold::place;
           if (p < 2) {
-            const auto bottom = bottomAt(e, p, shape);
-            function = {isIn(e, p, shape.ends[p]) ? -1.0 : 1.0, bottom ? -changesAt(e, on) : 0.0};
+            const auto bottom = line.bottomAt(p, shape);
+            if (std::isfinite(shape.ends[p]))
+              function = {line.isIn(p, shape.ends[p]) ? -1.0 : 1.0, bottom ? -line.changesAt(on) : 0.0};
             if (bottom && std::abs(bottom->xi) < 1) {
               xi[p * L + lane] = bottom->xi;
               hold[p * L + lane] = Hold::extremum;
@@ -650,15 +611,15 @@ class ZoneTerm final : public EventTerm {
           } else if (const Extremum* x = slots.of[p - 2]) {
             xi[p * L + lane] = x->xi;
             hold[p * L + lane] = Hold::extremum;
-            const double depth = changesAt(e, on);
-            function = endAt(e, *x, shape) >= 0 ? EventFunction{}
-                       : x->least               ? EventFunction{on ? -1.0 : 1.0, -depth}
-                                                : EventFunction{on ? 1.0 : -1.0, depth};
+            const double depth = line.changesAt(on);
+            function = line.endAt(*x, shape) >= 0 ? EventFunction{}
+                       : x->least                 ? EventFunction{on ? -1.0 : 1.0, -depth}
+                                                  : EventFunction{on ? 1.0 : -1.0, depth};
           }
           if (real) functions_[e * kPlaces + p] = function;
         }
       }
-      eventPoints_.start(b, xi.data(), hold.data(), c.data(), lambda, gaps.data(), failure);
+      eventPoints_.start(b, xi.data(), hold.data(), c.data(), lambda, nullptr, gaps.data(), failure);
       if (failure.lane >= 0) fail(failure, lines[std::min<std::size_t>(failure.lane, lines.size() - 1)]);
       for (std::size_t lane = 0; lane < lines.size(); ++lane)
         for (int p = 0; p < kPlaces; ++p) eventStart_[lines[lane] * kPlaces + p] = gaps[p * L + lane];
@@ -705,6 +666,41 @@ class ZoneTerm final : public EventTerm {
     return lines_.shape[(static_cast<std::size_t>(e) * lines_.nodesPerLine + node) * (laws_.degree + 1) + k];
   }
 
+  /// Its own limit r of the nth zone of a line among the points of pieces; -1: not followed.
+  static int pointOf(int e, int nth, int r) { return 2 * nth < kLimits ? kLimits * e + 2 * nth + r : -1; }
+  std::unique_ptr<PointPieces> makePieces() const {
+    PieceSearch search = laws_.pieces;
+    search.update = [of = laws_.pieces](int numPoints, const double* places, const int* preferred,
+                                        double* data) {
+      for (int p = 0; p < numPoints; ++p) {
+        double* own = data + p * of.numData;
+        if (std::isnan(places[p * of.numInputs]))
+          own[of.piece] = PointPieces::any;
+        else
+          of.update(1, places + p * of.numInputs, preferred + p, own);
+      }
+    };
+    const int points = kLimits * numLines_;
+    return std::make_unique<PointPieces>(std::move(search), points,
+                                         std::vector<double>(points * laws_.pieces.numData, 0.0));
+  }
+  /// The pieces that limits of the series' zones are over, as data of the points of pieces.
+  std::vector<double> limitPieces(const std::vector<ZoneBatch>& zones) const {
+    const int D = laws_.pieces.numData;
+    std::vector<double> data(pieces_->numPoints() * D, 0.0);
+    for (int p = 0; p < pieces_->numPoints(); ++p) data[p * D + laws_.pieces.piece] = PointPieces::any;
+    for (std::size_t b = 0; b < zones.size(); ++b)
+      for (int lane = 0; lane < zones[b].lanes; ++lane)
+        for (int r = 0; r < 2; ++r) {
+          const int point = pointOf(seriesLines_[b][lane], seriesNth_[b][lane], r);
+          if (point < 0) continue;
+          double& piece = data[point * D + laws_.pieces.piece];
+          if (r == 1 || piece == PointPieces::any)
+            piece = zones[b].piece[lane];  // of the first part, of the last
+        }
+    return data;
+  }
+
   int numEnds() const { return lines_.numEnds(); }
   int batches() const { return (numEntities() + L - 1) / L; }
   std::vector<int> linesOf(int b) const {
@@ -746,19 +742,21 @@ class ZoneTerm final : public EventTerm {
   ZoneOptions options_;
   ZoneForces forces_;
   LinePoints eventPoints_;
-  int numLines_ = 0;              ///< of the whole term
-  std::vector<int> firstLine_;    ///< [end of the whole term]
-  std::vector<int> lineNumbers_;  ///< [line] in the whole term
-  std::vector<int> numbers_;      ///< [own condition]
-  std::vector<int> conditionOf_;  ///< [line][end or extremum] its own condition
-  std::vector<int> active_;       ///< [own condition]
-  std::vector<double> lengths_;   ///< [line]
-  std::vector<int> dofs_;         ///< [line][node]
-  int balance_ = 0;               ///< of the forces (DofMap::balances)
-  std::vector<int> positions_;    ///< [line][node][node] in the tangent's rows
-  double extent_ = 0;             ///< largest coordinate
+  int numLines_ = 0;                     ///< of the whole term
+  std::vector<int> firstLine_;           ///< [end of the whole term]
+  std::vector<int> lineNumbers_;         ///< [line] in the whole term
+  std::vector<int> numbers_;             ///< [own condition]
+  std::vector<int> conditionOf_;         ///< [line][end or extremum] its own condition
+  std::vector<int> active_;              ///< [own condition]
+  std::unique_ptr<PointPieces> pieces_;  ///< [line][zone][limit]; null where the tool has no pieces
+  std::vector<double> lengths_;          ///< [line]
+  std::vector<int> dofs_;                ///< [line][node]
+  int balance_ = 0;                      ///< of the forces (DofMap::balances)
+  std::vector<int> positions_;           ///< [line][node][node] in the tangent's rows
+  double extent_ = 0;                    ///< largest coordinate
   int maxOrder_ = 0;
   std::vector<std::vector<int>> seriesLines_;  ///< [batch of zones] their lines, of the series under way
+  std::vector<std::vector<int>> seriesNth_;    ///< [batch of zones][lane] which of the zones of its line
   std::vector<double> seriesWidths_;      ///< [batch of zones][lane] units of internal variables; 0: none
   std::vector<EventFunction> functions_;  ///< [line][end or extremum]
   std::vector<double> eventStart_, eventGap_;  ///< the same: h of order 0 and of the order swept last

@@ -62,7 +62,7 @@ Trial PolynomialStep::trial() const {
     const bool wrong = astray(path_, trial);
     if (trial.residual <= correctAbove && !wrong) return trial;
     double ofSeries = trial.residual;
-    if (path_.calls.hasPieces() && (wrong || trial.residual > bound)) {
+    if (path_.calls.hasPieces() && (wrong || !(trial.residual <= bound))) {
       // Shortening cures what the truncated orders leave, not what another piece adds.
       const auto unused = path_.calls.newVector();
       ofSeries = path_.calls.residualOfSeries(trial.state, *unused).relative();

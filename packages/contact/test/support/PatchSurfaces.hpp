@@ -70,6 +70,30 @@ inline std::vector<BezierPatch> bezierCylinder(const Cylinder& c, double half, i
   return patches;
 }
 
+/// An arc of a cylinder along z about (x, y), less than half of it, exact: |z| <= half, its free side
+/// outside.
+inline BezierPatch arcPatch(double x, double y, double radius, double from, double to, double half) {
+  BezierPatch patch;
+  patch.degree = {2, 1};
+  const double cosine = std::cos((to - from) / 2);
+  for (int i = 0; i < 3; ++i) {
+    const double angle = from + i * (to - from) / 2, r = i == 1 ? radius / cosine : radius;
+    for (const double z : {-half, half}) {
+      patch.points.push_back({x + r * std::cos(angle), y + r * std::sin(angle), z});
+      patch.weights.push_back(i == 1 ? cosine : 1);
+    }
+  }
+  return patch;
+}
+
+/// Two arcs with a common tangent plane at an angle: of the radius `left` about (x, y) beyond it, of `right`
+/// before.
+inline std::vector<BezierPatch> twoArcs(double x, double y, double left, double right, double angle) {
+  const double way = left - right;
+  return {arcPatch(x, y, left, angle, angle + 1.3, 1),
+          arcPatch(x + way * std::cos(angle), y + way * std::sin(angle), right, angle - 1.3, angle, 1)};
+}
+
 /// A bicubic patch over [0, 3]^2, wavy by a few tenths, with weights between 0.7 and 1.3 where `rational`.
 inline BezierPatch wavyPatch(bool rational, unsigned seed) {
   Random random(seed);

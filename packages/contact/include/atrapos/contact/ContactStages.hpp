@@ -44,7 +44,8 @@ struct Passage {
 std::unique_ptr<fem::PointLaw> stagedPassage(const ToolStages& tool, const AnyPressure& pressure,
                                              Passage passage, int fields);
 
-/// Place (and load factor) -> h, n: the projection alone. Not of patches.
+/// Place (and load factor) -> h, n: the projection alone; of patches with the point's data, and its foot's
+/// t1, t2 behind n.
 std::unique_ptr<fem::PointLaw> stagedProjection(const ToolStages& tool);
 /// The tool stands where it is at `loadFactor`.
 std::unique_ptr<fem::PointLaw> stagedSharpenedContact(const ToolStages& tool,

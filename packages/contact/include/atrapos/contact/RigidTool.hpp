@@ -61,8 +61,8 @@ class RigidTool {
   virtual void addCurve(fem::FeModel& model, const RegularisedPressure& pressure, const fem::PointSet& points,
                         const std::vector<double>& referenceGaps) const = 0;
 
-  /// Contact of lines of a plane body, integrated over the zones where they are in the tool. Throws
-  /// std::invalid_argument, one line, for tools of patches and where n is not the gradient of the gap.
+  /// Contact of lines of a body, integrated over the zones where they are in the tool. Throws
+  /// std::invalid_argument, one line, where n is not the gradient of the gap.
   virtual std::unique_ptr<fem::Term> zones(const Overclosure& pressure, const fem::LineSet& lines,
                                            fem::ZoneOptions options = {}) const = 0;
 

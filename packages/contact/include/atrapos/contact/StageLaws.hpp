@@ -31,12 +31,12 @@ struct ProjectionStage {
   }
 };
 
-/// The same on patches. data: Delta, patch, t1, t2. A point that is over no part of the tool has h = Delta
-/// and n = 0.
+/// The same on patches, and the foot's t1, t2. data: Delta, patch, t1, t2 to begin from. A point that is over
+/// no part of the tool has h = Delta and n = 0.
 template <>
 struct ProjectionStage<PatchTool> {
   static constexpr bool stage = true, symmetric = false;
-  static constexpr int numInputs = 3, numOutputs = 4, numData = 1 + PatchTool::numToolData;
+  static constexpr int numInputs = 3, numOutputs = 6, numData = 1 + PatchTool::numToolData;
   PatchTool tool;
 
   template <class T>
@@ -47,6 +47,7 @@ struct ProjectionStage<PatchTool> {
     const taylor::Passive<T> on = tool.carries(data + 1);
     out[0] = y[0] * on + (1.0 - on) * data[0];
     for (int i = 1; i < 4; ++i) out[i] = y[i] * on;
+    for (int i = 4; i < 6; ++i) out[i] = y[i];
   }
 };
 

@@ -40,6 +40,7 @@ class PointPieces {
   /// From here on a series has these data.
   void beginSeries(const std::vector<double>& data) { ofSeries_ = data; }
   void hold(bool held) { held_ = held && !ofSeries_.empty(); }
+  bool held() const { return held_; }
 
   /// `any` before the first series and for points that have no part in it.
   int pieceOfSeries(int point) const;

@@ -8,6 +8,7 @@
 #include "atrapos/fem/EventTerm.hpp"
 #include "atrapos/fem/LineSet.hpp"
 #include "atrapos/fem/PointLaw.hpp"
+#include "atrapos/fem/PointPieces.hpp"
 
 namespace atrapos::fem {
 
@@ -21,10 +22,13 @@ std::vector<ZoneCondition> zoneConditions(const LineSet& lines);
 
 /// What acts on lines: laws that stand behind others (`stage`).
 struct ZoneLaws {
-  /// x, y, 0 (and the load factor) -> h, n (3): a gap and its gradient.
+  /// x, y, z (and the load factor) -> h, n (3): a gap and its gradient. Where the surface is made of pieces
+  /// with their data, and behind n two coordinates in the piece, which are -1 or 1 on its borders.
   std::unique_ptr<PointLaw> projection;
   /// h -> p: positive for h < 0 and zero at h = 0, analytic.
   std::unique_ptr<PointLaw> pressure;
+  /// How those data follow the places; without an update where there are none.
+  PieceSearch pieces = {};
 };
 
 /// How zones begin and end.
