@@ -217,9 +217,16 @@ std::vector<int> EventTerms::growing(const std::vector<int>& conditions) const {
   return all;
 }
 
-double EventTerms::negligibleFall(int condition) const {
+const EventTerms::Entry& EventTerms::entryOf(int condition) const {
   const auto behind = [condition](const Entry& entry) { return entry.first > condition; };
-  return std::prev(std::find_if(entries_.begin(), entries_.end(), behind))->term->negligibleFall();
+  return *std::prev(std::find_if(entries_.begin(), entries_.end(), behind));
+}
+
+double EventTerms::negligibleFall(int condition) const { return entryOf(condition).term->negligibleFall(); }
+
+bool EventTerms::mayBeNone(int condition) const {
+  const Entry& entry = entryOf(condition);
+  return entry.term->mayBeNone(condition - entry.first);
 }
 
 bool EventTerms::renews() const {

@@ -37,6 +37,7 @@ class EventTerms {
   /// path::Problem::growingAt with these conditions.
   std::vector<int> growing(const std::vector<int>& conditions) const;
   double negligibleFall(int condition) const;  ///< path::Problem::negligibleFall
+  bool mayBeNone(int condition) const;         ///< path::Problem::eventMayBeNone
   int constraintPivots() const;
   /// Whether some conditions may change beside others.
   bool changeTogether() const;
@@ -57,6 +58,7 @@ class EventTerms {
     int number;  ///< of the term in the model
     int first;   ///< number of its first condition
   };
+  const Entry& entryOf(int condition) const;
   /// The list of what every term tells of its own conditions, `none` for others; on this rank.
   template <class Of>
   std::vector<double> list(double none, const Of& ofTerm) const;

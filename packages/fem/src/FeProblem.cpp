@@ -946,6 +946,8 @@ std::vector<int> FeProblem::growingAt(const path::State& state) const {
 
 double FeProblem::negligibleFall(int event) const { return impl_->events->negligibleFall(event); }
 
+bool FeProblem::eventMayBeNone(int event) const { return impl_->events->mayBeNone(event); }
+
 std::vector<int> FeProblem::eventsBeside(const std::vector<int>& indices, const path::State& state) {
   if (!impl_->events->changeTogether()) return {};
   return impl_->events->beside(indices, onRank(state), state.lambda);

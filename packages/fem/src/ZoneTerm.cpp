@@ -61,6 +61,8 @@ class ZoneTerm final : public EventTerm {
     return "contact line " + std::to_string((number - numEnds()) / kSlots + 1) + " (of " +
            std::to_string(numLines_) + ") is";
   }
+  /// Extrema beyond the ends of lines are watched, as they may come in, and others may leave.
+  bool mayBeNone(int number) const override { return number >= numEnds(); }
   bool owesPivots() const override { return false; }
   bool renews() const override { return true; }
 
@@ -612,9 +614,11 @@ class ZoneTerm final : public EventTerm {
             xi[p * L + lane] = x->xi;
             hold[p * L + lane] = Hold::extremum;
             const double depth = line.changesAt(on);
-            function = line.endAt(*x, shape) >= 0 ? EventFunction{}
-                       : x->least                 ? EventFunction{on ? -1.0 : 1.0, -depth}
-                                                  : EventFunction{on ? 1.0 : -1.0, depth};
+            // Beyond the line a minimum is none of its own, however deep the line would go on there.
+            const bool none = !on && x->least && std::abs(x->xi) > 1 && x->gap < 0;
+            function = none || line.endAt(*x, shape) >= 0 ? EventFunction{}
+                       : x->least                         ? EventFunction{on ? -1.0 : 1.0, -depth}
+                                                          : EventFunction{on ? 1.0 : -1.0, depth};
           }
           if (real) functions_[e * kPlaces + p] = function;
         }

@@ -101,8 +101,8 @@ void limit(const PathUnderWay& path, const Series& series, Trial& trial, const s
 }
 
 /// Those of a trial's events at which nothing happens: a function whose terms do not converge so far (the gap
-/// at an extremum that runs away as the curvature changes sign) has roots that it has not. It is asked
-/// itself.
+/// at an extremum that runs away as the curvature changes sign) has roots that it has not, and others may
+/// have nothing to tell there any more (Problem::eventMayBeNone). They are asked themselves.
 std::vector<int> eventsThatAreNone(const PathUnderWay& path, const Series& series, const Trial& trial) {
   Calls& calls = path.calls;
   const auto& zero = path.here.applied;
@@ -110,8 +110,9 @@ std::vector<int> eventsThatAreNone(const PathUnderWay& path, const Series& serie
   std::vector<int> doubtful;
   for (const int i : trial.events)
     if (!path.isBreak(i) && !series.eventGrows(i) &&
-        !converges(series.scalar(eventPolynomial(series, i, zero).coefficients()).numerator().coefficients(),
-                   trial.a, 0.1 * nothing))
+        (calls.problem().eventMayBeNone(i) ||
+         !converges(series.scalar(eventPolynomial(series, i, zero).coefficients()).numerator().coefficients(),
+                    trial.a, 0.1 * nothing)))
       doubtful.push_back(i);
   if (doubtful.empty() || calls.problem().remembers()) return {};
   std::vector<double> g;

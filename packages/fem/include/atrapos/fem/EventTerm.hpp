@@ -26,6 +26,8 @@ class EventTerm : public Term {
   virtual bool grows(bool /*active*/) const { return false; }
   /// path::Problem::negligibleFall of these.
   virtual double negligibleFall() const { return 1e-10; }
+  /// path::Problem::eventMayBeNone of a condition, the same on all ranks.
+  virtual bool mayBeNone(int /*number*/) const { return false; }
   /// Not 0 of own conditions that may change at a state without effect, in parts that sum over all ranks;
   /// asked where free ones grow.
   virtual std::vector<double> indifferent(const ConstDofView& /*u*/, double /*lambda*/) const {

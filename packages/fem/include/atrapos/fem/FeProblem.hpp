@@ -82,6 +82,7 @@ class FeProblem final : public path::Problem {
   void eventOrder(int k, std::vector<double>& g) const override;
   std::vector<int> growingAt(const path::State& state) const override;
   double negligibleFall(int event) const override;
+  bool eventMayBeNone(int event) const override;
   std::vector<int> eventsBeside(const std::vector<int>& indices, const path::State& state) override;
   bool eventGradient(int index, const path::State& state, double& value, path::Vector& byU,
                      double& byLambda) override;

@@ -45,6 +45,7 @@ class ForcedProblem : public Problem {
   int eventCount() const override { return unforced_.eventCount(); }
   std::vector<int> growingAt(const State& state) const override { return unforced_.growingAt(state); }
   double negligibleFall(int event) const override { return unforced_.negligibleFall(event); }
+  bool eventMayBeNone(int event) const override { return unforced_.eventMayBeNone(event); }
   void eventOrder(int k, std::vector<double>& g) const override { unforced_.eventOrder(k, g); }
   State afterEvent(const std::vector<int>& indices, const State& state) override {
     return unforced_.afterEvent(indices, state);

@@ -94,6 +94,10 @@ class Problem {
   /// difference (flow back at a smoothed yield surface, next to no stress).
   virtual double negligibleFall(int /*event*/) const { return 1e-10; }
 
+  /// Whether a zero of this function on a series may be none at the state there, however far the series
+  /// converges: the function is asked itself (a minimum of a gap that leaves the part where it counts).
+  virtual bool eventMayBeNone(int /*event*/) const { return false; }
+
   /// The event functions that are zero at a state from which a path starts, to the rounding of the state:
   /// they may have to be applied at once. Throws where one is below zero.
   virtual std::vector<int> eventsAt(const State& /*state*/) { return {}; }
