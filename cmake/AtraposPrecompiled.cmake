@@ -26,7 +26,7 @@ function(atrapos_precompiled target kind)
   if(kind STREQUAL "quick")
     set(options ${atrapos_quick})
   elseif(kind STREQUAL "test")
-    set(options ${atrapos_lightly})
+    set(options ${atrapos_quick})
   endif()
   target_compile_options(${target} PRIVATE ${options})
   # With OpenMP those quick tests that link Kokkos are compiled for it and others are not: no header is theirs all.

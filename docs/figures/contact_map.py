@@ -1,6 +1,6 @@
 """The failure map of contact: a cantilever pressed onto a tool, under every combination of tool, law, mesh, start gap, order and accuracy.
 
-    python3 docs/figures/contact_map.py COMMAND [--folder contact_map] [--meshes ...] [--gaps ...] [--orders ...] [--deltas ...]
+    python3 docs/figures/contact_map.py COMMAND [--folder contact_map] [--laws ...] [--meshes ...] [--gaps ...] [--orders ...] [--deltas ...]
 
 COMMAND is the atrapos command. Writes contact_map.csv (a row a run) in the folder as it goes; what stands there is not run again. Then
 contact_map.png there: for each tool and law how many runs reached their stop, how many were refused, how many ended before.
@@ -134,7 +134,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("command")
     parser.add_argument("--folder", type=Path, default=Path("contact_map"))
-    for name, values in (("meshes", MESHES), ("gaps", GAPS), ("orders", ORDERS), ("deltas", DELTAS)):
+    for name, values in (("laws", LAWS), ("meshes", MESHES), ("gaps", GAPS), ("orders", ORDERS), ("deltas", DELTAS)):
         parser.add_argument("--" + name, nargs="+", choices=list(values), default=list(values))
     args = parser.parse_args()
     args.folder.mkdir(exist_ok=True)
@@ -145,7 +145,7 @@ def main():
         out = csv.DictWriter(file, FIELDS)
         if not rows:
             out.writeheader()
-        for case in product(TOOLS, LAWS, args.meshes, args.gaps, args.orders, args.deltas):
+        for case in product(TOOLS, args.laws, args.meshes, args.gaps, args.orders, args.deltas):
             if case in known:
                 continue
             row = dict(zip(KEYS, case)) | run(args.command, args.folder / "run", deck(*case))

@@ -155,7 +155,7 @@ bool PieceTerms::continues(const path::State& state, int index) const {
 
 std::string PieceTerms::text(int index) const {
   const Place at = placeOf(index);
-  const std::string point = "contact point " + std::to_string(at.point + 1) + " (of " +
+  const std::string point = at.entry->pieces->called() + " " + std::to_string(at.point + 1) + " (of " +
                             std::to_string(at.entry->pieces->numWhole()) + ")";
   if (at.piece < 0) return point + " slides over an edge of its tool while it is pressed";
   if (pieceOfSeries(*at.entry, at.point) == -1)

@@ -10,8 +10,9 @@
 
 namespace atrapos::fem {
 
-PointPieces::PointPieces(PieceSearch search, int numPoints, std::vector<double> data)
+PointPieces::PointPieces(PieceSearch search, int numPoints, std::vector<double> data, std::string called)
     : search_(std::move(search)),
+      called_(std::move(called)),
       data_(std::move(data)),
       preferred_(numPoints, any),
       numWhole_(numPoints),

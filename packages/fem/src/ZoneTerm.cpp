@@ -685,8 +685,8 @@ class ZoneTerm final : public EventTerm {
       }
     };
     const int points = kLimits * numLines_;
-    return std::make_unique<PointPieces>(std::move(search), points,
-                                         std::vector<double>(points * laws_.pieces.numData, 0.0));
+    return std::make_unique<PointPieces>(
+        std::move(search), points, std::vector<double>(points * laws_.pieces.numData, 0.0), "zone limit");
   }
   /// The pieces that limits of the series' zones are over, as data of the points of pieces.
   std::vector<double> limitPieces(const std::vector<ZoneBatch>& zones) const {

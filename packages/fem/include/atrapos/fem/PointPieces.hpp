@@ -1,6 +1,7 @@
 #pragma once
 
 #include <functional>
+#include <string>
 #include <vector>
 
 namespace atrapos::fem {
@@ -23,13 +24,15 @@ class PointPieces {
  public:
   static constexpr int any = -2;
 
-  /// `data`: those that the term was made with.
-  PointPieces(PieceSearch search, int numPoints, std::vector<double> data);
+  /// `data`: those that the term was made with; called: a point in messages.
+  PointPieces(PieceSearch search, int numPoints, std::vector<double> data,
+              std::string called = "contact point");
 
   /// Drops all points but these.
   void keep(const std::vector<int>& points);
 
   int count() const { return search_.count; }
+  const std::string& called() const { return called_; }
   int numPoints() const { return static_cast<int>(preferred_.size()); }
   int numInputs() const { return search_.numInputs; }
   int numWhole() const { return numWhole_; }                    ///< points before keep
@@ -65,6 +68,7 @@ class PointPieces {
   }
 
   PieceSearch search_;
+  std::string called_;
   std::vector<double> data_, ofSeries_;
   std::vector<int> preferred_;  ///< [point]
   int numWhole_;
