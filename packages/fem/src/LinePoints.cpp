@@ -35,9 +35,8 @@ LineLaws::LineLaws(int lineDegree, ZoneLaws laws)
       place.data != (hasPieces() ? pieces.numData : 0) || own.inputs != 1 || own.outputs != 1 ||
       own.data != 0)
     throw std::logic_error(
-        "LineLaws: a projection of (x, y, z, lambda) on (h, n), with the data of its pieces and coordinates "
-        "in "
-        "them, and a pressure p(h) without data");
+        "LineLaws: a projection of (x, y, z, lambda) on (h, n), with data and coordinates of its pieces, and "
+        "a pressure p(h) without data");
 }
 
 std::vector<double> LineLaws::located(int numPoints, const double* places, const int* preferred) const {
@@ -134,15 +133,14 @@ LineProbe probeWith(const LineLaws& laws, int Q, const double* xi, const double*
   return r;
 }
 
-/// dt/dxi along the line of a coordinate in the piece.
-double slopeOf(const LineProbe& at, int coordinate, int p, int lane) {
-  double slope = 0;
-  for (int i = 0; i < 3; ++i)
-    slope += at.inBy[((2 * p + coordinate) * 4 + i) * L + lane] * at.along[(3 * p + i) * L + lane];
-  return slope;
-}
-
 }  // namespace
+
+double LineProbe::inSlope(int coordinate, int point, int lane) const {
+  double sum = 0;
+  for (int i = 0; i < 3; ++i)
+    sum += inBy[((2 * point + coordinate) * 4 + i) * L + lane] * along[(3 * point + i) * L + lane];
+  return sum;
+}
 
 LineProbe probe(const LineLaws& laws, int Q, const double* xi, const double* c, double lambda,
                 const int* preferred) {
@@ -206,7 +204,7 @@ void LinePoints::start(int b, const double* xi, const Hold* hold, const double* 
         const int i = hold[m] == Hold::border1 ? 0 : 1;
         point.output = 4 + i;
         for (int j = 0; j < 4; ++j) point.gradient[j] = at.inBy[((2 * p + i) * 4 + j) * L + lane];
-        point.byGap = -1 / slopeOf(at, i, p, lane);
+        point.byGap = -1 / at.inSlope(i, p, lane);
       }
       for (int i = 0; i < 3; ++i) {
         point.normal[i] = at.normal[(3 * p + i) * L + lane];
@@ -235,7 +233,7 @@ std::vector<double> LinePoints::rootsNear(int b, std::vector<double> xi, const d
         double step = here.gap[p * L + lane] / here.slope[p * L + lane];
         if (const int i = point.output - 4; i >= 0) {
           const double t = here.in[(2 * p + i) * L + lane];
-          step = (t - std::round(t)) / slopeOf(here, i, p, lane);
+          step = (t - std::round(t)) / here.inSlope(i, p, lane);
         }
         xi[p * L + lane] -= step;
         moved = std::max(moved, std::abs(step));

@@ -48,6 +48,7 @@ struct LineProbe {
   std::vector<double> along;             ///< [3] dx/dxi
   std::vector<double> in;                ///< [2] coordinates in the piece, where the surface has some
   std::vector<double> inBy;              ///< [2][4] and by x, lambda
+  double inSlope(int coordinate, int point, int lane) const;  ///< of one of these along the line, by xi
 };
 /// A place over nothing (piece -1) has an infinite gap that does not change.
 LineProbe probe(const LineLaws& laws, int numPoints, const double* xi, const double* c, double lambda,

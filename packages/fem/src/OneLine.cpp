@@ -56,12 +56,9 @@ int OneLine::pieceAt(double xi, int preferred) const {
 Hold OneLine::borderOf(int piece, double xi) const {
   constexpr double near = 1e-6, alongIt = 1e-6;
   const LineProbe p = probeAt(xi, piece);
-  for (int i = 0; i < 2; ++i) {
-    double slope = 0;
-    for (int j = 0; j < 3; ++j) slope += p.inBy[(4 * i + j) * L] * p.along[j * L];
-    if (std::abs(std::abs(p.in[i * L]) - 1) < near && std::abs(slope) > alongIt)
+  for (int i = 0; i < 2; ++i)
+    if (std::abs(std::abs(p.in[i * L]) - 1) < near && std::abs(p.inSlope(i, 0, 0)) > alongIt)
       return i == 0 ? Hold::border1 : Hold::border2;
-  }
   return Hold::place;
 }
 
