@@ -173,7 +173,7 @@ TEST(ZonePaths, OverTheBorderOfTwoArcs) {
   ASSERT_EQ(out.reason, path::EndReason::stopReached) << out.text;
   EXPECT_LT(walk.worst, 1e-8);
   const auto onRoll = follow(smooth, {smooth.initialState(0), 0.0}, 1, loose(1e-8));
-  EXPECT_LE(out.steps, onRoll.steps + 20);
+  EXPECT_LE(out.steps, onRoll.steps + 6);
   const Numbers u = fem::FeProblem::values(*out.final.u), onlyRoll = fem::FeProblem::values(*onRoll.final.u);
   const Numbers exact = fem::test::equilibrium(problem, 1, u, 1e-11).u;
   EXPECT_LE(fem::test::largest(fem::test::sum(u, -1, exact)), 1e-5 * fem::test::largest(exact));
