@@ -17,15 +17,13 @@ function(atrapos_lightly_sources)
     set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS "${atrapos_lightly}")
   endif()
 endfunction()
-# Tests that run commands and look at files compute next to nothing: optimising them takes as long as compiling them.
+# Tests compute next to nothing themselves: optimising them takes as long as compiling them.
 set(atrapos_quick $<$<AND:$<CONFIG:Release>,$<CXX_COMPILER_ID:GNU,Clang>>:-O0>)
 
 # atrapos_precompiled(<target> <library|test|quick>): tests are optimised by their kind, as their headers are.
 function(atrapos_precompiled target kind)
   set(options "")
-  if(kind STREQUAL "quick")
-    set(options ${atrapos_quick})
-  elseif(kind STREQUAL "test")
+  if(NOT kind STREQUAL "library")
     set(options ${atrapos_quick})
   endif()
   target_compile_options(${target} PRIVATE ${options})

@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <vector>
 
 #include "support/Command.hpp"
 #include "support/Folder.hpp"
+#include "support/NurbsRoll.hpp"
 #include "support/SmallDeck.hpp"
 
 namespace atrapos::test {
@@ -95,20 +95,11 @@ TEST_F(Tools, EveryKindStopsTheBody) {
   }
 }
 
-/// The roll of the small deck as a NURBS surface of four quarters, |y| <= 3.
+/// The roll of the small deck as a NURBS surface, |y| <= 3.
 std::string nurbsRoll() {
-  const double corner[9][2] = {{1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}, {0, -1}, {1, -1}, {1, 0}};
-  std::ostringstream points, weights;
-  points.precision(17);
-  weights.precision(17);
-  for (int i = 0; i < 9; ++i)
-    for (const double y : {3.0, -3.0}) {  // S_1 x S_2 outwards
-      points << (points.tellp() > 0 ? ", [" : "[") << 4 + corner[i][0] << ", " << y << ", "
-             << corner[i][1] - 1.25 << "]";
-      weights << (weights.tellp() > 0 ? ", " : "") << (i % 2 == 0 ? 1.0 : std::sqrt(0.5));
-    }
-  return "{roll: {degree: [2, 1], points: [" + points.str() + "], weights: [" + weights.str() +
-         "], knots_1: [0, 0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 4], knots_2: [0, 0, 1, 1]}}";
+  return test::nurbsRoll([](double a, double b, int end) {
+    return std::array<double, 3>{4 + a, end == 0 ? 3.0 : -3.0, b - 1.25};
+  });
 }
 
 TEST_F(Tools, ANurbsCylinderIsTheCylinder) {

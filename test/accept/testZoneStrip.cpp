@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "support/Elastica.hpp"
+#include "support/NurbsRoll.hpp"
 #include "support/StripRun.hpp"
 
 namespace atrapos::test {
@@ -138,22 +139,13 @@ TEST(ZoneStrip, ALowestPlaceThatLeavesItsNode) {
 
 // The roll as a NURBS surface of four patches, two of which meet at its top: the same path.
 TEST(ZoneStrip, OverPatches) {
-  const double corner[9][2] = {{1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}, {0, -1}, {1, -1}, {1, 0}};
-  std::string points, weights;
-  for (int i = 0; i < 9; ++i)
-    for (const double z : {-1.0, 1.0}) {
-      points += fmt::format("{}[{}, {}, {}]", points.empty() ? "" : ", ", 200 + 49.6 * corner[i][0],
-                            -54 + 49.6 * corner[i][1], z);
-      weights += fmt::format("{}{:.17g}", weights.empty() ? "" : ", ", i % 2 == 0 ? 1.0 : std::sqrt(0.5));
-    }
+  const std::string surfaces = nurbsRoll([](double a, double b, int end) {
+    return std::array<double, 3>{200 + 49.6 * a, -54 + 49.6 * b, end == 0 ? -1.0 : 1.0};
+  });
   const Strip roll = plane(40),
-              patches(
-                  "zones.yaml",
-                  {{"{type: cylinder, center: [200, -54.0, 0], axis: [0, 0, 1], radius: 49.6}",
-                    fmt::format(
-                        "{{type: patches, surfaces: {{roll: {{degree: [2, 1], points: [{}], weights: [{}], "
-                        "knots_1: [0, 0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 4], knots_2: [0, 0, 1, 1]}}}}}}",
-                        points, weights)}});
+              patches("zones.yaml",
+                      {{"{type: cylinder, center: [200, -54.0, 0], axis: [0, 0, 1], radius: 49.6}",
+                        "{type: patches, surfaces: " + surfaces + "}"}});
   EXPECT_LT(patches.tip, 0.015);
   EXPECT_LT(patches.force, 0.01);
   EXPECT_LE(patches.steps, roll.steps + 2);

@@ -8,7 +8,7 @@
 #include "support/ContactModel.hpp"
 #include "support/Derivatives.hpp"
 #include "support/PatchSurfaces.hpp"
-#include "support/PlaneContact.hpp"
+#include "support/ZoneBodies.hpp"
 
 using namespace atrapos;
 using namespace atrapos::contact;
@@ -27,28 +27,6 @@ std::unique_ptr<RigidTool> toolOf(const std::vector<BezierPatch>& patches,
 std::vector<BezierPatch> rollOfArcs(double x, double y, double radius, double angle) {
   return twoArcs(x, y - radius, radius, radius, angle);
 }
-
-/// Contact alone: of four edges 1 wide on y = 0.
-struct Row {
-  fem::Mesh mesh = planeMesh(fem::Topology::Quad8, {4, 1}, {4, 1});
-  fem::FeProblem problem;
-
-  explicit Row(const RigidTool& tool, int exponent = 1) : problem(model(tool, exponent)) {}
-  fem::FeModel model(const RigidTool& tool, int exponent) {
-    fem::FeModel all = planeModel(mesh, {}, 10, 0.3);
-    addZones(all, mesh, {}, tool, {7, exponent});
-    return all;
-  }
-  Numbers forces(const Numbers& u, double lambda = 0) {
-    return problem.forces(problem.term(1), {fem::test::vectorOf(problem, u), lambda});
-  }
-  double forceUp() {
-    const Numbers f = forces(Numbers(2 * static_cast<std::size_t>(mesh.numNodes()), 0.0));
-    double sum = 0;
-    for (std::size_t d = 1; d < f.size(); d += 2) sum -= f[d];
-    return sum;
-  }
-};
 
 /// The force up on the line y = 0 over twoArcs: Simpson's rule on 4000 pieces of either side of the normal at
 /// their border, where p has a kink at most (error 1e-11).
@@ -82,10 +60,11 @@ TEST(ZonePatches, ForceOverTheBorderOfTwoArcs) {
       for (const double angle : {kTop + 0.02, kTop - 0.05, kTop + 0.08}) {
         // The border is at (1.4, 0.03), within the zone.
         const double x = 1.4 - 2 * std::cos(angle), y = 0.03 - 2 * std::sin(angle);
-        Row row(*toolOf(twoArcs(x, y, 2, right, angle)), m);
+        Row row(fem::Topology::Quad8, *toolOf(twoArcs(x, y, 2, right, angle)), {7, m});
         const double exact = lineOnTwoArcs(x, y, 2, right, angle, m);
         ASSERT_GT(exact, 1e-4);
-        EXPECT_NEAR(row.forceUp(), exact, 1e-9 * exact) << m << ' ' << right << ' ' << angle;
+        EXPECT_NEAR(row.forceUp(Numbers(row.dofs(), 0.0)), exact, 1e-9 * exact)
+            << m << ' ' << right << ' ' << angle;
       }
 }
 
@@ -95,7 +74,9 @@ TEST(ZonePatches, TangentIsTheSymmetricDerivativeOfTheForce) {
   motion.angle[1] = 0.2;
   motion.pivot[0] = 1;
   const double angle = kTop + 0.02;
-  Row row(*toolOf(twoArcs(1.4 - 2 * std::cos(angle), 0.05 - 2 * std::sin(angle), 2, 1, angle), motion));
+  Row row(fem::Topology::Quad8,
+          *toolOf(twoArcs(1.4 - 2 * std::cos(angle), 0.05 - 2 * std::sin(angle), 2, 1, angle), motion),
+          {7, 1});
   const Numbers u = fem::test::randomNumbers(2 * row.mesh.numNodes(), 0.01, 5);
   ASSERT_GT(fem::test::largest(row.forces(u, 0.05)), 1e-3);
   const auto K = fem::test::tangent(row.problem, u, 0.05);
@@ -104,42 +85,14 @@ TEST(ZonePatches, TangentIsTheSymmetricDerivativeOfTheForce) {
     expectDerivative(row.problem, K, u, 0.05, fem::test::randomNumbers(u.size(), 1, 6), rate, 1e-3);
 }
 
-namespace {
-
-/// A body of two rows of cells on a roll of these patches, its top pressed down by lambda.
-struct Pressed {
-  fem::Mesh mesh = planeMesh(fem::Topology::Quad8, {3, 2}, {3, 1});
-  fem::LineSet lines;
-  fem::FeProblem problem;
-
-  explicit Pressed(const RigidTool& tool) : problem(model(tool)) {}
-  fem::FeModel model(const RigidTool& tool) {
-    fem::FeModel all = planeModel(mesh, {}, 10, 0.3);
-    for (const int n : fem::test::nodesOfSet(mesh, "y_max")) {
-      all.prescribe(n, 0, 0, 0.1);
-      all.prescribe(n, 1, 0, -1);
-    }
-    lines = addZones(all, mesh, {}, tool, {200, 1});
-    return all;
-  }
-  path::State at(double lambda) {
-    Numbers u;
-    for (int n = 0; n < mesh.numNodes(); ++n) u.insert(u.end(), {0.1 * lambda, -lambda});
-    u = fem::test::equilibrium(problem, lambda, u, 1e-13).u;
-    return problem.settled({fem::test::vectorOf(problem, u), lambda});
-  }
-};
-
-}  // namespace
-
 // Patches of one surface are the surface, wherever its border lies in a zone: all orders, and the numbers of
 // the smooth tool.
 TEST(ZonePatches, SeriesOverPatchesOfOneSurface) {
-  Pressed smooth(*rigidTool(Cylinder{{1.4, -2, 0}, {0, 0, 1}, 2}));
-  const Numbers u = fem::FeProblem::values(*smooth.at(0.02).u);
+  Pressed smooth(fem::Topology::Quad8, rigidTool(Cylinder{{1.4, -2, 0}, {0, 0, 1}, 2}));
+  const Numbers u = smooth.at(0.02);
   for (const double angle : {kTop, kTop + 0.01, kTop - 0.03}) {
-    Pressed body(*toolOf(rollOfArcs(1.4, 0, 2, angle)));
-    const path::State start = body.at(0.02);
+    Pressed body(fem::Topology::Quad8, toolOf(rollOfArcs(1.4, 0, 2, angle)));
+    const path::State start = body.stateAt(0.02);
     EXPECT_LE(fem::test::largest(fem::test::sum(fem::FeProblem::values(*start.u), -1, u)), 1e-11);
     const auto solver = linear::makeTangentSolver();
     path::Calls calls(body.problem, *solver);
@@ -153,8 +106,8 @@ TEST(ZonePatches, SeriesOverPatchesOfOneSurface) {
 
 // Where curvatures differ the border is a limit that moves along the body.
 TEST(ZonePatches, SeriesOverTwoArcs) {
-  Pressed body(*toolOf(twoArcs(1.4, -2, 2, 1, kTop)));
-  const path::State start = body.at(0.02);
+  Pressed body(fem::Topology::Quad8, toolOf(twoArcs(1.4, -2, 2, 1, kTop)));
+  const path::State start = body.stateAt(0.02);
   const auto solver = linear::makeTangentSolver();
   path::Calls calls(body.problem, *solver);
   for (const int order : {2, 5, 8}) {
@@ -168,7 +121,7 @@ TEST(ZonePatches, SeriesOverTwoArcs) {
 // says so.
 TEST(ZonePatches, EdgesAndCreasesEndAPath) {
   const auto endOn = [](const std::vector<BezierPatch>& patches) {
-    Pressed body(*toolOf(patches));
+    Pressed body(fem::Topology::Quad8, toolOf(patches));
     const auto solver = linear::makeTangentSolver();
     path::Stops stops;
     stops.loadFactors = {0.05};
@@ -176,11 +129,11 @@ TEST(ZonePatches, EdgesAndCreasesEndAPath) {
     NoObserver observer;
     const auto out = follower.run({body.problem.initialState(0), 0.0}, observer);
     EXPECT_EQ(out.reason, path::EndReason::problemFailed);
-    // Half of the zone is 0.1 wide there, on a roll of radius 2 that goes on; cells make it a little more to the
-    // other side.
-    Pressed whole(*rigidTool(Cylinder{{1.4, -2.001, 0}, {0, 0, 1}, 2}));
+    // Half of the zone is 0.1 wide there, on a roll of radius 2 that goes on; cells make it a little more to
+    // the other side.
+    Pressed whole(fem::Topology::Quad8, rigidTool(Cylinder{{1.4, -2.001, 0}, {0, 0, 1}, 2}));
     double width = 0;
-    const path::State same = whole.at(out.final.lambda);
+    const path::State same = whole.stateAt(out.final.lambda);
     const Numbers parts = observed(whole.problem, 1, same, "contact_part");
     for (std::size_t i = 0; i < parts.size(); ++i) width += whole.lines.weights[i] * parts[i];
     EXPECT_NEAR(width, 0.2, 0.02);

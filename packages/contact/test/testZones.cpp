@@ -12,6 +12,7 @@
 #include "support/Derivatives.hpp"
 #include "support/LineOnCircle.hpp"
 #include "support/PlaneContact.hpp"
+#include "support/ZoneBodies.hpp"
 
 using namespace atrapos;
 using namespace atrapos::contact;
@@ -25,30 +26,6 @@ constexpr double kRadius = 2;
 std::unique_ptr<RigidTool> roll(double x, double y) {
   return rigidTool(Cylinder{{x, y - kRadius, 0}, {0, 0, 1}, kRadius});
 }
-
-/// Contact alone: of a row of edges 1 wide on y = 0, displaced.
-struct Row {
-  fem::Mesh mesh;
-  fem::LineSet lines;
-  fem::FeProblem problem;
-
-  Row(fem::Topology cell, const RigidTool& tool, const Overclosure& law,
-      const solid::PlaneSection& section = {})
-      : mesh(planeMesh(cell, {4, 1}, {4, 1})), problem(model(tool, law, section)) {}
-
-  fem::FeModel model(const RigidTool& tool, const Overclosure& law, const solid::PlaneSection& section) {
-    fem::FeModel all = planeModel(mesh, section, 10, 0.3);
-    lines = addZones(all, mesh, section, tool, law);
-    return all;
-  }
-  std::size_t dofs() const { return 2 * static_cast<std::size_t>(mesh.numNodes()); }
-  double forceUp(const Numbers& u) {
-    const Numbers f = problem.forces(problem.term(1), {fem::test::vectorOf(problem, u), 0});
-    double sum = 0;
-    for (std::size_t d = 1; d < f.size(); d += 2) sum -= f[d];
-    return sum;
-  }
-};
 
 }  // namespace
 
@@ -101,33 +78,11 @@ TEST(Zones, TangentIsTheSymmetricDerivativeOfTheForce) {
 
 namespace {
 
-/// A body of two rows of cells on a roll, its top pressed down by lambda.
-struct Pressed {
-  fem::Mesh mesh;
-  std::unique_ptr<RigidTool> tool;
-  fem::LineSet lines;
-  fem::FeProblem problem;
+/// On a roll, and where its lines are over it.
+struct OnRoll : Pressed {
+  OnRoll(fem::Topology cell, double center, int exponent = 1, const std::optional<Motion>& motion = {})
+      : Pressed(cell, rigidTool(Cylinder{{center, -kRadius, 0}, {0, 0, 1}, kRadius}, motion), exponent) {}
 
-  Pressed(fem::Topology cell, double center, int exponent = 1, const std::optional<Motion>& motion = {})
-      : mesh(planeMesh(cell, {3, 2}, {3, 1})),
-        tool(rigidTool(Cylinder{{center, -kRadius, 0}, {0, 0, 1}, kRadius}, motion)),
-        problem(model(exponent)) {}
-
-  fem::FeModel model(int exponent) {
-    fem::FeModel all = planeModel(mesh, {}, 10, 0.3);
-    for (const int n : fem::test::nodesOfSet(mesh, "y_max")) {
-      all.prescribe(n, 0, 0, 0.1);
-      all.prescribe(n, 1, 0, -1);
-    }
-    lines = addZones(all, mesh, {}, *tool, {200, exponent});
-    return all;
-  }
-  /// Equilibrium at lambda, from the undeformed body moved as a whole.
-  Numbers at(double lambda) {
-    Numbers u;
-    for (int n = 0; n < mesh.numNodes(); ++n) u.insert(u.end(), {0.1 * lambda, -lambda});
-    return fem::test::equilibrium(problem, lambda, u, 1e-13).u;
-  }
   double gap(const Numbers& u, int line, double xi, double lambda) const {
     double x[4] = {0, 0, 0, lambda};
     const int N = lines.nodesPerLine;
@@ -150,9 +105,6 @@ struct Pressed {
     }
     return {a, gap(u, line, a, lambda)};
   }
-  path::State stateAt(double lambda) {
-    return problem.settled({fem::test::vectorOf(problem, at(lambda)), lambda});
-  }
   int inContact(double lambda) {
     const auto conditions = problem.conditionsAt(stateAt(lambda));
     return static_cast<int>(std::count(conditions.begin(), conditions.end(), 1));
@@ -161,7 +113,7 @@ struct Pressed {
 
 /// Series of several orders at an equilibrium, and along them the event functions: gaps at ends of lines and
 /// the least gaps of lines, to the residual's power of a.
-void expectSeries(Pressed& body, double lambda, std::vector<int> orders = {2, 5, 8, 13}) {
+void expectSeries(OnRoll& body, double lambda, std::vector<int> orders = {2, 5, 8, 13}) {
   const path::State start = body.stateAt(lambda);
   const auto solver = linear::makeTangentSolver();
   path::Calls calls(body.problem, *solver);
@@ -209,11 +161,11 @@ void expectSeries(Pressed& body, double lambda, std::vector<int> orders = {2, 5,
 TEST(Zones, SeriesOfAllOrders) {
   for (const auto cell : planeCells()) {
     SCOPED_TRACE(fem::topologyName(cell));
-    Pressed body(cell, 1.4);
+    OnRoll body(cell, 1.4);
     expectSeries(body, 0.02);
   }
   for (const int exponent : {2, 3}) {
-    Pressed body(fem::Topology::Quad8, 1.4, exponent);
+    OnRoll body(fem::Topology::Quad8, 1.4, exponent);
     expectSeries(body, 0.05);
   }
 }
@@ -223,7 +175,7 @@ TEST(Zones, SeriesOverAMovingTool) {
   motion.shift[1][0] = 0.8;
   motion.angle[1] = 0.5;
   motion.pivot[0] = 1;
-  Pressed body(fem::Topology::Quad8, 1.35, 1, motion);
+  OnRoll body(fem::Topology::Quad8, 1.35, 1, motion);
   expectSeries(body, 0.02);
 }
 
@@ -231,7 +183,7 @@ namespace {
 
 /// Where f of the equilibrium at lambda changes its sign, by bisection.
 template <class F>
-double lambdaWhere(Pressed& body, double low, double high, const F& f) {
+double lambdaWhere(OnRoll& body, double low, double high, const F& f) {
   for (int i = 0; i < 24; ++i) {
     const double middle = 0.5 * (low + high);
     (f(body.at(middle), middle) > 0 ? low : high) = middle;
@@ -245,7 +197,7 @@ double lambdaWhere(Pressed& body, double low, double high, const F& f) {
 // of the least that counts on, on lines 1 long.
 TEST(Zones, SeriesNextToABirth) {
   for (const double depth : {1e-3, 1e-5, 2e-6}) {
-    Pressed body(fem::Topology::Quad8, 1.4);
+    OnRoll body(fem::Topology::Quad8, 1.4);
     const double lambda = lambdaWhere(
         body, 0, 0.02, [&](const Numbers& u, double at) { return body.least(u, 1, at).second + depth; });
     expectSeries(body, lambda, {2, 5});
@@ -257,7 +209,7 @@ TEST(Zones, SeriesNextToABirth) {
 TEST(Zones, SeriesNextToTheEndOfALine) {
   for (const double gap : {1e-3, 2e-4, -2e-4, -1e-3}) {
     SCOPED_TRACE(gap);
-    Pressed body(fem::Topology::Quad8, 1.9);
+    OnRoll body(fem::Topology::Quad8, 1.9);
     const double lambda =
         lambdaWhere(body, 0, 0.05, [&](const Numbers& u, double at) { return body.gap(u, 1, 1, at) - gap; });
     expectSeries(body, lambda, {2, 5, 8});

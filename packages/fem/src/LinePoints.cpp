@@ -97,7 +97,7 @@ LineProbe probeWith(const LineLaws& laws, int Q, const double* xi, const double*
       if (J == 4) in[(q * J + 3) * L + lane] = lambda;
     }
   std::vector<double> scratch(laws.projection->historyDoubles(0)), out(H * Q * L), jacobian(H * J * Q * L);
-  const std::vector<double> data = dataAt(in.data());
+  const auto& data = dataAt(in.data());
   laws.projection->tangent({Q, L, data.data(), scratch.data()}, in.data(), out.data(), jacobian.data());
   r.gap.resize(Q * L);
   r.slope.assign(Q * L, 0.0);

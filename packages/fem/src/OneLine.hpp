@@ -17,6 +17,8 @@ class OneLine {
     double gap, slope, bend;
     std::array<double, 3> normal;
   };
+  /// Its place, x, y, z and the load factor (4), and dx/dxi.
+  void place(double xi, double* x, double* along) const;
   /// preferred: the piece to be taken where the place is on the border of several.
   At operator()(double xi, int preferred = PointPieces::any) const;
 
@@ -29,8 +31,6 @@ class OneLine {
 
  private:
   LineProbe probeAt(double xi, int preferred) const;
-  /// [input] of the projection, and dx/dxi.
-  void place(double xi, double* x, double* along) const;
 
   const LineLaws& laws_;
   double lambda_;

@@ -150,8 +150,8 @@ std::vector<double> ZoneForces::pressures(const double* gaps) const {
 }
 
 void ZoneForces::tangent(const ZoneBatch& zones, double lambda, double* forces, double* jacobian) const {
-  value(zones, lambda, forces);
   const Points points = pointsOf(zones, lambda);
+  add(points, forces);
   const int C = laws_.coefficients(), P = laws_.degree;
   const LineProbe at = probe(laws_, Q, points.places.data(), zones.c.data(), lambda, preferred(zones).data());
   std::vector<double> scratch(laws_.pressure->historyDoubles(0)), h(Q * L), p(Q * L), rate(Q * L);

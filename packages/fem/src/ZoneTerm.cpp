@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "OneLine.hpp"
 #include "ZoneForces.hpp"
 #include "ZoneLine.hpp"
 #include "atrapos/fem/DofMap.hpp"
@@ -99,35 +100,19 @@ class ZoneTerm final : public EventTerm {
   OwnForces addResidual(const ConstDofView& u, double lambda, const DofView& f) const override {
     double squares = 0;
     std::vector<double> forces(laws_.coefficients() * L);
-    if (pieces_ && pieces_->held()) {
-      std::vector<double> c(laws_.coefficients() * L), limits(2 * L);
-      std::vector<std::vector<Zone>> zones(numEntities());
-      forEachShape(
-          u, lambda,
-          [&](int e, const double* own, const GapShape& shape) {
-            zones[e] = lineAt(e).zones(laws_, own, lambda, shape);
-          },
-          true);
-      for (std::size_t b = 0; b < seriesLines_.size(); ++b) {
-        const auto& lines = seriesLines_[b];
-        gather(lines.data(), static_cast<int>(lines.size()), u, 1, c.data());
-        for (int lane = 0; lane < L; ++lane) {
-          const std::size_t at = lane < static_cast<int>(lines.size()) ? lane : 0, nth = seriesNth_[b][at];
-          const auto& own = zones[lines[at]];
-          for (int r = 0; r < 2; ++r)
-            limits[r * L + lane] =
-                nth < own.size() ? own[nth].limits[r] : std::numeric_limits<double>::quiet_NaN();
-        }
-        forces_.valueOfSeries(static_cast<int>(b), limits, c, lambda, forces.data());
-        for (std::size_t lane = 0; lane < lines.size(); ++lane)
-          squares += scatter(lines[lane], &forces[lane], f);
-      }
-    } else {
+    const auto put = [&](const auto& lines, int count) {
+      for (int lane = 0; lane < count; ++lane) squares += scatter(lines[lane], &forces[lane], f);
+    };
+    if (pieces_ && pieces_->held())
+      forEachOfSeries(u, lambda, [&](int b, const std::vector<double>& limits, const std::vector<double>& c) {
+        forces_.valueOfSeries(b, limits, c, lambda, forces.data());
+        put(seriesLines_[b], static_cast<int>(seriesLines_[b].size()));
+      });
+    else
       forEachBatch(u, lambda, [&](const ZoneBatch& batch, const int* lines) {
         forces_.value(batch, lambda, forces.data());
-        for (int lane = 0; lane < batch.lanes; ++lane) squares += scatter(lines[lane], &forces[lane], f);
+        put(lines, batch.lanes);
       });
-    }
     OwnForces own(balance_ + 1, 0.0);
     own[balance_] = squares;
     return own;
@@ -214,6 +199,7 @@ class ZoneTerm final : public EventTerm {
     forEachShape(
         u, lambda,
         [&](int e, const double* c, const GapShape& shape) {
+          const OneLine line(laws_, c, lambda);
           for (const Zone& zone : lineAt(e).zones(laws_, c, lambda, shape))
             for (int r = 0; r < 2; ++r) {
               const int point = pointOf(e, zone.nth, r);
@@ -222,11 +208,9 @@ class ZoneTerm final : public EventTerm {
               constexpr double outside = 1e-9;
               const double* at = zone.limits;
               const double xi = at[r] + (zone.hold[r] == Hold::root ? outside * (at[r] - at[1 - r]) : 0);
-              double* x = &all[static_cast<std::size_t>(point) * J];
-              for (int i = 0; i < 3; ++i) x[i] = 0;
-              for (int k = laws_.degree; k >= 0; --k)
-                for (int i = 0; i < 3; ++i) x[i] = x[i] * xi + c[3 * k + i];
-              if (J == 4) x[3] = lambda;
+              double x[4], along[3];
+              line.place(xi, x, along);
+              std::copy_n(x, J, &all[static_cast<std::size_t>(point) * J]);
             }
         },
         true);
@@ -544,6 +528,32 @@ class ZoneTerm final : public EventTerm {
       }
       gather(lines, L, u, 1, batch.c.data());
       f(batch, lines);
+    }
+  }
+
+  /// f(batch of the series under way, [2][lane] where limits of its zones are in this state, not a number
+  /// where it has fewer, coefficients of the lines).
+  template <class F>
+  void forEachOfSeries(const ConstDofView& u, double lambda, const F& f) const {
+    std::vector<std::vector<Zone>> zones(numEntities());
+    forEachShape(
+        u, lambda,
+        [&](int e, const double* own, const GapShape& shape) {
+          zones[e] = lineAt(e).zones(laws_, own, lambda, shape);
+        },
+        true);
+    std::vector<double> c(laws_.coefficients() * L), limits(2 * L);
+    for (std::size_t b = 0; b < seriesLines_.size(); ++b) {
+      const auto& lines = seriesLines_[b];
+      gather(lines.data(), static_cast<int>(lines.size()), u, 1, c.data());
+      for (int lane = 0; lane < L; ++lane) {
+        const std::size_t at = lane < static_cast<int>(lines.size()) ? lane : 0, nth = seriesNth_[b][at];
+        const auto& own = zones[lines[at]];
+        for (int r = 0; r < 2; ++r)
+          limits[r * L + lane] =
+              nth < own.size() ? own[nth].limits[r] : std::numeric_limits<double>::quiet_NaN();
+      }
+      f(static_cast<int>(b), limits, c);
     }
   }
 
