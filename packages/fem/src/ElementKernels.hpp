@@ -28,7 +28,7 @@ struct ElementView {
   const double* map = nullptr;     ///< mapped: [batch][q][d][i][lane] dxi_d/dX_i, shape has dN/dxi_d
   const double* weight = nullptr;  ///< [batch][q][lane]
 
-  KOKKOS_FORCEINLINE_FUNCTION int lanesIn(int b) const {
+  ATRAPOS_FORCEINLINE int lanesIn(int b) const {
     const int left = numEntities - b * kLanes;
     return left < kLanes ? left : kLanes;
   }
@@ -86,29 +86,29 @@ struct ElementSteps {
   static constexpr int I = D * C;
   static constexpr bool mappable = C == 2 || C == 3;
 
-  static KOKKOS_FORCEINLINE_FUNCTION std::size_t number(const ElementView& e, int b, int q) {
+  static ATRAPOS_FORCEINLINE std::size_t number(const ElementView& e, int b, int q) {
     return static_cast<std::size_t>(b) * e.Q + q;
   }
-  static KOKKOS_FORCEINLINE_FUNCTION const int* dofsOf(const ElementView& e, int b, int lane) {
+  static ATRAPOS_FORCEINLINE const int* dofsOf(const ElementView& e, int b, int lane) {
     return e.dofs + (static_cast<std::size_t>(b) * kLanes + lane) * e.N;
   }
 
   /// Entry i = node C + component of the shape functions of a point, as kept.
   struct Shared {
     const double* s;
-    KOKKOS_FORCEINLINE_FUNCTION Pack operator()(int i) const { return Pack(s[i]); }
+    ATRAPOS_FORCEINLINE Pack operator()(int i) const { return Pack(s[i]); }
   };
   struct Own {
     const double* s;
-    KOKKOS_FORCEINLINE_FUNCTION Pack operator()(int i) const { return Pack::load(s + i * kLanes); }
+    ATRAPOS_FORCEINLINE Pack operator()(int i) const { return Pack::load(s + i * kLanes); }
   };
-  static KOKKOS_FORCEINLINE_FUNCTION Shared sharedAt(const ElementView& e, int q) {
+  static ATRAPOS_FORCEINLINE Shared sharedAt(const ElementView& e, int q) {
     return {e.shape + static_cast<std::size_t>(q) * e.N * C};
   }
-  static KOKKOS_FORCEINLINE_FUNCTION Own ownAt(const ElementView& e, int b, int q, int s) {
+  static ATRAPOS_FORCEINLINE Own ownAt(const ElementView& e, int b, int q, int s) {
     return {e.shape + number(e, b, q) * e.N * C * kLanes + s};
   }
-  static KOKKOS_FORCEINLINE_FUNCTION Own mapAt(const ElementView& e, int b, int q, int s) {
+  static ATRAPOS_FORCEINLINE Own mapAt(const ElementView& e, int b, int q, int s) {
     return {e.map + number(e, b, q) * C * C * kLanes + s};
   }
 
@@ -149,8 +149,8 @@ struct ElementSteps {
   }
 
   template <class Shape>
-  static KOKKOS_FORCEINLINE_FUNCTION void interpolate(const ElementView& e, const Shape& shape,
-                                                      const Pack* local, Pack* in) {
+  static ATRAPOS_FORCEINLINE void interpolate(const ElementView& e, const Shape& shape, const Pack* local,
+                                              Pack* in) {
     ATRAPOS_UNROLL
     for (int m = 0; m < I; ++m) in[m] = Pack(0.0);
     for (int n = 0; n < e.N; ++n) {
@@ -202,8 +202,8 @@ struct ElementSteps {
   }
 
   template <class Shape>
-  static KOKKOS_FORCEINLINE_FUNCTION void accumulate(const ElementView& e, const Shape& shape,
-                                                     const Pack* out, Pack* force) {
+  static ATRAPOS_FORCEINLINE void accumulate(const ElementView& e, const Shape& shape, const Pack* out,
+                                             Pack* force) {
     for (int n = 0; n < e.N; ++n) {
       ATRAPOS_UNROLL
       for (int i = 0; i < D; ++i) {
@@ -278,7 +278,7 @@ struct ElementSteps {
     }
   }
   /// a_d = sum_c J_dc a_c of C entries `stride` apart.
-  static KOKKOS_FORCEINLINE_FUNCTION void turn(const Own& J, double* a, int stride) {
+  static ATRAPOS_FORCEINLINE void turn(const Own& J, double* a, int stride) {
     Pack x[C];
     ATRAPOS_UNROLL
     for (int c = 0; c < C; ++c) x[c] = Pack::load(a + c * stride * kLanes);
@@ -292,8 +292,7 @@ struct ElementSteps {
   }
 
   template <class Shape>
-  static KOKKOS_FORCEINLINE_FUNCTION void columnOf(const Shape& shape, int nb, const double* moduli,
-                                                   Pack* column) {
+  static ATRAPOS_FORCEINLINE void columnOf(const Shape& shape, int nb, const double* moduli, Pack* column) {
     for (int m = 0; m < I; ++m) {
       ATRAPOS_UNROLL
       for (int j = 0; j < D; ++j) {
@@ -306,8 +305,8 @@ struct ElementSteps {
     }
   }
 
-  static KOKKOS_FORCEINLINE_FUNCTION void begin(const BlockCorrection& correction, int na, int nb, int s,
-                                                Pack* block) {
+  static ATRAPOS_FORCEINLINE void begin(const BlockCorrection& correction, int na, int nb, int s,
+                                        Pack* block) {
     for (int i = 0; i < D; ++i)
       for (int j = 0; j < D; ++j) {
         const double* left = correction.left + (D * na + i) * correction.rank * kLanes + s;
@@ -322,8 +321,8 @@ struct ElementSteps {
   /// block += B_na^T column of `count` nodes from na on: with two of them each column is read once for both,
   /// and their sums stay in registers.
   template <int count>
-  static KOKKOS_FORCEINLINE_FUNCTION void multiply(const ElementView& e, int b, int s, int na,
-                                                   const Pack* column, Pack* block) {
+  static ATRAPOS_FORCEINLINE void multiply(const ElementView& e, int b, int s, int na, const Pack* column,
+                                           Pack* block) {
     for (int i = 0; i < D; ++i) {
       Pack sums[count * D];
       ATRAPOS_UNROLL
@@ -343,7 +342,7 @@ struct ElementSteps {
     }
   }
   template <int count, class Shape>
-  static KOKKOS_FORCEINLINE_FUNCTION void multiplyWith(const Shape& s, int na, const Pack* of, Pack* sums) {
+  static ATRAPOS_FORCEINLINE void multiplyWith(const Shape& s, int na, const Pack* of, Pack* sums) {
     ATRAPOS_UNROLL
     for (int c = 0; c < C; ++c) {
       ATRAPOS_UNROLL
@@ -355,9 +354,8 @@ struct ElementSteps {
     }
   }
 
-  static KOKKOS_FORCEINLINE_FUNCTION void addBlock(const ElementView& e, int b, int lane, int na, int nb,
-                                                   const Pack* block, int of, bool symmetric,
-                                                   const BlockSink& sink) {
+  static ATRAPOS_FORCEINLINE void addBlock(const ElementView& e, int b, int lane, int na, int nb,
+                                           const Pack* block, int of, bool symmetric, const BlockSink& sink) {
     const std::size_t entity = static_cast<std::size_t>(b) * kLanes + lane;
     const int* dof = dofsOf(e, b, lane);
     const auto add = [&](int row, int column, int alongRow, int alongColumn) {

@@ -52,21 +52,20 @@ struct PointPasses {
   static_assert(kLanes % L == 0, "a batch is a number of whole registers");
 
   /// `count` entries of L lanes from or to [entry][kLanes].
-  static KOKKOS_FORCEINLINE_FUNCTION void load(const double* from, int count, Pack* to) {
+  static ATRAPOS_FORCEINLINE void load(const double* from, int count, Pack* to) {
     for (int m = 0; m < count; ++m) to[m] = Pack::load(from + m * kLanes);
   }
-  static KOKKOS_FORCEINLINE_FUNCTION void store(const Pack* from, int count, double* to) {
+  static ATRAPOS_FORCEINLINE void store(const Pack* from, int count, double* to) {
     for (int m = 0; m < count; ++m) from[m].store(to + m * kLanes);
   }
-  static KOKKOS_FORCEINLINE_FUNCTION void loadData(const PointBatch& points, int q, int s, Pack* data) {
+  static ATRAPOS_FORCEINLINE void loadData(const PointBatch& points, int q, int s, Pack* data) {
     if constexpr (D > 0)
       load(points.data + q * D * kLanes + s, D, data);
     else
       data[0] = Pack(0.0);  // never read
   }
 
-  static KOKKOS_FORCEINLINE_FUNCTION taylor::Context<L> scratch(const taylor::HistoryShape& shape,
-                                                                double* memory) {
+  static ATRAPOS_FORCEINLINE taylor::Context<L> scratch(const taylor::HistoryShape& shape, double* memory) {
     taylor::Context<L> c;
     c.memory = memory;
     c.shape = shape;
@@ -128,8 +127,8 @@ struct PointPasses {
   }
 
   /// The first point whose results are not numbers.
-  static KOKKOS_FORCEINLINE_FUNCTION void note(const Pack* y, int count, const PointBatch& points, int q,
-                                               int s, const taylor::Failures<L>& noted, PointFailure& first) {
+  static ATRAPOS_FORCEINLINE void note(const Pack* y, int count, const PointBatch& points, int q, int s,
+                                       const taylor::Failures<L>& noted, PointFailure& first) {
     for (int lane = 0; lane < L && s + lane < points.lanes && first.lane < 0; ++lane)
       for (int m = 0; m < count; ++m)
         if (y[m][lane] != y[m][lane]) {

@@ -62,11 +62,11 @@ namespace detail {
 template <class T>
 class Values {
  public:
-  KOKKOS_FORCEINLINE_FUNCTION const T& operator[](int step) const {
+  ATRAPOS_FORCEINLINE const T& operator[](int step) const {
     return *reinterpret_cast<const T*>(memory_ + step * sizeof(T));
   }
   template <class E>
-  KOKKOS_FORCEINLINE_FUNCTION void set(int step, const E& value) {
+  ATRAPOS_FORCEINLINE void set(int step, const E& value) {
     new (memory_ + step * sizeof(T)) T(value);
   }
 
@@ -168,8 +168,8 @@ ATRAPOS_NOINLINE KOKKOS_FUNCTION void execute(const Program& program, const T* i
 /// results[0 .. numResults) of a program. in, data: as many as the program's builder was told of. T: double,
 /// a Fad type or a taylor::Sweep.
 template <class T>
-KOKKOS_FORCEINLINE_FUNCTION void evaluate(const Program& program, const T* in, const taylor::Passive<T>* data,
-                                          T* results) {
+ATRAPOS_FORCEINLINE void evaluate(const Program& program, const T* in, const taylor::Passive<T>* data,
+                                  T* results) {
   detail::Values<T> values;
   detail::execute(program, in, data, values);
   for (int r = 0; r < program.numResults; ++r) results[r] = values[program.results[r]];

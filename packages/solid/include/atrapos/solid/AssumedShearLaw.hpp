@@ -61,8 +61,8 @@ struct AssumedShearLaw {
 
  private:
   template <class T>
-  KOKKOS_FORCEINLINE_FUNCTION taylor::Symmetric3<T> stress(const ShellBase<T>& h, const T& e,
-                                                           const taylor::Passive<T>* data) const {
+  ATRAPOS_FORCEINLINE taylor::Symmetric3<T> stress(const ShellBase<T>& h, const T& e,
+                                                   const taylor::Passive<T>* data) const {
     return material.secondPiola(plusDyad(shellStrain(h, data, data + 12), e, data + 21));
   }
 };

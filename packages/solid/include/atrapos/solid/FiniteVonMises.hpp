@@ -21,7 +21,7 @@ template <class T>
 struct ElasticPart {
   T D[9], mean, d, inverse[6], m, square;
 
-  KOKKOS_FORCEINLINE_FUNCTION ElasticPart(double mu, const T* E, const T* z) {
+  ATRAPOS_FORCEINLINE ElasticPart(double mu, const T* E, const T* z) {
     using std::pow, atrapos::taylor::pow;
     const taylor::Symmetric3<T> strain(E);
     const taylor::Symmetric3<T> A = 2.0 * strain;

@@ -33,7 +33,7 @@ struct Gent : FirstInvariantLaw<Gent> {
   /// (mu/2)/(1 - x/limit), by the logarithm of the energy: beyond the limit there is no value, where a
   /// quotient would have a negative one.
   template <class T>
-  KOKKOS_FORCEINLINE_FUNCTION T slope(const T& x) const {
+  ATRAPOS_FORCEINLINE T slope(const T& x) const {
     using std::exp;
     using std::log1p, atrapos::taylor::log1p;
     const T left = log1p((-1.0 / limit) * x);

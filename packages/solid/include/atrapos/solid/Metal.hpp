@@ -24,14 +24,14 @@ struct Metal {
 
   /// R = yieldStress + H gamma + Q (1 - exp(-beta gamma)).
   template <class T>
-  KOKKOS_FORCEINLINE_FUNCTION T strength(const T& gamma) const {
+  ATRAPOS_FORCEINLINE T strength(const T& gamma) const {
     using std::exp;
     const T decay = exp(-exponent * gamma);
     return (yieldStress + saturation) + modulus * gamma - saturation * decay;
   }
   /// dR/d gamma.
   template <class T>
-  KOKKOS_FORCEINLINE_FUNCTION T hardening(const T& gamma) const {
+  ATRAPOS_FORCEINLINE T hardening(const T& gamma) const {
     using std::exp;
     const T decay = exp(-exponent * gamma);
     return modulus + (saturation * exponent) * decay;
@@ -40,12 +40,12 @@ struct Metal {
   /// Of a point's datum: 1 where it may flow, 0 where it is elastic. The points of a smoothed surface start
   /// as ones that flow, those of a sharp one as elastic ones.
   template <class P>
-  KOKKOS_FORCEINLINE_FUNCTION P flows(const P& datum) const {
+  ATRAPOS_FORCEINLINE P flows(const P& datum) const {
     return width > 0 ? 1.0 - datum : 1.0 * datum;
   }
   /// G: 1 of a sharp surface, exp((q^2/R^2 - 1)/(2 w)) of a smoothed one.
   template <class T>
-  KOKKOS_FORCEINLINE_FUNCTION T nearness(const T& ratioSquared) const {
+  ATRAPOS_FORCEINLINE T nearness(const T& ratioSquared) const {
     using std::exp;
     const double steepness = width > 0 ? 0.5 / width : 0;
     const T exponent = steepness * (ratioSquared - 1.0);
@@ -54,8 +54,7 @@ struct Metal {
   /// The event function of a point: the growing gamma where it flows; of an elastic one (R^2 - q^2)/R0^2 at a
   /// sharp surface, minus its share of flow at a smoothed one.
   template <class T>
-  KOKKOS_FORCEINLINE_FUNCTION T event(const T& squareOfQ, const T& gamma,
-                                      const taylor::Passive<T>& datum) const {
+  ATRAPOS_FORCEINLINE T event(const T& squareOfQ, const T& gamma, const taylor::Passive<T>& datum) const {
     const T relative = strength(gamma) * (1 / yieldStress);
     const T bound = relative * relative, reached = squareOfQ * (1 / (yieldStress * yieldStress));
     const T ratio = reached / bound;
@@ -94,8 +93,8 @@ struct Yielding {
   T ratio;      ///< q^2/R^2, at a sharp surface 1: gamma'/K (R gamma' is the power of what yields)
   T share;      ///< 0 of an elastic point, G of others
 
-  KOKKOS_FORCEINLINE_FUNCTION Yielding(const Metal& metal, const T& squareOfQ, const T& gamma,
-                                       const taylor::Passive<T>& datum) {
+  ATRAPOS_FORCEINLINE Yielding(const Metal& metal, const T& squareOfQ, const T& gamma,
+                               const taylor::Passive<T>& datum) {
     using std::sqrt;
     const double smooth = metal.width > 0 ? 1 : 0, sharp = 1 - smooth;
     const taylor::Passive<T> flows = metal.flows(datum);
@@ -118,10 +117,10 @@ struct FlowRule {
   Metal metal;
 
   /// dE_zz/dp_zz in plane stress: S_zz = 0.
-  KOKKOS_FORCEINLINE_FUNCTION double thinning() const { return 2 * metal.mu / (metal.lambda + 2 * metal.mu); }
+  ATRAPOS_FORCEINLINE double thinning() const { return 2 * metal.mu / (metal.lambda + 2 * metal.mu); }
   /// E_zz.
   template <class T>
-  KOKKOS_FORCEINLINE_FUNCTION T across(const T* E, const T* z) const {
+  ATRAPOS_FORCEINLINE T across(const T* E, const T* z) const {
     if constexpr (planeStress)
       return thinning() * z[3] - (metal.lambda / (metal.lambda + 2 * metal.mu)) * (E[0] + E[1]);
     else
@@ -129,7 +128,7 @@ struct FlowRule {
   }
   /// s - X, deviatoric, from strain and variables.
   template <class T>
-  KOKKOS_FORCEINLINE_FUNCTION void relativeStress(const T* E, const T* z, T* xi) const {
+  ATRAPOS_FORCEINLINE void relativeStress(const T* E, const T* z, T* xi) const {
     const T zz = across(E, z);
     const T mean = (1.0 / 3) * (E[0] + E[1] + zz);
     for (int i = 0; i < 6; ++i) {
@@ -140,7 +139,7 @@ struct FlowRule {
     }
   }
   template <class T>
-  static KOKKOS_FORCEINLINE_FUNCTION T square(const T* xi) {
+  static ATRAPOS_FORCEINLINE T square(const T* xi) {
     return 1.5 * (xi[0] * xi[0] + xi[1] * xi[1] + xi[2] * xi[2]) +
            3.0 * (xi[3] * xi[3] + xi[4] * xi[4] + xi[5] * xi[5]);
   }
@@ -191,8 +190,8 @@ struct FlowRule {
 /// the event function and the variables behind it. In plane stress E[2] is E_zz afterwards. data: whether the
 /// point yields; variables: those at the start.
 template <bool kinematic, bool planeStress, class T>
-KOKKOS_FORCEINLINE_FUNCTION void metalStress(const Metal& metal, T* E, const taylor::Passive<T>* data,
-                                             const taylor::Passive<T>* variables, T* stress, T* event) {
+ATRAPOS_FORCEINLINE void metalStress(const Metal& metal, T* E, const taylor::Passive<T>* data,
+                                     const taylor::Passive<T>* variables, T* stress, T* event) {
   using Flow = FlowRule<kinematic, planeStress>;
   T* const z = event + 1;
   for (int i = 0; i < Flow::numVariables; ++i) z[i] = T(variables[i]);

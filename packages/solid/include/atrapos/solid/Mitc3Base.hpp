@@ -16,9 +16,7 @@ struct Mitc3Place : TiedPlace<P> {
   /// [0..2] xi, eta, zeta; [3..5], [6..8] parts of the three edges' products, twice their shear strains, in 2
   /// E_13 and 2 E_23.
   static constexpr int numData = 9;
-  KOKKOS_FORCEINLINE_FUNCTION P first() const {
-    return 1.0 - this->xi() - this->eta();
-  }  ///< of the first corner
+  ATRAPOS_FORCEINLINE P first() const { return 1.0 - this->xi() - this->eta(); }  ///< of the first corner
 };
 
 namespace detail {
@@ -28,7 +26,7 @@ template <class P>
 struct Mitc3Spread {
   Mitc3Place<P> at;
   template <class V>
-  KOKKOS_FORCEINLINE_FUNCTION void operator()(const V* x, V* v) const {
+  ATRAPOS_FORCEINLINE void operator()(const V* x, V* v) const {
     const P zeta = at.zeta();
     v[0] = x[0] + zeta * (x[3] - x[2]);
     v[1] = x[1] + zeta * (x[4] - x[2]);
@@ -49,7 +47,7 @@ template <class P>
 struct Mitc3Gather {
   Mitc3Place<P> at;
   template <class V>
-  KOKKOS_FORCEINLINE_FUNCTION void operator()(const V* v, V* x) const {
+  ATRAPOS_FORCEINLINE void operator()(const V* v, V* x) const {
     const P zeta = at.zeta();
     x[0] = v[0] + v[2] - v[4];
     x[1] = v[1] + v[3] + v[4];
@@ -64,7 +62,7 @@ template <class P>
 struct Mitc3Strain {
   Mitc3Place<P> at;
   template <class V>
-  KOKKOS_FORCEINLINE_FUNCTION void operator()(const V* c, V* E) const {
+  ATRAPOS_FORCEINLINE void operator()(const V* c, V* E) const {
     const P *k = at.data, half = 0.5 * at.zeta();
     E[0] = c[0];
     E[1] = c[1];
@@ -80,7 +78,7 @@ template <class P>
 struct Mitc3Weights {
   Mitc3Place<P> at;
   template <class V>
-  KOKKOS_FORCEINLINE_FUNCTION void operator()(const V* s, V* c) const {
+  ATRAPOS_FORCEINLINE void operator()(const V* s, V* c) const {
     const P *k = at.data, zeta = at.zeta();
     c[0] = s[0];
     c[1] = s[1];
@@ -99,7 +97,7 @@ template <class P>
 struct Mitc3LinearForces {
   const P* G;
   template <class V>
-  KOKKOS_FORCEINLINE_FUNCTION void operator()(const V* s, V* f) const {
+  ATRAPOS_FORCEINLINE void operator()(const V* s, V* f) const {
     f[0] = G[0] * s[0] + G[1] * s[2];
     f[1] = G[1] * s[1] + G[0] * s[2];
     f[2] = G[5] * s[3];

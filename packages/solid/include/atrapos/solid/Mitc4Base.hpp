@@ -26,7 +26,7 @@ template <class P>
 struct Mitc4Spread {
   Mitc4Place<P> at;
   template <class V>
-  KOKKOS_FORCEINLINE_FUNCTION void operator()(const V* x, V* v) const {
+  ATRAPOS_FORCEINLINE void operator()(const V* x, V* v) const {
     const P xi = at.xi(), eta = at.eta(), zeta = at.zeta();
     const V d = 0.25 * (x[3] + x[4] + x[5] + x[6]), dXi = 0.25 * (x[4] + x[5] - x[3] - x[6]),
             dEta = 0.25 * (x[5] + x[6] - x[3] - x[4]), n = 0.25 * (x[3] + x[5] - x[4] - x[6]);
@@ -50,7 +50,7 @@ template <class P>
 struct Mitc4Gather {
   Mitc4Place<P> at;
   template <class V>
-  KOKKOS_FORCEINLINE_FUNCTION void operator()(const V* v, V* x) const {
+  ATRAPOS_FORCEINLINE void operator()(const V* v, V* x) const {
     const P xi = at.xi(), eta = at.eta(), zeta = at.zeta();
     const V d = 0.25 * (v[4] + v[5]), dXi = 0.25 * (zeta * v[0] + xi * v[5] + v[13]),
             dEta = 0.25 * (zeta * v[1] + eta * v[4] + v[3]),
@@ -67,7 +67,7 @@ struct Mitc4Gather {
 
 /// Bilinear shape function of a corner.
 template <class P>
-KOKKOS_FORCEINLINE_FUNCTION P mitc4Shape(const Mitc4Place<P>& at, int corner) {
+ATRAPOS_FORCEINLINE P mitc4Shape(const Mitc4Place<P>& at, int corner) {
   const P x = corner == 0 || corner == 3 ? 1.0 - at.xi() : 1.0 + at.xi();
   const P y = corner < 2 ? 1.0 - at.eta() : 1.0 + at.eta();
   return 0.25 * (x * y);
@@ -78,7 +78,7 @@ template <class P>
 struct Mitc4Strain {
   Mitc4Place<P> at;
   template <class V>
-  KOKKOS_FORCEINLINE_FUNCTION void operator()(const V* c, V* E) const {
+  ATRAPOS_FORCEINLINE void operator()(const V* c, V* E) const {
     const P *k = at.data + 5, xi = at.xi(), eta = at.eta();
     E[0] = c[0] + k[0] * c[10] + k[3] * c[11];
     E[1] = c[1] + k[1] * c[10] + k[4] * c[11];
@@ -95,7 +95,7 @@ template <class P>
 struct Mitc4Weights {
   Mitc4Place<P> at;
   template <class V>
-  KOKKOS_FORCEINLINE_FUNCTION void operator()(const V* s, V* c) const {
+  ATRAPOS_FORCEINLINE void operator()(const V* s, V* c) const {
     const P *k = at.data + 5, xi = at.xi(), eta = at.eta();
     c[0] = s[0];
     c[1] = s[1];
@@ -116,7 +116,7 @@ template <class P>
 struct Mitc4LinearForces {
   const P* G;
   template <class V>
-  KOKKOS_FORCEINLINE_FUNCTION void operator()(const V* s, V* f) const {
+  ATRAPOS_FORCEINLINE void operator()(const V* s, V* f) const {
     f[0] = G[0] * s[0] + G[1] * s[2] + G[4] * s[3];
     f[1] = G[1] * s[1] + G[0] * s[2] + G[5] * s[4];
     f[2] = G[3] * s[5] + G[13] * s[12];

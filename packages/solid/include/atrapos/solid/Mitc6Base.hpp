@@ -33,7 +33,7 @@ template <class P>
 struct Mitc6Spread {
   Mitc6Place<P> at;
   template <class V>
-  KOKKOS_FORCEINLINE_FUNCTION void operator()(const V* x, V* v) const {
+  ATRAPOS_FORCEINLINE void operator()(const V* x, V* v) const {
     using namespace mitc6;
     const P xi = at.xi(), eta = at.eta(), zeta = at.zeta();
     const V* d = x + 5;
@@ -77,7 +77,7 @@ template <class P>
 struct Mitc6Gather {
   Mitc6Place<P> at;
   template <class V>
-  KOKKOS_FORCEINLINE_FUNCTION void operator()(const V* v, V* x) const {
+  ATRAPOS_FORCEINLINE void operator()(const V* v, V* x) const {
     using namespace mitc6;
     const P xi = at.xi(), eta = at.eta(), zeta = at.zeta();
     constexpr double third = 1.0 / 3;
@@ -114,7 +114,7 @@ template <class P>
 struct Mitc6Strain {
   Mitc6Place<P> at;
   template <class V>
-  KOKKOS_FORCEINLINE_FUNCTION void operator()(const V* c, V* E) const {
+  ATRAPOS_FORCEINLINE void operator()(const V* c, V* E) const {
     const P *k = at.data + 3, *first = at.data + 12, *second = at.data + 20;
     const V along = k[6] * c[6] + k[7] * c[7] + k[8] * c[8];
     E[0] = k[0] * c[0] + k[1] * c[1] + k[2] * c[2];
@@ -137,7 +137,7 @@ template <class P>
 struct Mitc6Weights {
   Mitc6Place<P> at;
   template <class V>
-  KOKKOS_FORCEINLINE_FUNCTION void operator()(const V* s, V* c) const {
+  ATRAPOS_FORCEINLINE void operator()(const V* s, V* c) const {
     const P *k = at.data + 3, *first = at.data + 12, *second = at.data + 20;
     const V byFirst = s[0] + s[3], bySecond = s[1] + s[3];
     ATRAPOS_UNROLL
@@ -157,7 +157,7 @@ template <class P>
 struct Mitc6LinearForces {
   const P* G;
   template <class V>
-  KOKKOS_FORCEINLINE_FUNCTION void operator()(const V* s, V* f) const {
+  ATRAPOS_FORCEINLINE void operator()(const V* s, V* f) const {
     constexpr int onEdges[6] = {0, 1, 3, 4, 6, 7};
     ATRAPOS_UNROLL
     for (int m = 0; m < 9; ++m) f[m] = G[m] * s[m];

@@ -29,8 +29,8 @@ struct MooneyRivlin : SecondInvariantLaw<MooneyRivlin> {
   double shearModulus() const { return 2 * (c1 + c2); }  ///< at rest
 
   template <class T>
-  KOKKOS_FORCEINLINE_FUNCTION void factors(const detail::Dilated<T>& x, const T& pressure, T& ofI, T& ofK,
-                                           T& ofA) const {
+  ATRAPOS_FORCEINLINE void factors(const detail::Dilated<T>& x, const T& pressure, T& ofI, T& ofK,
+                                   T& ofA) const {
     const T n = x.m / x.J2;
     const T p = x.m * n;
     const T first = x.d - (1.0 / 3) * x.i1;

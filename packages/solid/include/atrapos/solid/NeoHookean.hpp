@@ -33,7 +33,7 @@ struct NeoHookean : RubberLaw<NeoHookean> {
 
   /// S = mu (I - C^-1) + lambda ln J C^-1 from the Green-Lagrange strain.
   template <class T>
-  KOKKOS_FORCEINLINE_FUNCTION taylor::Symmetric3<T> secondPiola(const taylor::Symmetric3<T>& E) const {
+  ATRAPOS_FORCEINLINE taylor::Symmetric3<T> secondPiola(const taylor::Symmetric3<T>& E) const {
     using std::log1p, atrapos::taylor::log1p;
     const taylor::Symmetric3<T> A = 2.0 * E;
     const taylor::Symmetric3<T> K = detail::cofactorChange(A);
@@ -61,7 +61,7 @@ struct NeoHookean : RubberLaw<NeoHookean> {
 
   /// What MixedLaw is made of: lambda ln J is scale times the last input.
   template <class T>
-  KOKKOS_FORCEINLINE_FUNCTION void mixed(const T* in, double scale, T* out) const {
+  ATRAPOS_FORCEINLINE void mixed(const T* in, double scale, T* out) const {
     using std::log1p, atrapos::taylor::log1p;
     const taylor::Matrix3<T> H(in);
     const taylor::Matrix3<T> K = detail::cofactorChange(H);

@@ -83,8 +83,8 @@ struct Ogden : SecondInvariantLaw<Ogden> {
   double shearModulus() const;  ///< at rest, sum of mu alpha / 2
 
   template <class T>
-  KOKKOS_FORCEINLINE_FUNCTION void factors(const detail::Dilated<T>& x, const T& pressure, T& ofI, T& ofK,
-                                           T& ofA) const {
+  ATRAPOS_FORCEINLINE void factors(const detail::Dilated<T>& x, const T& pressure, T& ofI, T& ofK,
+                                   T& ofA) const {
     const T m2 = x.m * x.m;
     const T x1 = 3.0 * (x.m - 1.0) + x.m * x.i1;
     const T x2 = 3.0 * (m2 - 1.0) + m2 * x.i2;

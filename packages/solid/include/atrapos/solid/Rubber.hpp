@@ -32,7 +32,7 @@ struct SquareTerms {
 
 /// tr(F^T F) - 3
 template <class T>
-KOKKOS_FORCEINLINE_FUNCTION T firstInvariantChange(const taylor::Matrix3<T>& H) {
+ATRAPOS_FORCEINLINE T firstInvariantChange(const taylor::Matrix3<T>& H) {
   taylor::detail::Scalar<T> squares;
   taylor::detail::bilinear<SquareTerms>(H, H, squares);
   return 2.0 * trace(H) + squares.entry(0);
@@ -40,22 +40,21 @@ KOKKOS_FORCEINLINE_FUNCTION T firstInvariantChange(const taylor::Matrix3<T>& H) 
 
 /// cof(I + H) - I
 template <class T>
-KOKKOS_FORCEINLINE_FUNCTION taylor::Matrix3<T> cofactorChange(const taylor::Matrix3<T>& H) {
+ATRAPOS_FORCEINLINE taylor::Matrix3<T> cofactorChange(const taylor::Matrix3<T>& H) {
   return plusIdentity(cofactor(H) - transpose(H), trace(H));
 }
 template <class T>
-KOKKOS_FORCEINLINE_FUNCTION taylor::Symmetric3<T> cofactorChange(const taylor::Symmetric3<T>& A) {
+ATRAPOS_FORCEINLINE taylor::Symmetric3<T> cofactorChange(const taylor::Symmetric3<T>& A) {
   return plusIdentity(cofactor(A) - A, trace(A));
 }
 
 /// det(I + H) - 1 from H and K = cofactorChange(H), by the first row.
 template <class T>
-KOKKOS_FORCEINLINE_FUNCTION T determinantChange(const taylor::Matrix3<T>& H, const taylor::Matrix3<T>& K) {
+ATRAPOS_FORCEINLINE T determinantChange(const taylor::Matrix3<T>& H, const taylor::Matrix3<T>& K) {
   return H(0, 0) + K(0, 0) + determinant(H, K);
 }
 template <class T>
-KOKKOS_FORCEINLINE_FUNCTION T determinantChange(const taylor::Symmetric3<T>& A,
-                                                const taylor::Symmetric3<T>& K) {
+ATRAPOS_FORCEINLINE T determinantChange(const taylor::Symmetric3<T>& A, const taylor::Symmetric3<T>& K) {
   return A(0, 0) + K(0, 0) + determinant(A, K);
 }
 
@@ -66,7 +65,7 @@ inline void requirePositive(double x, const char* what) {
 /// U'(J)/J of the common volumetric energy, by its bulk modulus: (J^2 - 1)/J^2.
 struct BulkPressure {
   template <class T>
-  KOKKOS_FORCEINLINE_FUNCTION T operator()(const T&, const T& d, const T& J2) const {
+  ATRAPOS_FORCEINLINE T operator()(const T&, const T& d, const T& J2) const {
     return d / J2;
   }
 };
@@ -74,12 +73,12 @@ struct BulkPressure {
 template <class T>
 struct GivenPressure {
   const T& pressure;
-  KOKKOS_FORCEINLINE_FUNCTION T operator()(const T& J, const T&, const T&) const { return pressure / J; }
+  ATRAPOS_FORCEINLINE T operator()(const T& J, const T&, const T&) const { return pressure / J; }
 };
 
 /// J - 1 where U'(J) = bulk/2 (J - 1/J) = bulk sinh(ln J) is q bulk.
 template <class T>
-KOKKOS_FORCEINLINE_FUNCTION T volumeChangeAt(const T& q) {
+ATRAPOS_FORCEINLINE T volumeChangeAt(const T& q) {
   using std::asinh;
   using std::expm1, atrapos::taylor::expm1;
   const T logarithm = asinh(q);
@@ -127,7 +126,7 @@ struct SplitLaw : RubberLaw<Law> {
 
   /// S from the Green-Lagrange strain.
   template <class T>
-  KOKKOS_FORCEINLINE_FUNCTION taylor::Symmetric3<T> secondPiola(const taylor::Symmetric3<T>& E) const {
+  ATRAPOS_FORCEINLINE taylor::Symmetric3<T> secondPiola(const taylor::Symmetric3<T>& E) const {
     using std::pow;
     const taylor::Symmetric3<T> A = 2.0 * E;
     const taylor::Symmetric3<T> K = detail::cofactorChange(A);
@@ -145,14 +144,14 @@ struct SplitLaw : RubberLaw<Law> {
 
   /// What MixedLaw is made of.
   template <class T>
-  KOKKOS_FORCEINLINE_FUNCTION void mixed(const T* in, double scale, T* out) const {
+  ATRAPOS_FORCEINLINE void mixed(const T* in, double scale, T* out) const {
     const T j = law().stressOfGradient(in, scale, detail::GivenPressure<T>{in[9]}, out);
     const T q = (scale / bulk) * in[9];
     out[9] = scale * (j - detail::volumeChangeAt(q));
   }
 
  private:
-  KOKKOS_FORCEINLINE_FUNCTION const Law& law() const { return static_cast<const Law&>(*this); }
+  ATRAPOS_FORCEINLINE const Law& law() const { return static_cast<const Law&>(*this); }
 };
 
 /// Laws whose energy is a function f of the first invariant of the isochoric part and the common volumetric
@@ -164,10 +163,9 @@ struct SplitLaw : RubberLaw<Law> {
 template <class Law>
 struct FirstInvariantLaw : SplitLaw<Law> {
   template <class T>
-  KOKKOS_FORCEINLINE_FUNCTION taylor::Symmetric3<T> stress(const taylor::Symmetric3<T>& A,
-                                                           const taylor::Symmetric3<T>& K, const T& d,
-                                                           const T& J2, const T& m, double modulus,
-                                                           const T& pressure) const {
+  ATRAPOS_FORCEINLINE taylor::Symmetric3<T> stress(const taylor::Symmetric3<T>& A,
+                                                   const taylor::Symmetric3<T>& K, const T& d, const T& J2,
+                                                   const T& m, double modulus, const T& pressure) const {
     const T i1 = trace(A);
     T s, t;
     factors(i1, d, J2, m, modulus, pressure, s, t);
@@ -176,8 +174,8 @@ struct FirstInvariantLaw : SplitLaw<Law> {
 
   /// P of F and cof F, without C: fewer products than F S, and J itself, not J^2, must be positive.
   template <class T, class Volumetric>
-  KOKKOS_FORCEINLINE_FUNCTION T stressOfGradient(const T* in, double modulus, const Volumetric& volumetric,
-                                                 T* out) const {
+  ATRAPOS_FORCEINLINE T stressOfGradient(const T* in, double modulus, const Volumetric& volumetric,
+                                         T* out) const {
     using std::pow;
     const taylor::Matrix3<T> H(in);
     const taylor::Matrix3<T> K = detail::cofactorChange(H);
@@ -204,8 +202,8 @@ struct FirstInvariantLaw : SplitLaw<Law> {
   /// S = s I + t (cof C - I) from i1 = I_1 - 3, d = J^2 - 1, J2 = J^2, m = J^(-2/3), U'(J)/J = modulus
   /// pressure.
   template <class T>
-  KOKKOS_FORCEINLINE_FUNCTION void factors(const T& i1, const T& d, const T& J2, const T& m, double modulus,
-                                           const T& pressure, T& s, T& t) const {
+  ATRAPOS_FORCEINLINE void factors(const T& i1, const T& d, const T& J2, const T& m, double modulus,
+                                   const T& pressure, T& s, T& t) const {
     const T x = m * i1 + 3.0 * m - 3.0;
     const T slope = static_cast<const Law&>(*this).slope(x);
     const T n = m / J2;
@@ -226,8 +224,8 @@ template <class Law>
 struct SecondInvariantLaw : SplitLaw<Law> {
   /// P = F S: the second invariant needs C anyway. J comes from F, for its sign.
   template <class T, class Volumetric>
-  KOKKOS_FORCEINLINE_FUNCTION T stressOfGradient(const T* in, double modulus, const Volumetric& volumetric,
-                                                 T* out) const {
+  ATRAPOS_FORCEINLINE T stressOfGradient(const T* in, double modulus, const Volumetric& volumetric,
+                                         T* out) const {
     using std::pow;
     const taylor::Matrix3<T> H(in);
     // The first row of cof F - I
@@ -248,10 +246,9 @@ struct SecondInvariantLaw : SplitLaw<Law> {
   }
 
   template <class T>
-  KOKKOS_FORCEINLINE_FUNCTION taylor::Symmetric3<T> stress(const taylor::Symmetric3<T>& A,
-                                                           const taylor::Symmetric3<T>& K, const T& d,
-                                                           const T& J2, const T& m, double modulus,
-                                                           const T& pressure) const {
+  ATRAPOS_FORCEINLINE taylor::Symmetric3<T> stress(const taylor::Symmetric3<T>& A,
+                                                   const taylor::Symmetric3<T>& K, const T& d, const T& J2,
+                                                   const T& m, double modulus, const T& pressure) const {
     const T i1 = trace(A);
     const T i2 = trace(K);
     const T spherical = modulus * pressure;

@@ -35,7 +35,7 @@ struct SaintVenantKirchhoff {
 
   /// S from the Green-Lagrange strain.
   template <class T>
-  KOKKOS_FORCEINLINE_FUNCTION taylor::Symmetric3<T> secondPiola(const taylor::Symmetric3<T>& E) const {
+  ATRAPOS_FORCEINLINE taylor::Symmetric3<T> secondPiola(const taylor::Symmetric3<T>& E) const {
     const T spherical = lambda * trace(E);
     return plusIdentity((2 * mu) * E, spherical);
   }

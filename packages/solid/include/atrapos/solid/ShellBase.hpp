@@ -11,7 +11,7 @@ namespace atrapos::solid {
 template <class T>
 struct ShellBase : taylor::detail::Tensor<T, 12> {
   ShellBase() = default;
-  KOKKOS_FORCEINLINE_FUNCTION explicit ShellBase(const T* rows) : taylor::detail::Tensor<T, 12>(rows) {}
+  ATRAPOS_FORCEINLINE explicit ShellBase(const T* rows) : taylor::detail::Tensor<T, 12>(rows) {}
 };
 
 namespace detail {
@@ -57,7 +57,7 @@ template <class S>
 struct ShellLinearStrain {
   const S* G;
   template <class V>
-  KOKKOS_FORCEINLINE_FUNCTION void operator()(const V* h, V* out) const {
+  ATRAPOS_FORCEINLINE void operator()(const V* h, V* out) const {
     out[0] = G[0] * h[0] + G[4] * h[4] + G[8] * h[8];
     out[1] = G[1] * h[1] + G[5] * h[5] + G[9] * h[9];
     out[2] = 0.5 * (G[2] * h[3] + G[3] * h[2] + G[6] * h[7] + G[7] * h[6] + G[10] * h[11] + G[11] * h[10]);
@@ -72,7 +72,7 @@ template <class S>
 struct ShellLinearForce {
   const S* G;
   template <class V>
-  KOKKOS_FORCEINLINE_FUNCTION void operator()(const V* s, V* out) const {
+  ATRAPOS_FORCEINLINE void operator()(const V* s, V* out) const {
     out[0] = G[0] * s[0] + G[1] * s[3] + G[2] * s[5];
     out[1] = G[0] * s[3] + G[1] * s[1] + G[3] * s[4];
     out[2] = G[0] * s[5] + G[3] * s[2];
@@ -93,7 +93,7 @@ template <class S>
 struct ToCartesian {
   const S* A;
   template <class V>
-  KOKKOS_FORCEINLINE_FUNCTION void operator()(const V* E, V* out) const {
+  ATRAPOS_FORCEINLINE void operator()(const V* E, V* out) const {
     const V m00 = A[0] * E[0] + A[1] * E[3] + A[2] * E[5];
     const V m01 = A[0] * E[3] + A[1] * E[1] + A[2] * E[4];
     const V m02 = A[0] * E[5] + A[1] * E[4] + A[2] * E[2];
@@ -117,7 +117,7 @@ template <class S>
 struct ToConvected {
   const S* A;
   template <class V>
-  KOKKOS_FORCEINLINE_FUNCTION void operator()(const V* s, V* out) const {
+  ATRAPOS_FORCEINLINE void operator()(const V* s, V* out) const {
     const V m00 = A[0] * s[0] + A[3] * s[3] + A[6] * s[5];
     const V m01 = A[1] * s[0] + A[4] * s[3] + A[7] * s[5];
     const V m02 = A[2] * s[0] + A[5] * s[3] + A[8] * s[5];
@@ -141,9 +141,8 @@ struct ToConvected {
 /// Green-Lagrange strain in Cartesian components, from the changes h of the vectors, the vectors G at rest
 /// ([component][vector]) and the contravariant base A ([component][direction]).
 template <class T>
-KOKKOS_FORCEINLINE_FUNCTION taylor::Symmetric3<T> shellStrain(const ShellBase<T>& h,
-                                                              const taylor::Passive<T>* G,
-                                                              const taylor::Passive<T>* A) {
+ATRAPOS_FORCEINLINE taylor::Symmetric3<T> shellStrain(const ShellBase<T>& h, const taylor::Passive<T>* G,
+                                                      const taylor::Passive<T>* A) {
   taylor::Symmetric3<T> linear, products, E;
   taylor::detail::linear(detail::ShellLinearStrain<taylor::Passive<T>>{G}, h, linear);
   taylor::detail::bilinear<detail::ShellProductTerms>(h, h, products);
@@ -154,9 +153,8 @@ KOKKOS_FORCEINLINE_FUNCTION taylor::Symmetric3<T> shellStrain(const ShellBase<T>
 
 /// Work conjugates of h for the second Piola-Kirchhoff stress S (Cartesian).
 template <class T>
-KOKKOS_FORCEINLINE_FUNCTION ShellBase<T> shellForces(const ShellBase<T>& h, const taylor::Symmetric3<T>& S,
-                                                     const taylor::Passive<T>* G,
-                                                     const taylor::Passive<T>* A) {
+ATRAPOS_FORCEINLINE ShellBase<T> shellForces(const ShellBase<T>& h, const taylor::Symmetric3<T>& S,
+                                             const taylor::Passive<T>* G, const taylor::Passive<T>* A) {
   taylor::Symmetric3<T> convected;
   taylor::detail::linear(detail::ToConvected<taylor::Passive<T>>{A}, S, convected);
   ShellBase<T> constant, product, f;

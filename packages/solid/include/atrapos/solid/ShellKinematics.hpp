@@ -25,16 +25,15 @@ struct PlainShell {
   static constexpr int numInputs = 9, numData = 9;
 
   template <class T>
-  static KOKKOS_FORCEINLINE_FUNCTION taylor::Symmetric3<T> strain(const T* x,
-                                                                  const taylor::Passive<T>* axes) {
+  static ATRAPOS_FORCEINLINE taylor::Symmetric3<T> strain(const T* x, const taylor::Passive<T>* axes) {
     taylor::Symmetric3<T> E;
     taylor::detail::linear(detail::ToCartesian<taylor::Passive<T>>{turned(axes).entries},
                            greenLagrange(taylor::Matrix3<T>(x)), E);
     return E;
   }
   template <class T>
-  static KOKKOS_FORCEINLINE_FUNCTION void forces(const T* x, const taylor::Symmetric3<T>& S,
-                                                 const taylor::Passive<T>* axes, T* out) {
+  static ATRAPOS_FORCEINLINE void forces(const T* x, const taylor::Symmetric3<T>& S,
+                                         const taylor::Passive<T>* axes, T* out) {
     const taylor::Matrix3<T> H(x);
     taylor::Symmetric3<T> inSpace;
     taylor::detail::linear(detail::ToCartesian<taylor::Passive<T>>{axes}, S, inSpace);
@@ -59,7 +58,7 @@ struct PlainShell {
     P entries[9];
   };
   template <class P>
-  static KOKKOS_FORCEINLINE_FUNCTION Turned<P> turned(const P* axes) {
+  static ATRAPOS_FORCEINLINE Turned<P> turned(const P* axes) {
     return {{axes[0], axes[3], axes[6], axes[1], axes[4], axes[7], axes[2], axes[5], axes[8]}};
   }
 };
@@ -70,13 +69,12 @@ struct AssumedShearShell {
   static constexpr int numInputs = 12, numData = 21;
 
   template <class T>
-  static KOKKOS_FORCEINLINE_FUNCTION taylor::Symmetric3<T> strain(const T* x,
-                                                                  const taylor::Passive<T>* data) {
+  static ATRAPOS_FORCEINLINE taylor::Symmetric3<T> strain(const T* x, const taylor::Passive<T>* data) {
     return shellStrain(ShellBase<T>(x), data, data + 12);
   }
   template <class T>
-  static KOKKOS_FORCEINLINE_FUNCTION void forces(const T* x, const taylor::Symmetric3<T>& S,
-                                                 const taylor::Passive<T>* data, T* out) {
+  static ATRAPOS_FORCEINLINE void forces(const T* x, const taylor::Symmetric3<T>& S,
+                                         const taylor::Passive<T>* data, T* out) {
     const ShellBase<T> f = shellForces(ShellBase<T>(x), S, data, data + 12);
     f.store(out);
   }
@@ -102,13 +100,12 @@ struct TiedShell {
                        numData = firstBase + 9;
 
   template <class T>
-  static KOKKOS_FORCEINLINE_FUNCTION taylor::Symmetric3<T> strain(const T* x,
-                                                                  const taylor::Passive<T>* data) {
+  static ATRAPOS_FORCEINLINE taylor::Symmetric3<T> strain(const T* x, const taylor::Passive<T>* data) {
     return TiedPoint<Element, T>(x, data, data + numInputs).strain(data + firstBase);
   }
   template <class T>
-  static KOKKOS_FORCEINLINE_FUNCTION void forces(const T* x, const taylor::Symmetric3<T>& S,
-                                                 const taylor::Passive<T>* data, T* out) {
+  static ATRAPOS_FORCEINLINE void forces(const T* x, const taylor::Symmetric3<T>& S,
+                                         const taylor::Passive<T>* data, T* out) {
     TiedPoint<Element, T>(x, data, data + numInputs).forces(S, data + firstBase, out);
   }
   static KOKKOS_INLINE_FUNCTION void gradient(const double* x, const double* data, double* F) {

@@ -30,8 +30,8 @@ struct ShellLaw {
 
   /// S of (H, e).
   template <class T>
-  KOKKOS_FORCEINLINE_FUNCTION taylor::Symmetric3<T> stress(const taylor::Matrix3<T>& H, const T& e,
-                                                           const taylor::Passive<T>* g) const {
+  ATRAPOS_FORCEINLINE taylor::Symmetric3<T> stress(const taylor::Matrix3<T>& H, const T& e,
+                                                   const taylor::Passive<T>* g) const {
     return material.secondPiola(plusDyad(greenLagrange(H), e, g));
   }
 

@@ -14,11 +14,11 @@ namespace detail {
 
 /// Of a direction across the body: E = h + h^2/2, and the conjugate of h.
 template <class T>
-KOKKOS_FORCEINLINE_FUNCTION T strainAcross(const T& h) {
+ATRAPOS_FORCEINLINE T strainAcross(const T& h) {
   return h + 0.5 * (h * h);
 }
 template <class T>
-KOKKOS_FORCEINLINE_FUNCTION T forceAcross(const T& h, const T& S) {
+ATRAPOS_FORCEINLINE T forceAcross(const T& h, const T& S) {
   return S + h * S;
 }
 
@@ -31,8 +31,7 @@ struct MembraneKinematics {
   static constexpr int numInputs = free ? 7 : 6, numData = 7;
 
   template <class T>
-  static KOKKOS_FORCEINLINE_FUNCTION taylor::Symmetric3<T> strain(const T* x,
-                                                                  const taylor::Passive<T>* data) {
+  static ATRAPOS_FORCEINLINE taylor::Symmetric3<T> strain(const T* x, const taylor::Passive<T>* data) {
     taylor::Symmetric3<T> E;
     E.set(0, 0, change(x, data, 0, 0));
     E.set(1, 1, change(x, data, 1, 1));
@@ -46,8 +45,8 @@ struct MembraneKinematics {
     return E;
   }
   template <class T>
-  static KOKKOS_FORCEINLINE_FUNCTION void forces(const T* x, const taylor::Symmetric3<T>& S,
-                                                 const taylor::Passive<T>* data, T* out) {
+  static ATRAPOS_FORCEINLINE void forces(const T* x, const taylor::Symmetric3<T>& S,
+                                         const taylor::Passive<T>* data, T* out) {
     const T s00 = S(0, 0) + data[6], s11 = S(1, 1) + data[6], s01 = S(0, 1);
     for (int i = 0; i < 3; ++i) {
       const T a0 = x[2 * i] + data[2 * i], a1 = x[2 * i + 1] + data[2 * i + 1];
@@ -73,7 +72,7 @@ struct MembraneKinematics {
  private:
   /// (a_b.h_c + h_b.a_c + h_b.h_c)/2
   template <class T>
-  static KOKKOS_FORCEINLINE_FUNCTION T change(const T* x, const taylor::Passive<T>* a, int b, int c) {
+  static ATRAPOS_FORCEINLINE T change(const T* x, const taylor::Passive<T>* a, int b, int c) {
     const T quadratic = x[b] * x[c] + x[2 + b] * x[2 + c] + x[4 + b] * x[4 + c];
     const T left = a[b] * x[c] + a[2 + b] * x[2 + c] + a[4 + b] * x[4 + c];
     const T right = a[c] * x[b] + a[2 + c] * x[2 + b] + a[4 + c] * x[4 + b];
@@ -88,8 +87,7 @@ struct BarKinematics {
   static constexpr int numInputs = free ? 4 : 3, numData = 4;
 
   template <class T>
-  static KOKKOS_FORCEINLINE_FUNCTION taylor::Symmetric3<T> strain(const T* x,
-                                                                  const taylor::Passive<T>* data) {
+  static ATRAPOS_FORCEINLINE taylor::Symmetric3<T> strain(const T* x, const taylor::Passive<T>* data) {
     const T quadratic = x[0] * x[0] + x[1] * x[1] + x[2] * x[2];
     const T along = data[0] * x[0] + data[1] * x[1] + data[2] * x[2] + 0.5 * quadratic;
     taylor::Symmetric3<T> E;
@@ -103,8 +101,8 @@ struct BarKinematics {
     return E;
   }
   template <class T>
-  static KOKKOS_FORCEINLINE_FUNCTION void forces(const T* x, const taylor::Symmetric3<T>& S,
-                                                 const taylor::Passive<T>* data, T* out) {
+  static ATRAPOS_FORCEINLINE void forces(const T* x, const taylor::Symmetric3<T>& S,
+                                         const taylor::Passive<T>* data, T* out) {
     const T s = S(0, 0) + data[3];
     for (int i = 0; i < 3; ++i) {
       const T t = x[i] + data[i];

@@ -14,12 +14,12 @@ struct BarFlowRule {
   static constexpr int numVariables = kinematic ? 3 : 2;
   Metal metal;
 
-  KOKKOS_FORCEINLINE_FUNCTION double youngsModulus() const {
+  ATRAPOS_FORCEINLINE double youngsModulus() const {
     return metal.mu * (3 * metal.lambda + 2 * metal.mu) / (metal.lambda + metal.mu);
   }
   /// S_11 - chi.
   template <class T>
-  KOKKOS_FORCEINLINE_FUNCTION T relativeStress(const T* E, const T* z) const {
+  ATRAPOS_FORCEINLINE T relativeStress(const T* E, const T* z) const {
     T xi = youngsModulus() * (E[0] - z[1]);
     if constexpr (kinematic) xi = xi - z[2];
     return xi;

@@ -18,9 +18,9 @@ namespace atrapos::solid {
 template <class P>
 struct TiedPlace {
   const P* data;  ///< [0..2] xi, eta, zeta
-  KOKKOS_FORCEINLINE_FUNCTION P xi() const { return data[0]; }
-  KOKKOS_FORCEINLINE_FUNCTION P eta() const { return data[1]; }
-  KOKKOS_FORCEINLINE_FUNCTION P zeta() const { return data[2]; }
+  ATRAPOS_FORCEINLINE P xi() const { return data[0]; }
+  ATRAPOS_FORCEINLINE P eta() const { return data[1]; }
+  ATRAPOS_FORCEINLINE P zeta() const { return data[2]; }
 };
 
 namespace detail {
@@ -74,7 +74,7 @@ template <class Element, class P>
 struct TiedLinearProducts {
   const P* G;
   template <class V>
-  KOKKOS_FORCEINLINE_FUNCTION void operator()(const V* h, V* c) const {
+  ATRAPOS_FORCEINLINE void operator()(const V* h, V* c) const {
     ATRAPOS_UNROLL
     for (int m = 0; m < tiedProducts<Element>; ++m) {
       const int a = Element::pairs[m][0], b = Element::pairs[m][1];
@@ -90,7 +90,7 @@ struct TiedLinearProducts {
 template <class Element>
 struct TiedHalveSquares {
   template <class V>
-  KOKKOS_FORCEINLINE_FUNCTION void operator()(const V* linear, const V* products, V* c) const {
+  ATRAPOS_FORCEINLINE void operator()(const V* linear, const V* products, V* c) const {
     ATRAPOS_UNROLL
     for (int m = 0; m < tiedProducts<Element>; ++m) {
       if (tiedSquare<Element>(m))
@@ -127,7 +127,7 @@ class TiedPoint {
 
  public:
   /// change: of the element's vectors, which atRest has at rest ([component][vector]); place of the point.
-  KOKKOS_FORCEINLINE_FUNCTION TiedPoint(const T* change, const P* atRest, const P* place) : place_{place} {
+  ATRAPOS_FORCEINLINE TiedPoint(const T* change, const P* atRest, const P* place) : place_{place} {
     ATRAPOS_UNROLL
     for (int k = 0; k < 3; ++k) {
       const typename Element::template Spread<P> spread{place_};
@@ -137,7 +137,7 @@ class TiedPoint {
   }
 
   /// Green-Lagrange strain in the components of the contravariant base A, [axis][direction].
-  KOKKOS_FORCEINLINE_FUNCTION taylor::Symmetric3<T> strain(const P* A) const {
+  ATRAPOS_FORCEINLINE taylor::Symmetric3<T> strain(const P* A) const {
     taylor::detail::Tensor<T, M> sums[3];
     ATRAPOS_UNROLL
     for (int k = 0; k < 3; ++k) {
@@ -156,7 +156,7 @@ class TiedPoint {
   }
 
   /// Work conjugates of the element's vectors for the second Piola-Kirchhoff stress.
-  KOKKOS_FORCEINLINE_FUNCTION void forces(const taylor::Symmetric3<T>& S, const P* A, T* out) const {
+  ATRAPOS_FORCEINLINE void forces(const taylor::Symmetric3<T>& S, const P* A, T* out) const {
     taylor::Symmetric3<T> convected;
     taylor::detail::Tensor<T, M> weights;
     taylor::detail::linear(detail::ToConvected<P>{A}, S, convected);

@@ -31,7 +31,7 @@ struct Yeoh : FirstInvariantLaw<Yeoh> {
   double shearModulus() const { return 2 * c1; }  ///< at rest
 
   template <class T>
-  KOKKOS_FORCEINLINE_FUNCTION T slope(const T& x) const {
+  ATRAPOS_FORCEINLINE T slope(const T& x) const {
     const T curvature = 2 * c2 + (3 * c3) * x;
     return c1 + curvature * x;
   }

@@ -27,30 +27,30 @@ KOKKOS_INLINE_FUNCTION Sweep<X> quotient(const LanesOf<X>& ak, const Sweep<X>& b
 }
 
 template <class E, class F, class X>
-KOKKOS_FORCEINLINE_FUNCTION Scaled<E, F, X> scale(const Expression<E, X>& e, const F& factor) {
+ATRAPOS_FORCEINLINE Scaled<E, F, X> scale(const Expression<E, X>& e, const F& factor) {
   return {e.self(), factor};
 }
 template <class E, class F, class G, class X>
-KOKKOS_FORCEINLINE_FUNCTION auto scale(const Scaled<E, F, X>& e, const G& factor) {
+ATRAPOS_FORCEINLINE auto scale(const Scaled<E, F, X>& e, const G& factor) {
   using FG = decltype(e.factor * factor);
   return Scaled<E, FG, X>(e.x, e.factor * factor);
 }
 
 // A factor of an operand becomes one of the product, so that the operand itself needs no history.
 template <class A, class B, class X>
-KOKKOS_FORCEINLINE_FUNCTION Product<A, B, X> multiply(const Expression<A, X>& a, const Expression<B, X>& b) {
+ATRAPOS_FORCEINLINE Product<A, B, X> multiply(const Expression<A, X>& a, const Expression<B, X>& b) {
   return {a.self(), b.self()};
 }
 template <class A, class F, class B, class X>
-KOKKOS_FORCEINLINE_FUNCTION auto multiply(const Scaled<A, F, X>& a, const Expression<B, X>& b) {
+ATRAPOS_FORCEINLINE auto multiply(const Scaled<A, F, X>& a, const Expression<B, X>& b) {
   return scale<Product<A, B, X>, F, X>(Product<A, B, X>(a.x, b.self()), a.factor);
 }
 template <class A, class B, class F, class X>
-KOKKOS_FORCEINLINE_FUNCTION auto multiply(const Expression<A, X>& a, const Scaled<B, F, X>& b) {
+ATRAPOS_FORCEINLINE auto multiply(const Expression<A, X>& a, const Scaled<B, F, X>& b) {
   return scale<Product<A, B, X>, F, X>(Product<A, B, X>(a.self(), b.x), b.factor);
 }
 template <class A, class F, class B, class G, class X>
-KOKKOS_FORCEINLINE_FUNCTION auto multiply(const Scaled<A, F, X>& a, const Scaled<B, G, X>& b) {
+ATRAPOS_FORCEINLINE auto multiply(const Scaled<A, F, X>& a, const Scaled<B, G, X>& b) {
   using FG = decltype(a.factor * b.factor);
   return scale<Product<A, B, X>, FG, X>(Product<A, B, X>(a.x, b.x), a.factor * b.factor);
 }
@@ -58,72 +58,70 @@ KOKKOS_FORCEINLINE_FUNCTION auto multiply(const Scaled<A, F, X>& a, const Scaled
 }  // namespace detail
 
 template <class E, class X>
-KOKKOS_FORCEINLINE_FUNCTION auto operator+(const Expression<E, X>& a) {
+ATRAPOS_FORCEINLINE auto operator+(const Expression<E, X>& a) {
   return detail::scale(a.self(), 1.0);
 }
 
 template <class E, class X>
-KOKKOS_FORCEINLINE_FUNCTION auto operator-(const Expression<E, X>& a) {
+ATRAPOS_FORCEINLINE auto operator-(const Expression<E, X>& a) {
   return detail::scale(a.self(), -1.0);
 }
 
 template <class A, class B, class X>
-KOKKOS_FORCEINLINE_FUNCTION detail::Sum<A, B, 1, X> operator+(const Expression<A, X>& a,
-                                                              const Expression<B, X>& b) {
+ATRAPOS_FORCEINLINE detail::Sum<A, B, 1, X> operator+(const Expression<A, X>& a, const Expression<B, X>& b) {
   return {a.self(), b.self()};
 }
 
 template <class A, class B, class X>
-KOKKOS_FORCEINLINE_FUNCTION detail::Sum<A, B, -1, X> operator-(const Expression<A, X>& a,
-                                                               const Expression<B, X>& b) {
+ATRAPOS_FORCEINLINE detail::Sum<A, B, -1, X> operator-(const Expression<A, X>& a, const Expression<B, X>& b) {
   return {a.self(), b.self()};
 }
 
 template <class A, class B, class X>
-KOKKOS_FORCEINLINE_FUNCTION auto operator*(const Expression<A, X>& a, const Expression<B, X>& b) {
+ATRAPOS_FORCEINLINE auto operator*(const Expression<A, X>& a, const Expression<B, X>& b) {
   return detail::multiply(a.self(), b.self());
 }
 
 template <class A, class B, class X>
-KOKKOS_FORCEINLINE_FUNCTION Sweep<X> operator/(const Expression<A, X>& a, const Expression<B, X>& b) {
+ATRAPOS_FORCEINLINE Sweep<X> operator/(const Expression<A, X>& a, const Expression<B, X>& b) {
   const auto& divisor = detail::variable(b.self());
   Context<X::lanes>* own = a.self().context();
   if (divisor.isPassive()) return {detail::evaluate(a, own) / divisor.value(), own};
   return detail::quotient(detail::evaluate(a, own != nullptr ? own : divisor.context()), divisor);
 }
 
-#define ATRAPOS_EXPRESSION_WITH(PASSIVE)                                                 \
-  template <class E, class X>                                                            \
-  KOKKOS_FORCEINLINE_FUNCTION auto operator+(const Expression<E, X>& a, PASSIVE b) {     \
-    return a + detail::Constant<X>(b);                                                   \
-  }                                                                                      \
-  template <class E, class X>                                                            \
-  KOKKOS_FORCEINLINE_FUNCTION auto operator+(PASSIVE a, const Expression<E, X>& b) {     \
-    return b + detail::Constant<X>(a);                                                   \
-  }                                                                                      \
-  template <class E, class X>                                                            \
-  KOKKOS_FORCEINLINE_FUNCTION auto operator-(const Expression<E, X>& a, PASSIVE b) {     \
-    return a - detail::Constant<X>(b);                                                   \
-  }                                                                                      \
-  template <class E, class X>                                                            \
-  KOKKOS_FORCEINLINE_FUNCTION auto operator-(PASSIVE a, const Expression<E, X>& b) {     \
-    return detail::Constant<X>(a) - b;                                                   \
-  }                                                                                      \
-  template <class E, class X>                                                            \
-  KOKKOS_FORCEINLINE_FUNCTION auto operator*(const Expression<E, X>& a, PASSIVE b) {     \
-    return detail::scale(a.self(), b);                                                   \
-  }                                                                                      \
-  template <class E, class X>                                                            \
-  KOKKOS_FORCEINLINE_FUNCTION auto operator*(PASSIVE a, const Expression<E, X>& b) {     \
-    return detail::scale(b.self(), a);                                                   \
-  }                                                                                      \
-  template <class E, class X>                                                            \
-  KOKKOS_FORCEINLINE_FUNCTION auto operator/(const Expression<E, X>& a, PASSIVE b) {     \
-    return detail::scale(a.self(), 1.0 / b);                                             \
-  }                                                                                      \
-  template <class E, class X>                                                            \
-  KOKKOS_FORCEINLINE_FUNCTION Sweep<X> operator/(PASSIVE a, const Expression<E, X>& b) { \
-    return Sweep<X>(a) / b;                                                              \
+#define ATRAPOS_EXPRESSION_WITH(PASSIVE)                                         \
+  template <class E, class X>                                                    \
+  ATRAPOS_FORCEINLINE auto operator+(const Expression<E, X>& a, PASSIVE b) {     \
+    return a + detail::Constant<X>(b);                                           \
+  }                                                                              \
+  template <class E, class X>                                                    \
+  ATRAPOS_FORCEINLINE auto operator+(PASSIVE a, const Expression<E, X>& b) {     \
+    return b + detail::Constant<X>(a);                                           \
+  }                                                                              \
+  template <class E, class X>                                                    \
+  ATRAPOS_FORCEINLINE auto operator-(const Expression<E, X>& a, PASSIVE b) {     \
+    return a - detail::Constant<X>(b);                                           \
+  }                                                                              \
+  template <class E, class X>                                                    \
+  ATRAPOS_FORCEINLINE auto operator-(PASSIVE a, const Expression<E, X>& b) {     \
+    return detail::Constant<X>(a) - b;                                           \
+  }                                                                              \
+  template <class E, class X>                                                    \
+  ATRAPOS_FORCEINLINE auto operator*(const Expression<E, X>& a, PASSIVE b) {     \
+    return detail::scale(a.self(), b);                                           \
+  }                                                                              \
+  template <class E, class X>                                                    \
+  ATRAPOS_FORCEINLINE auto operator*(PASSIVE a, const Expression<E, X>& b) {     \
+    return detail::scale(b.self(), a);                                           \
+  }                                                                              \
+  template <class E, class X>                                                    \
+  ATRAPOS_FORCEINLINE auto operator/(const Expression<E, X>& a, PASSIVE b) {     \
+    return detail::scale(a.self(), 1.0 / b);                                     \
+  }                                                                              \
+  template <class E, class X>                                                    \
+  ATRAPOS_FORCEINLINE Sweep<X> operator/(PASSIVE a, const Expression<E, X>& b) { \
+    return Sweep<X>(a) / b;                                                      \
   }
 
 ATRAPOS_EXPRESSION_WITH(double)

@@ -18,7 +18,7 @@ struct BilinearTerm {
 /// out = sum of terms at order 0, for any type with + - *. Terms of one output stand in the order of the
 /// list.
 template <class Terms, class T, std::size_t... t>
-KOKKOS_FORCEINLINE_FUNCTION void addTerms(const T* a, const T* b, T* out, std::index_sequence<t...>) {
+ATRAPOS_FORCEINLINE void addTerms(const T* a, const T* b, T* out, std::index_sequence<t...>) {
   ((Terms::list[t].sign > 0
         ? void(out[Terms::list[t].out] += a[Terms::list[t].left] * b[Terms::list[t].right])
         : void(out[Terms::list[t].out] -= a[Terms::list[t].left] * b[Terms::list[t].right])),
@@ -33,46 +33,46 @@ using Entries = std::make_index_sequence<N>;
 
 // A value loaded once and held in a register where that pays.
 template <int L>
-KOKKOS_FORCEINLINE_FUNCTION Lanes<L> held(Lanes<L> a) {
+ATRAPOS_FORCEINLINE Lanes<L> held(Lanes<L> a) {
   Lanes<L>::Register::hold(a.v);
   return a;
 }
 
 template <int L>
-KOKKOS_FORCEINLINE_FUNCTION Lanes<L> loadHeld(const double* p, int entry) {
+ATRAPOS_FORCEINLINE Lanes<L> loadHeld(const double* p, int entry) {
   return held(Lanes<L>::load(p + entry * L));
 }
 
 // Loops over the entries of local arrays are written as folds: only then do the arrays become registers.
 template <int L, std::size_t... n>
-KOKKOS_FORCEINLINE_FUNCTION void loadBlock(const double* p, Lanes<L>* a, std::index_sequence<n...>) {
+ATRAPOS_FORCEINLINE void loadBlock(const double* p, Lanes<L>* a, std::index_sequence<n...>) {
   ((a[n] = loadHeld<L>(p, n)), ...);
 }
 
 template <int L, std::size_t... n>
-KOKKOS_FORCEINLINE_FUNCTION void storeBlock(const Lanes<L>* a, double* p, std::index_sequence<n...>) {
+ATRAPOS_FORCEINLINE void storeBlock(const Lanes<L>* a, double* p, std::index_sequence<n...>) {
   (a[n].store(p + n * L), ...);
 }
 
 template <int L, std::size_t... n>
-KOKKOS_FORCEINLINE_FUNCTION void clearEntries(Lanes<L>* a, std::index_sequence<n...>) {
+ATRAPOS_FORCEINLINE void clearEntries(Lanes<L>* a, std::index_sequence<n...>) {
   ((a[n] = Lanes<L>(0.0)), ...);
 }
 
 template <int L, std::size_t... n>
-KOKKOS_FORCEINLINE_FUNCTION void copyEntries(const Lanes<L>* a, Lanes<L>* out, std::index_sequence<n...>) {
+ATRAPOS_FORCEINLINE void copyEntries(const Lanes<L>* a, Lanes<L>* out, std::index_sequence<n...>) {
   ((out[n] = a[n]), ...);
 }
 
 template <int L, std::size_t... n>
-KOKKOS_FORCEINLINE_FUNCTION void addEntries(const Lanes<L>* a, Lanes<L>* out, std::index_sequence<n...>) {
+ATRAPOS_FORCEINLINE void addEntries(const Lanes<L>* a, Lanes<L>* out, std::index_sequence<n...>) {
   ((out[n] += a[n]), ...);
 }
 
 /// Fetches the cache lines of N lanes of doubles; those that reach into one line more, where they do not
 /// begin with a line, fetch that as well.
 template <int L, std::size_t... n>
-KOKKOS_FORCEINLINE_FUNCTION void fetch([[maybe_unused]] const double* p, std::index_sequence<n...>) {
+ATRAPOS_FORCEINLINE void fetch([[maybe_unused]] const double* p, std::index_sequence<n...>) {
 #if defined(__GNUC__) && !defined(__CUDACC__) && !defined(__HIPCC__)
   constexpr int line = 8, end = L * static_cast<int>(sizeof...(n));
   ((L * n % line == 0 ? __builtin_prefetch(p + L * n) : void()), ...);
@@ -96,17 +96,17 @@ struct LoadedTerms {
   const double *p, *q;
   Lanes<L> x[Terms::numLeft], y[Terms::numRight];
 
-  KOKKOS_FORCEINLINE_FUNCTION LoadedTerms(const double* left, const double* right) : p(left), q(right) {}
+  ATRAPOS_FORCEINLINE LoadedTerms(const double* left, const double* right) : p(left), q(right) {}
 
-  KOKKOS_FORCEINLINE_FUNCTION void addTo(Lanes<L>* sum) { addAll(sum, TermIndices<Terms>()); }
+  ATRAPOS_FORCEINLINE void addTo(Lanes<L>* sum) { addAll(sum, TermIndices<Terms>()); }
 
  private:
   template <std::size_t... t>
-  KOKKOS_FORCEINLINE_FUNCTION void addAll(Lanes<L>* sum, std::index_sequence<t...>) {
+  ATRAPOS_FORCEINLINE void addAll(Lanes<L>* sum, std::index_sequence<t...>) {
     (add<t>(sum), ...);
   }
   template <std::size_t t>
-  KOKKOS_FORCEINLINE_FUNCTION void add(Lanes<L>* sum) {
+  ATRAPOS_FORCEINLINE void add(Lanes<L>* sum) {
     constexpr BilinearTerm term = Terms::list[t];
     if constexpr (readsFirst<Terms>(t, term.left, true, false)) x[term.left] = loadHeld<L>(p, term.left);
     if constexpr (readsFirst<Terms>(t, term.right, false, true)) y[term.right] = loadHeld<L>(q, term.right);
@@ -120,8 +120,8 @@ struct LoadedTerms {
 /// Adds the terms at (a_i, b_{k-i}), i = first..k-first, to out; a and b are different blocks of slots.
 /// Meanwhile the same place of b's `ahead` doubles on is fetched (a's is where a meets itself).
 template <class Terms, int L>
-KOKKOS_FORCEINLINE_FUNCTION void convolveBlocks(const double* a, const double* b, std::ptrdiff_t stride,
-                                                int k, int first, std::ptrdiff_t ahead, Lanes<L>* out) {
+ATRAPOS_FORCEINLINE void convolveBlocks(const double* a, const double* b, std::ptrdiff_t stride, int k,
+                                        int first, std::ptrdiff_t ahead, Lanes<L>* out) {
   Lanes<L> sum[Terms::numOut];
   clearEntries(sum, Entries<Terms::numOut>());
   const double* p = a + first * stride;
@@ -135,8 +135,8 @@ KOKKOS_FORCEINLINE_FUNCTION void convolveBlocks(const double* a, const double* b
 
 /// Adds the terms at (a_i, b_{k-i}) and at (a_{k-i}, b_i), i = 1..last, to out.
 template <class Terms, int L>
-KOKKOS_FORCEINLINE_FUNCTION void convolveEnds(const double* a, const double* b, std::ptrdiff_t stride, int k,
-                                              int last, std::ptrdiff_t ahead, Lanes<L>* out) {
+ATRAPOS_FORCEINLINE void convolveEnds(const double* a, const double* b, std::ptrdiff_t stride, int k,
+                                      int last, std::ptrdiff_t ahead, Lanes<L>* out) {
   Lanes<L> sum[Terms::numOut];
   clearEntries(sum, Entries<Terms::numOut>());
   for (int i = 1; i <= last; ++i) {
@@ -152,8 +152,8 @@ KOKKOS_FORCEINLINE_FUNCTION void convolveEnds(const double* a, const double* b, 
 // A term of a block with itself at (i, j) and (j, i). Where an output consists of squares alone both are the
 // same: counted once here, doubled at the end (addBoth).
 template <class Terms, std::size_t t, int L>
-KOKKOS_FORCEINLINE_FUNCTION void addSymmetricTerm(const Lanes<L>* x, const Lanes<L>* y, Lanes<L>* forward,
-                                                  Lanes<L>* backward) {
+ATRAPOS_FORCEINLINE void addSymmetricTerm(const Lanes<L>* x, const Lanes<L>* y, Lanes<L>* forward,
+                                          Lanes<L>* backward) {
   constexpr BilinearTerm term = Terms::list[t];
   if constexpr (term.sign > 0)
     forward[term.out] += x[term.left] * y[term.right];
@@ -167,20 +167,20 @@ KOKKOS_FORCEINLINE_FUNCTION void addSymmetricTerm(const Lanes<L>* x, const Lanes
   }
 }
 template <class Terms, int L, std::size_t... t>
-KOKKOS_FORCEINLINE_FUNCTION void addSymmetricTerms(const Lanes<L>* x, const Lanes<L>* y, Lanes<L>* forward,
-                                                   Lanes<L>* backward, std::index_sequence<t...>) {
+ATRAPOS_FORCEINLINE void addSymmetricTerms(const Lanes<L>* x, const Lanes<L>* y, Lanes<L>* forward,
+                                           Lanes<L>* backward, std::index_sequence<t...>) {
   (addSymmetricTerm<Terms, t>(x, y, forward, backward), ...);
 }
 
 template <class Terms, int L, std::size_t... o>
-KOKKOS_FORCEINLINE_FUNCTION void addBoth(const Lanes<L>* forward, const Lanes<L>* backward, Lanes<L>* out,
-                                         std::index_sequence<o...>) {
+ATRAPOS_FORCEINLINE void addBoth(const Lanes<L>* forward, const Lanes<L>* backward, Lanes<L>* out,
+                                 std::index_sequence<o...>) {
   ((out[o] += Terms::onlySquares(o) ? 2.0 * forward[o] : forward[o] + backward[o]), ...);
 }
 
 /// out += the terms at (x, y) and at (y, x).
 template <class Terms, int L>
-KOKKOS_FORCEINLINE_FUNCTION void addPairs(const Lanes<L>* x, const Lanes<L>* y, Lanes<L>* out) {
+ATRAPOS_FORCEINLINE void addPairs(const Lanes<L>* x, const Lanes<L>* y, Lanes<L>* out) {
   Lanes<L> forward[Terms::numOut], backward[Terms::numOut];
   clearEntries(forward, Entries<Terms::numOut>());
   clearEntries(backward, Entries<Terms::numOut>());
@@ -194,26 +194,26 @@ struct LoadedPairs {
   const double *p, *q;
   Lanes<L> x[Terms::numLeft], y[Terms::numLeft];
 
-  KOKKOS_FORCEINLINE_FUNCTION LoadedPairs(const double* one, const double* other) : p(one), q(other) {}
+  ATRAPOS_FORCEINLINE LoadedPairs(const double* one, const double* other) : p(one), q(other) {}
 
-  KOKKOS_FORCEINLINE_FUNCTION void addTo(Lanes<L>* forward, Lanes<L>* backward) {
+  ATRAPOS_FORCEINLINE void addTo(Lanes<L>* forward, Lanes<L>* backward) {
     addAll(forward, backward, TermIndices<Terms>());
   }
 
  private:
   template <std::size_t... t>
-  KOKKOS_FORCEINLINE_FUNCTION void addAll(Lanes<L>* forward, Lanes<L>* backward, std::index_sequence<t...>) {
+  ATRAPOS_FORCEINLINE void addAll(Lanes<L>* forward, Lanes<L>* backward, std::index_sequence<t...>) {
     (add<t>(forward, backward), ...);
   }
   template <std::size_t t>
-  KOKKOS_FORCEINLINE_FUNCTION void add(Lanes<L>* forward, Lanes<L>* backward) {
+  ATRAPOS_FORCEINLINE void add(Lanes<L>* forward, Lanes<L>* backward) {
     constexpr BilinearTerm term = Terms::list[t];
     if constexpr (readsFirst<Terms>(t, term.left, true, true)) load<term.left>();
     if constexpr (term.right != term.left && readsFirst<Terms>(t, term.right, true, true)) load<term.right>();
     addSymmetricTerm<Terms, t>(x, y, forward, backward);
   }
   template <int entry>
-  KOKKOS_FORCEINLINE_FUNCTION void load() {
+  ATRAPOS_FORCEINLINE void load() {
     x[entry] = loadHeld<L>(p, entry);
     y[entry] = loadHeld<L>(q, entry);
   }
@@ -221,8 +221,8 @@ struct LoadedPairs {
 
 /// convolveBlocks where both blocks are one.
 template <class Terms, int L>
-KOKKOS_FORCEINLINE_FUNCTION void convolveBlock(const double* a, std::ptrdiff_t stride, int k, int first,
-                                               std::ptrdiff_t ahead, Lanes<L>* out) {
+ATRAPOS_FORCEINLINE void convolveBlock(const double* a, std::ptrdiff_t stride, int k, int first,
+                                       std::ptrdiff_t ahead, Lanes<L>* out) {
   using All = Entries<Terms::numLeft>;
   using Outputs = Entries<Terms::numOut>;
   Lanes<L> forward[Terms::numOut], backward[Terms::numOut];
@@ -246,8 +246,8 @@ KOKKOS_FORCEINLINE_FUNCTION void convolveBlock(const double* a, std::ptrdiff_t s
 
 /// convolveEnds where both blocks are one.
 template <class Terms, int L>
-KOKKOS_FORCEINLINE_FUNCTION void convolveBlockEnds(const double* a, std::ptrdiff_t stride, int k, int last,
-                                                   std::ptrdiff_t ahead, Lanes<L>* out) {
+ATRAPOS_FORCEINLINE void convolveBlockEnds(const double* a, std::ptrdiff_t stride, int k, int last,
+                                           std::ptrdiff_t ahead, Lanes<L>* out) {
   using All = Entries<Terms::numLeft>;
   using Outputs = Entries<Terms::numOut>;
   Lanes<L> forward[Terms::numOut], backward[Terms::numOut];
@@ -267,8 +267,8 @@ KOKKOS_FORCEINLINE_FUNCTION void convolveBlockEnds(const double* a, std::ptrdiff
 /// pairs of orders below it for the whole block, and leaves the sums of later orders in `waiting`; those add
 /// the pairs that were not known then.
 template <class Terms, class X>
-KOKKOS_FORCEINLINE_FUNCTION void convolveTerms(const Context<X::lanes>& c, const double* p, const double* q,
-                                               double* waiting, LanesOf<X>* out) {
+ATRAPOS_FORCEINLINE void convolveTerms(const Context<X::lanes>& c, const double* p, const double* q,
+                                       double* waiting, LanesOf<X>* out) {
   using Outputs = Entries<Terms::numOut>;
   const int k = c.order;
   const std::ptrdiff_t perOrder = static_cast<std::ptrdiff_t>(c.shape.sums) * X::lanes;
@@ -315,15 +315,15 @@ struct Block {
   Block() = default;
 
   /// From variables; their slots serve where they lie side by side.
-  KOKKOS_FORCEINLINE_FUNCTION explicit Block(const Sweep<X>* a) : Block(a, std::make_index_sequence<N>()) {}
+  ATRAPOS_FORCEINLINE explicit Block(const Sweep<X>* a) : Block(a, std::make_index_sequence<N>()) {}
 
-  KOKKOS_FORCEINLINE_FUNCTION Sweep<X> entry(int n) const {
+  ATRAPOS_FORCEINLINE Sweep<X> entry(int n) const {
     if (context == nullptr) return Sweep<X>(v[n]);
     return Sweep<X>(v[n], context, slots == nullptr ? nullptr : slots + n * X::lanes);
   }
 
   /// An entry is written over: the histories are no longer those of the block.
-  KOKKOS_FORCEINLINE_FUNCTION void set(int n, const Sweep<X>& a) {
+  ATRAPOS_FORCEINLINE void set(int n, const Sweep<X>& a) {
     if (context == nullptr && a.context() != nullptr) {
       context = a.context();
       if constexpr (X::pass != Pass::Start) clearEntries(v, std::make_index_sequence<N>());
@@ -334,7 +334,7 @@ struct Block {
   }
 
   /// The order-0 lanes of the histories, taken the first time.
-  KOKKOS_FORCEINLINE_FUNCTION const double* histories(Context<X::lanes>& c) const {
+  ATRAPOS_FORCEINLINE const double* histories(Context<X::lanes>& c) const {
     if (slots == nullptr) {
       slots = takeSlots<X>(c, N);
       recordAll(c, std::make_index_sequence<N>());
@@ -343,11 +343,11 @@ struct Block {
   }
 
   /// Coefficients of this pass beside active values: constants count in Start only.
-  KOKKOS_FORCEINLINE_FUNCTION bool counts() const { return X::pass == Pass::Start || context != nullptr; }
+  ATRAPOS_FORCEINLINE bool counts() const { return X::pass == Pass::Start || context != nullptr; }
 
  private:
   template <std::size_t... n>
-  KOKKOS_FORCEINLINE_FUNCTION Block(const Sweep<X>* a, std::index_sequence<n...>) {
+  ATRAPOS_FORCEINLINE Block(const Sweep<X>* a, std::index_sequence<n...>) {
     ((context = context != nullptr ? context : a[n].context()), ...);
     if (context == nullptr) {
       ((v[n] = a[n].value()), ...);
@@ -361,7 +361,7 @@ struct Block {
     }
   }
   template <std::size_t... n>
-  KOKKOS_FORCEINLINE_FUNCTION void recordAll(const Context<X::lanes>& c, std::index_sequence<n...>) const {
+  ATRAPOS_FORCEINLINE void recordAll(const Context<X::lanes>& c, std::index_sequence<n...>) const {
     (record<X::pass>(c, slots + static_cast<std::ptrdiff_t>(n) * X::lanes, counts() ? v[n] : LanesOf<X>(0.0)),
      ...);
   }
@@ -369,8 +369,7 @@ struct Block {
 
 /// out = the terms' sums of the first entries of two blocks (or of one with itself: Terms::ofOneBlock).
 template <class Terms, class X, int M, int N>
-KOKKOS_FORCEINLINE_FUNCTION void bilinear(const Block<X, M>& a, const Block<X, N>& b,
-                                          Block<X, Terms::numOut>& out) {
+ATRAPOS_FORCEINLINE void bilinear(const Block<X, M>& a, const Block<X, N>& b, Block<X, Terms::numOut>& out) {
   static_assert(Terms::numLeft <= M && Terms::numRight <= N);
   Context<X::lanes>* context = a.context != nullptr ? a.context : b.context;
   out.context = context;

@@ -12,7 +12,7 @@ namespace atrapos::taylor {
 template <int L>
 struct Mask {
   Lanes<L> v;  ///< 1 or 0
-  KOKKOS_FORCEINLINE_FUNCTION bool operator[](int l) const { return v[l] != 0; }
+  ATRAPOS_FORCEINLINE bool operator[](int l) const { return v[l] != 0; }
 };
 
 template <int L>

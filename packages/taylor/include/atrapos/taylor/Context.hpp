@@ -106,7 +106,7 @@ struct Context {
 
   /// Begins an execution with what the caller has given. Read number by number: a wider load would have to
   /// wait for the caller's stores to reach the cache.
-  KOKKOS_FORCEINLINE_FUNCTION void begin(const Context& given) {
+  ATRAPOS_FORCEINLINE void begin(const Context& given) {
     memory = alone(given.memory);
     shape.slots = alone(given.shape.slots);
     shape.constants = alone(given.shape.constants);
@@ -128,7 +128,7 @@ struct Context {
 
  private:
   template <class N>
-  static KOKKOS_FORCEINLINE_FUNCTION N alone(N number) {
+  static ATRAPOS_FORCEINLINE N alone(N number) {
 #if defined(__GNUC__) && !defined(__CUDA_ARCH__)
     asm("" : "+r"(number));
 #endif
@@ -160,7 +160,7 @@ KOKKOS_INLINE_FUNCTION Lanes<L> restrictTo(const Context<L>& context, Operation 
 
 /// `count` consecutive slots; returns the order-0 lanes of the first.
 template <class X>
-KOKKOS_FORCEINLINE_FUNCTION double* takeSlots(Context<X::lanes>& context, int count = 1) {
+ATRAPOS_FORCEINLINE double* takeSlots(Context<X::lanes>& context, int count = 1) {
   context.taken.slots += count;
   if constexpr (X::counting) {
     if (context.taken.slots > context.shape.slots) return context.memory;
@@ -176,7 +176,7 @@ KOKKOS_FORCEINLINE_FUNCTION double* takeSlots(Context<X::lanes>& context, int co
 
 /// Where `count` sums of this execution wait, [order waiting][sum][lane].
 template <class X>
-KOKKOS_FORCEINLINE_FUNCTION double* takeSums(Context<X::lanes>& context, int count) {
+ATRAPOS_FORCEINLINE double* takeSums(Context<X::lanes>& context, int count) {
   context.taken.sums += count;
   double* sums = context.nextSum;
   context.nextSum += count * X::lanes;
@@ -185,9 +185,8 @@ KOKKOS_FORCEINLINE_FUNCTION double* takeSums(Context<X::lanes>& context, int cou
 
 // In Complete the value is an increment of what Sweep left.
 template <Pass P, int L>
-KOKKOS_FORCEINLINE_FUNCTION void record([[maybe_unused]] const Context<L>& context,
-                                        [[maybe_unused]] double* slot,
-                                        [[maybe_unused]] const Lanes<L>& value) {
+ATRAPOS_FORCEINLINE void record([[maybe_unused]] const Context<L>& context, [[maybe_unused]] double* slot,
+                                [[maybe_unused]] const Lanes<L>& value) {
   if constexpr (P == Pass::Linear) return;
   double* p = slot + context.order * context.stride;
   if constexpr (P == Pass::Complete)
@@ -198,7 +197,7 @@ KOKKOS_FORCEINLINE_FUNCTION void record([[maybe_unused]] const Context<L>& conte
 
 /// A number of order 0 that later passes need: `value` counts in Start, when it is kept.
 template <class X>
-KOKKOS_FORCEINLINE_FUNCTION LanesOf<X> keep(Context<X::lanes>& context, const LanesOf<X>& value) {
+ATRAPOS_FORCEINLINE LanesOf<X> keep(Context<X::lanes>& context, const LanesOf<X>& value) {
   ++context.taken.constants;
   if constexpr (X::counting) return value;
   double* p = context.nextConstant;

@@ -18,15 +18,15 @@ class Sweep;
 /// Base of everything that can stand in a statement: a Sweep<X>, or a sum or product of such.
 template <class E, class X>
 struct Expression {
-  KOKKOS_FORCEINLINE_FUNCTION const E& self() const { return static_cast<const E&>(*this); }
+  ATRAPOS_FORCEINLINE const E& self() const { return static_cast<const E&>(*this); }
 };
 
 namespace detail {
 
 template <class X>
-KOKKOS_FORCEINLINE_FUNCTION const Sweep<X>& variable(const Sweep<X>& a);
+ATRAPOS_FORCEINLINE const Sweep<X>& variable(const Sweep<X>& a);
 template <class E, class X>
-KOKKOS_FORCEINLINE_FUNCTION Sweep<X> variable(const Expression<E, X>& e);
+ATRAPOS_FORCEINLINE Sweep<X> variable(const Expression<E, X>& e);
 
 // Variables are referred to (their history must be theirs), everything else is small and copied.
 template <class E>
@@ -55,7 +55,7 @@ struct ProductsOf {
 constexpr int maxProductsPerLoop = 6;
 
 template <class X, class P>
-KOKKOS_FORCEINLINE_FUNCTION LanesOf<X> sumOverOrders(const Context<X::lanes>& context, const P& p) {
+ATRAPOS_FORCEINLINE LanesOf<X> sumOverOrders(const Context<X::lanes>& context, const P& p) {
   static_assert(P::products > 0);
   if (context.order < 2) return LanesOf<X>(0.0);
   if (!p.active()) return p.oneByOne(context);
@@ -77,7 +77,7 @@ KOKKOS_FORCEINLINE_FUNCTION LanesOf<X> sumOverOrders(const Context<X::lanes>& co
 
 /// The coefficient of an expression in this pass. Without context it is a constant, whose value it is.
 template <class E, class X>
-KOKKOS_FORCEINLINE_FUNCTION LanesOf<X> evaluate(const Expression<E, X>& e, const Context<X::lanes>* context) {
+ATRAPOS_FORCEINLINE LanesOf<X> evaluate(const Expression<E, X>& e, const Context<X::lanes>* context) {
   if (context == nullptr) return e.self().constant();
   const auto p = e.self().prepare();
   if constexpr (X::pass == Pass::Sweep && decltype(p)::products > 0)
@@ -92,12 +92,12 @@ KOKKOS_FORCEINLINE_FUNCTION LanesOf<X> evaluate(const Expression<E, X>& e, const
 template <class X>
 struct Constant : Expression<Constant<X>, X> {
   LanesOf<X> value;
-  KOKKOS_FORCEINLINE_FUNCTION explicit Constant(const LanesOf<X>& v) : value(v) {}
-  KOKKOS_FORCEINLINE_FUNCTION Context<X::lanes>* context() const { return nullptr; }
-  KOKKOS_FORCEINLINE_FUNCTION PreparedValue<X> prepare() const {
+  ATRAPOS_FORCEINLINE explicit Constant(const LanesOf<X>& v) : value(v) {}
+  ATRAPOS_FORCEINLINE Context<X::lanes>* context() const { return nullptr; }
+  ATRAPOS_FORCEINLINE PreparedValue<X> prepare() const {
     return {X::pass == Pass::Start ? value : LanesOf<X>(0.0)};
   }
-  KOKKOS_FORCEINLINE_FUNCTION const LanesOf<X>& constant() const { return value; }
+  ATRAPOS_FORCEINLINE const LanesOf<X>& constant() const { return value; }
 };
 
 template <class P, class F, class X>
@@ -106,19 +106,16 @@ struct PreparedScaled {
   P x;
   F factor;
   LanesOf<X> known;
-  KOKKOS_FORCEINLINE_FUNCTION bool active() const { return x.active(); }
-  KOKKOS_FORCEINLINE_FUNCTION bool squares() const { return x.squares(); }
-  KOKKOS_FORCEINLINE_FUNCTION void addPairs(std::ptrdiff_t i, std::ptrdiff_t j, LanesOf<X>* f,
-                                            LanesOf<X>* b) const {
+  ATRAPOS_FORCEINLINE bool active() const { return x.active(); }
+  ATRAPOS_FORCEINLINE bool squares() const { return x.squares(); }
+  ATRAPOS_FORCEINLINE void addPairs(std::ptrdiff_t i, std::ptrdiff_t j, LanesOf<X>* f, LanesOf<X>* b) const {
     x.addPairs(i, j, f, b);
   }
-  KOKKOS_FORCEINLINE_FUNCTION void addSquares(std::ptrdiff_t i, std::ptrdiff_t j, LanesOf<X>* f) const {
+  ATRAPOS_FORCEINLINE void addSquares(std::ptrdiff_t i, std::ptrdiff_t j, LanesOf<X>* f) const {
     x.addSquares(i, j, f);
   }
-  KOKKOS_FORCEINLINE_FUNCTION LanesOf<X> combine(const LanesOf<X>* f) const { return x.combine(f) * factor; }
-  KOKKOS_FORCEINLINE_FUNCTION LanesOf<X> oneByOne(const Context<X::lanes>& c) const {
-    return x.oneByOne(c) * factor;
-  }
+  ATRAPOS_FORCEINLINE LanesOf<X> combine(const LanesOf<X>* f) const { return x.combine(f) * factor; }
+  ATRAPOS_FORCEINLINE LanesOf<X> oneByOne(const Context<X::lanes>& c) const { return x.oneByOne(c) * factor; }
 };
 
 /// x times a passive factor (double or Lanes).
@@ -126,10 +123,10 @@ template <class E, class F, class X>
 struct Scaled : Expression<Scaled<E, F, X>, X> {
   typename Operand<E>::Type x;
   F factor;
-  KOKKOS_FORCEINLINE_FUNCTION Scaled(const E& e, const F& f) : x(e), factor(f) {}
-  KOKKOS_FORCEINLINE_FUNCTION LanesOf<X> constant() const { return x.constant() * factor; }
-  KOKKOS_FORCEINLINE_FUNCTION Context<X::lanes>* context() const { return x.context(); }
-  KOKKOS_FORCEINLINE_FUNCTION auto prepare() const {
+  ATRAPOS_FORCEINLINE Scaled(const E& e, const F& f) : x(e), factor(f) {}
+  ATRAPOS_FORCEINLINE LanesOf<X> constant() const { return x.constant() * factor; }
+  ATRAPOS_FORCEINLINE Context<X::lanes>* context() const { return x.context(); }
+  ATRAPOS_FORCEINLINE auto prepare() const {
     auto p = x.prepare();
     const LanesOf<X> known = p.known * factor;
     if constexpr (decltype(p)::products > 0)
@@ -145,7 +142,7 @@ struct PreparedSum {
   A a;
   B b;
   LanesOf<X> known;
-  KOKKOS_FORCEINLINE_FUNCTION bool active() const {
+  ATRAPOS_FORCEINLINE bool active() const {
     if constexpr (A::products == 0)
       return b.active();
     else if constexpr (B::products == 0)
@@ -153,7 +150,7 @@ struct PreparedSum {
     else
       return a.active() && b.active();
   }
-  KOKKOS_FORCEINLINE_FUNCTION bool squares() const {
+  ATRAPOS_FORCEINLINE bool squares() const {
     if constexpr (A::products == 0)
       return b.squares();
     else if constexpr (B::products == 0)
@@ -161,22 +158,22 @@ struct PreparedSum {
     else
       return a.squares() && b.squares();
   }
-  KOKKOS_FORCEINLINE_FUNCTION void addPairs(std::ptrdiff_t i, std::ptrdiff_t j, LanesOf<X>* f,
-                                            LanesOf<X>* back) const {
+  ATRAPOS_FORCEINLINE void addPairs(std::ptrdiff_t i, std::ptrdiff_t j, LanesOf<X>* f,
+                                    LanesOf<X>* back) const {
     if constexpr (A::products > 0) a.addPairs(i, j, f, back);
     if constexpr (B::products > 0) b.addPairs(i, j, f + A::products, back + A::products);
   }
-  KOKKOS_FORCEINLINE_FUNCTION void addSquares(std::ptrdiff_t i, std::ptrdiff_t j, LanesOf<X>* f) const {
+  ATRAPOS_FORCEINLINE void addSquares(std::ptrdiff_t i, std::ptrdiff_t j, LanesOf<X>* f) const {
     if constexpr (A::products > 0) a.addSquares(i, j, f);
     if constexpr (B::products > 0) b.addSquares(i, j, f + A::products);
   }
-  static KOKKOS_FORCEINLINE_FUNCTION LanesOf<X> add(const LanesOf<X>& x, const LanesOf<X>& y) {
+  static ATRAPOS_FORCEINLINE LanesOf<X> add(const LanesOf<X>& x, const LanesOf<X>& y) {
     if constexpr (Sign > 0)
       return x + y;
     else
       return x - y;
   }
-  KOKKOS_FORCEINLINE_FUNCTION LanesOf<X> combine(const LanesOf<X>* f) const {
+  ATRAPOS_FORCEINLINE LanesOf<X> combine(const LanesOf<X>* f) const {
     if constexpr (A::products == 0)
       return Sign > 0 ? b.combine(f) : -b.combine(f);
     else if constexpr (B::products == 0)
@@ -184,7 +181,7 @@ struct PreparedSum {
     else
       return add(a.combine(f), b.combine(f + A::products));
   }
-  KOKKOS_FORCEINLINE_FUNCTION LanesOf<X> oneByOne(const Context<X::lanes>& c) const {
+  ATRAPOS_FORCEINLINE LanesOf<X> oneByOne(const Context<X::lanes>& c) const {
     if constexpr (A::products == 0)
       return Sign > 0 ? b.oneByOne(c) : -b.oneByOne(c);
     else if constexpr (B::products == 0)
@@ -199,15 +196,15 @@ template <class A, class B, int Sign, class X>
 struct Sum : Expression<Sum<A, B, Sign, X>, X> {
   typename Operand<A>::Type a;
   typename Operand<B>::Type b;
-  KOKKOS_FORCEINLINE_FUNCTION Sum(const A& x, const B& y) : a(x), b(y) {}
-  KOKKOS_FORCEINLINE_FUNCTION LanesOf<X> constant() const {
+  ATRAPOS_FORCEINLINE Sum(const A& x, const B& y) : a(x), b(y) {}
+  ATRAPOS_FORCEINLINE LanesOf<X> constant() const {
     return Sign > 0 ? a.constant() + b.constant() : a.constant() - b.constant();
   }
-  KOKKOS_FORCEINLINE_FUNCTION Context<X::lanes>* context() const {
+  ATRAPOS_FORCEINLINE Context<X::lanes>* context() const {
     Context<X::lanes>* c = a.context();
     return c != nullptr ? c : b.context();
   }
-  KOKKOS_FORCEINLINE_FUNCTION auto prepare() const {
+  ATRAPOS_FORCEINLINE auto prepare() const {
     constexpr int products = ProductsOf<A>::value + ProductsOf<B>::value;
     if constexpr (products == 0 || products > maxProductsPerLoop) {
       const LanesOf<X> x = evaluate(a, context()), y = evaluate(b, context());
@@ -227,18 +224,18 @@ struct PreparedProduct {
   const double* a;  ///< order-0 lanes of the operands' histories; null where one operand is passive
   const double* b;
   LanesOf<X> known;
-  KOKKOS_FORCEINLINE_FUNCTION bool active() const { return a != nullptr; }
-  KOKKOS_FORCEINLINE_FUNCTION bool squares() const { return a == b; }
-  KOKKOS_FORCEINLINE_FUNCTION void addPairs(std::ptrdiff_t i, std::ptrdiff_t j, LanesOf<X>* f,
-                                            LanesOf<X>* back) const {
+  ATRAPOS_FORCEINLINE bool active() const { return a != nullptr; }
+  ATRAPOS_FORCEINLINE bool squares() const { return a == b; }
+  ATRAPOS_FORCEINLINE void addPairs(std::ptrdiff_t i, std::ptrdiff_t j, LanesOf<X>* f,
+                                    LanesOf<X>* back) const {
     *f += LanesOf<X>::load(a + i) * LanesOf<X>::load(b + j);
     *back += LanesOf<X>::load(a + j) * LanesOf<X>::load(b + i);
   }
-  KOKKOS_FORCEINLINE_FUNCTION void addSquares(std::ptrdiff_t i, std::ptrdiff_t j, LanesOf<X>* f) const {
+  ATRAPOS_FORCEINLINE void addSquares(std::ptrdiff_t i, std::ptrdiff_t j, LanesOf<X>* f) const {
     *f += LanesOf<X>::load(a + i) * LanesOf<X>::load(b + j);
   }
-  KOKKOS_FORCEINLINE_FUNCTION LanesOf<X> combine(const LanesOf<X>* f) const { return *f; }
-  KOKKOS_FORCEINLINE_FUNCTION LanesOf<X> oneByOne(const Context<X::lanes>& c) const {
+  ATRAPOS_FORCEINLINE LanesOf<X> combine(const LanesOf<X>* f) const { return *f; }
+  ATRAPOS_FORCEINLINE LanesOf<X> oneByOne(const Context<X::lanes>& c) const {
     return active() ? convolve<X::lanes>(a, b, c.stride, c.order) : LanesOf<X>(0.0);
   }
 };
@@ -248,13 +245,13 @@ template <class A, class B, class X>
 struct Product : Expression<Product<A, B, X>, X> {
   typename Operand<A>::Type a;
   typename Operand<B>::Type b;
-  KOKKOS_FORCEINLINE_FUNCTION Product(const A& x, const B& y) : a(x), b(y) {}
-  KOKKOS_FORCEINLINE_FUNCTION LanesOf<X> constant() const { return a.constant() * b.constant(); }
-  KOKKOS_FORCEINLINE_FUNCTION Context<X::lanes>* context() const {
+  ATRAPOS_FORCEINLINE Product(const A& x, const B& y) : a(x), b(y) {}
+  ATRAPOS_FORCEINLINE LanesOf<X> constant() const { return a.constant() * b.constant(); }
+  ATRAPOS_FORCEINLINE Context<X::lanes>* context() const {
     Context<X::lanes>* c = a.context();
     return c != nullptr ? c : b.context();
   }
-  KOKKOS_FORCEINLINE_FUNCTION PreparedProduct<X> prepare() const {
+  ATRAPOS_FORCEINLINE PreparedProduct<X> prepare() const {
     const auto& x = variable(a);
     const auto& y = variable(b);
     if (x.isPassive() || y.isPassive()) {

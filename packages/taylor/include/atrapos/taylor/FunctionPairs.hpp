@@ -7,7 +7,7 @@
 namespace atrapos::taylor::detail {
 
 template <class X>
-KOKKOS_FORCEINLINE_FUNCTION bool isStart(const Sweep<X>&) {
+ATRAPOS_FORCEINLINE bool isStart(const Sweep<X>&) {
   return X::pass == Pass::Start;
 }
 

@@ -61,10 +61,10 @@ typedef double Entry __attribute__((may_alias));  ///< one lane within a vector
 using Entry = double;
 #endif
 
-#define ATRAPOS_HALVES_OPERATOR(OP)                                                                  \
-  template <class V>                                                                                 \
-  KOKKOS_FORCEINLINE_FUNCTION auto operator OP(const V& a, const V& b)->decltype(V{a.low, b.high}) { \
-    return {a.low OP b.low, a.high OP b.high};                                                       \
+#define ATRAPOS_HALVES_OPERATOR(OP)                                                          \
+  template <class V>                                                                         \
+  ATRAPOS_FORCEINLINE auto operator OP(const V& a, const V& b)->decltype(V{a.low, b.high}) { \
+    return {a.low OP b.low, a.high OP b.high};                                               \
   }
 ATRAPOS_HALVES_OPERATOR(+)
 ATRAPOS_HALVES_OPERATOR(-)
@@ -72,7 +72,7 @@ ATRAPOS_HALVES_OPERATOR(*)
 ATRAPOS_HALVES_OPERATOR(/)
 #undef ATRAPOS_HALVES_OPERATOR
 template <class V>
-KOKKOS_FORCEINLINE_FUNCTION auto operator-(const V& a) -> decltype(V{a.low, a.high}) {
+ATRAPOS_FORCEINLINE auto operator-(const V& a) -> decltype(V{a.low, a.high}) {
   return {-a.low, -a.high};
 }
 
@@ -83,13 +83,13 @@ struct Register {
   using Half = Register<L / 2>;
   static constexpr bool fits = L <= nativeLanes;
 
-  static KOKKOS_FORCEINLINE_FUNCTION Vector broadcast(double s) {
+  static ATRAPOS_FORCEINLINE Vector broadcast(double s) {
     if constexpr (fits)
       return s - Vector{};
     else
       return {Half::broadcast(s), Half::broadcast(s)};
   }
-  static KOKKOS_FORCEINLINE_FUNCTION Vector load(const double* p) {
+  static ATRAPOS_FORCEINLINE Vector load(const double* p) {
     if constexpr (L == 1)
       return *p;
     else if constexpr (fits)
@@ -97,7 +97,7 @@ struct Register {
     else
       return {Half::load(p), Half::load(p + L / 2)};
   }
-  static KOKKOS_FORCEINLINE_FUNCTION void store(const Vector& v, double* p) {
+  static ATRAPOS_FORCEINLINE void store(const Vector& v, double* p) {
     if constexpr (L == 1) {
       *p = v;
     } else if constexpr (fits) {
@@ -109,14 +109,14 @@ struct Register {
   }
   /// 1 where holds(a, b), 0 elsewhere; `holds` takes two doubles or two native vectors.
   template <class Compare>
-  static KOKKOS_FORCEINLINE_FUNCTION Vector compare(const Vector& a, const Vector& b, const Compare& holds) {
+  static ATRAPOS_FORCEINLINE Vector compare(const Vector& a, const Vector& b, const Compare& holds) {
     if constexpr (fits)
       return holds(a, b) ? broadcast(1.0) : broadcast(0.0);
     else
       return {Half::compare(a.low, b.low, holds), Half::compare(a.high, b.high, holds)};
   }
   /// yes where mask is not 0, no elsewhere.
-  static KOKKOS_FORCEINLINE_FUNCTION Vector select(const Vector& mask, const Vector& yes, const Vector& no) {
+  static ATRAPOS_FORCEINLINE Vector select(const Vector& mask, const Vector& yes, const Vector& no) {
     if constexpr (fits)
       return mask != broadcast(0.0) ? yes : no;
     else
@@ -124,7 +124,7 @@ struct Register {
   }
   /// The value in a register: the compiler would load it again for each of its uses, which pays only where
   /// registers are scarce.
-  static KOKKOS_FORCEINLINE_FUNCTION void hold([[maybe_unused]] Vector& v) {
+  static ATRAPOS_FORCEINLINE void hold([[maybe_unused]] Vector& v) {
 #if defined(__AVX512F__) && !defined(__clang__)
     if constexpr (L == 8) asm("" : "+v"(v));
 #endif
@@ -146,45 +146,43 @@ struct Lanes {
   alignas(8 * L) Vector v;
 
   Lanes() = default;  ///< uninitialised, like a double; Lanes<L>{} is zero
-  KOKKOS_FORCEINLINE_FUNCTION Lanes(double s) : v(Register::broadcast(s)) {}
+  ATRAPOS_FORCEINLINE Lanes(double s) : v(Register::broadcast(s)) {}
   // Not a constructor: the vector of one lane is a double.
-  static KOKKOS_FORCEINLINE_FUNCTION Lanes of(const Vector& a) {
+  static ATRAPOS_FORCEINLINE Lanes of(const Vector& a) {
     Lanes r;
     r.v = a;
     return r;
   }
-  KOKKOS_FORCEINLINE_FUNCTION detail::Entry& operator[](int l) {
-    return reinterpret_cast<detail::Entry*>(&v)[l];
-  }
-  KOKKOS_FORCEINLINE_FUNCTION const detail::Entry& operator[](int l) const {
+  ATRAPOS_FORCEINLINE detail::Entry& operator[](int l) { return reinterpret_cast<detail::Entry*>(&v)[l]; }
+  ATRAPOS_FORCEINLINE const detail::Entry& operator[](int l) const {
     return reinterpret_cast<const detail::Entry*>(&v)[l];
   }
 
   /// L consecutive doubles, aligned to 16 bytes where L > 1 (as malloc and new give them); to 8 L is fastest.
-  static KOKKOS_FORCEINLINE_FUNCTION Lanes load(const double* p) { return of(Register::load(p)); }
-  KOKKOS_FORCEINLINE_FUNCTION void store(double* p) const { Register::store(v, p); }
+  static ATRAPOS_FORCEINLINE Lanes load(const double* p) { return of(Register::load(p)); }
+  ATRAPOS_FORCEINLINE void store(double* p) const { Register::store(v, p); }
 };
 
-#define ATRAPOS_LANES_OPERATOR(OP)                                                         \
-  template <int L>                                                                         \
-  KOKKOS_FORCEINLINE_FUNCTION Lanes<L> operator OP(const Lanes<L>& a, const Lanes<L>& b) { \
-    return Lanes<L>::of(a.v OP b.v);                                                       \
-  }                                                                                        \
-  template <int L>                                                                         \
-  KOKKOS_FORCEINLINE_FUNCTION Lanes<L> operator OP(const Lanes<L>& a, double b) {          \
-    return a OP Lanes<L>(b);                                                               \
-  }                                                                                        \
-  template <int L>                                                                         \
-  KOKKOS_FORCEINLINE_FUNCTION Lanes<L> operator OP(double a, const Lanes<L>& b) {          \
-    return Lanes<L>(a) OP b;                                                               \
-  }                                                                                        \
-  template <int L>                                                                         \
-  KOKKOS_FORCEINLINE_FUNCTION Lanes<L>& operator OP##=(Lanes<L>& a, const Lanes<L>& b) {   \
-    return a = a OP b;                                                                     \
-  }                                                                                        \
-  template <int L>                                                                         \
-  KOKKOS_FORCEINLINE_FUNCTION Lanes<L>& operator OP##=(Lanes<L>& a, double b) {            \
-    return a = a OP b;                                                                     \
+#define ATRAPOS_LANES_OPERATOR(OP)                                                 \
+  template <int L>                                                                 \
+  ATRAPOS_FORCEINLINE Lanes<L> operator OP(const Lanes<L>& a, const Lanes<L>& b) { \
+    return Lanes<L>::of(a.v OP b.v);                                               \
+  }                                                                                \
+  template <int L>                                                                 \
+  ATRAPOS_FORCEINLINE Lanes<L> operator OP(const Lanes<L>& a, double b) {          \
+    return a OP Lanes<L>(b);                                                       \
+  }                                                                                \
+  template <int L>                                                                 \
+  ATRAPOS_FORCEINLINE Lanes<L> operator OP(double a, const Lanes<L>& b) {          \
+    return Lanes<L>(a) OP b;                                                       \
+  }                                                                                \
+  template <int L>                                                                 \
+  ATRAPOS_FORCEINLINE Lanes<L>& operator OP##=(Lanes<L>& a, const Lanes<L>& b) {   \
+    return a = a OP b;                                                             \
+  }                                                                                \
+  template <int L>                                                                 \
+  ATRAPOS_FORCEINLINE Lanes<L>& operator OP##=(Lanes<L>& a, double b) {            \
+    return a = a OP b;                                                             \
   }
 
 ATRAPOS_LANES_OPERATOR(+)
@@ -194,12 +192,12 @@ ATRAPOS_LANES_OPERATOR(/)
 #undef ATRAPOS_LANES_OPERATOR
 
 template <int L>
-KOKKOS_FORCEINLINE_FUNCTION Lanes<L> operator+(const Lanes<L>& a) {
+ATRAPOS_FORCEINLINE Lanes<L> operator+(const Lanes<L>& a) {
   return a;
 }
 
 template <int L>
-KOKKOS_FORCEINLINE_FUNCTION Lanes<L> operator-(const Lanes<L>& a) {
+ATRAPOS_FORCEINLINE Lanes<L> operator-(const Lanes<L>& a) {
   return Lanes<L>::of(-a.v);
 }
 

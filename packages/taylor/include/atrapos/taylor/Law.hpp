@@ -93,16 +93,15 @@ ATRAPOS_FLATTEN KOKKOS_INLINE_FUNCTION void execute(const Law& law, Context<L>& 
 /// Order 0: `in` holds values. In a lane where an operation has no series the result is NaN, with a note in
 /// context.failures.
 template <int L, class Law>
-KOKKOS_FORCEINLINE_FUNCTION void start(const Law& law, Context<L>& context, const Lanes<L>* in,
-                                       const Lanes<L>* data, Lanes<L>* out) {
+ATRAPOS_FORCEINLINE void start(const Law& law, Context<L>& context, const Lanes<L>* in, const Lanes<L>* data,
+                               Lanes<L>* out) {
   detail::execute<Execution<L, Pass::Start>, detail::Inputs::given>(law, context, in, data, out);
 }
 
 /// Order k with coefficient k of the inputs taken as zero, because it is not known yet: `out` is the
 /// nonlinear part of order k (paper (16)-(20)).
 template <int L, class Law>
-KOKKOS_FORCEINLINE_FUNCTION void sweep(const Law& law, Context<L>& context, const Lanes<L>* data,
-                                       Lanes<L>* out) {
+ATRAPOS_FORCEINLINE void sweep(const Law& law, Context<L>& context, const Lanes<L>* data, Lanes<L>* out) {
   detail::execute<Execution<L, Pass::Sweep>, detail::Inputs::unknown>(
       law, context, static_cast<const Lanes<L>*>(nullptr), data, out);
 }
@@ -110,31 +109,31 @@ KOKKOS_FORCEINLINE_FUNCTION void sweep(const Law& law, Context<L>& context, cons
 /// Once after such a sweep: `in` is coefficient k of the inputs. The histories become those of the true
 /// series.
 template <int L, class Law>
-KOKKOS_FORCEINLINE_FUNCTION void complete(const Law& law, Context<L>& context, const Lanes<L>* in,
-                                          const Lanes<L>* data) {
+ATRAPOS_FORCEINLINE void complete(const Law& law, Context<L>& context, const Lanes<L>* in,
+                                  const Lanes<L>* data) {
   detail::execute<Execution<L, Pass::Complete>, detail::Inputs::given>(law, context, in, data,
                                                                        static_cast<Lanes<L>*>(nullptr));
 }
 
 /// The same, and `out` is the linear effect of `in`.
 template <int L, class Law>
-KOKKOS_FORCEINLINE_FUNCTION void complete(const Law& law, Context<L>& context, const Lanes<L>* in,
-                                          const Lanes<L>* data, Lanes<L>* out) {
+ATRAPOS_FORCEINLINE void complete(const Law& law, Context<L>& context, const Lanes<L>* in,
+                                  const Lanes<L>* data, Lanes<L>* out) {
   detail::execute<Execution<L, Pass::Complete>, detail::Inputs::given>(law, context, in, data, out);
 }
 
 /// Order k in one pass where coefficient k of the inputs is known, or as much of it as is.
 template <int L, class Law>
-KOKKOS_FORCEINLINE_FUNCTION void sweepKnown(const Law& law, Context<L>& context, const Lanes<L>* in,
-                                            const Lanes<L>* data, Lanes<L>* out) {
+ATRAPOS_FORCEINLINE void sweepKnown(const Law& law, Context<L>& context, const Lanes<L>* in,
+                                    const Lanes<L>* data, Lanes<L>* out) {
   detail::execute<Execution<L, Pass::Sweep>, detail::Inputs::given>(law, context, in, data, out);
 }
 
 /// Once after sweepKnown with a part of coefficient k of the inputs: `in` is the rest of it, `out` its linear
 /// effect. The histories become those of the true series.
 template <int L, class Law>
-KOKKOS_FORCEINLINE_FUNCTION void completeKnown(const Law& law, Context<L>& context, const Lanes<L>* in,
-                                               const Lanes<L>* data, Lanes<L>* out) {
+ATRAPOS_FORCEINLINE void completeKnown(const Law& law, Context<L>& context, const Lanes<L>* in,
+                                       const Lanes<L>* data, Lanes<L>* out) {
   detail::execute<Execution<L, Pass::Complete>, detail::Inputs::increment>(law, context, in, data, out);
 }
 

@@ -11,8 +11,8 @@ namespace atrapos::taylor::detail {
 
 // g(x, y, out) or g(x, y, data, out), as its author wrote it.
 template <int ND, class G, class T, class P>
-KOKKOS_FORCEINLINE_FUNCTION void callImplicit(const G& g, const T* x, const T* y,
-                                              [[maybe_unused]] const P* data, T* out) {
+ATRAPOS_FORCEINLINE void callImplicit(const G& g, const T* x, const T* y, [[maybe_unused]] const P* data,
+                                      T* out) {
   if constexpr (ND > 0)
     g(x, y, data, out);
   else

@@ -14,8 +14,8 @@ namespace detail {
 
 // g(v, z, dv, dz, out) or g(v, z, data, dv, dz, out), as its author wrote it.
 template <int ND, class G, class T, class P, class R>
-KOKKOS_FORCEINLINE_FUNCTION void callRate(const G& g, const T* v, const T* z, [[maybe_unused]] const P* data,
-                                          const R* dv, const R* dz, R* out) {
+ATRAPOS_FORCEINLINE void callRate(const G& g, const T* v, const T* z, [[maybe_unused]] const P* data,
+                                  const R* dv, const R* dz, R* out) {
   if constexpr (ND > 0)
     g(v, z, data, dv, dz, out);
   else

@@ -12,23 +12,22 @@ namespace atrapos::taylor {
 template <class X>
 class RateForm {
  public:
-  KOKKOS_FORCEINLINE_FUNCTION RateForm() : value_(0.0) {}  ///< zero
+  ATRAPOS_FORCEINLINE RateForm() : value_(0.0) {}  ///< zero
   /// The rate of a.
-  KOKKOS_FORCEINLINE_FUNCTION explicit RateForm(const Sweep<X>& a)
+  ATRAPOS_FORCEINLINE explicit RateForm(const Sweep<X>& a)
       : value_(X::pass == Pass::Start ? LanesOf<X>(0.0) : a.coefficient()),
         slot_(a.isPassive() ? nullptr : a.slot()),
         context_(a.context()) {}
-  KOKKOS_FORCEINLINE_FUNCTION RateForm(const LanesOf<X>& value, Context<X::lanes>* context,
-                                       double* slot = nullptr)
+  ATRAPOS_FORCEINLINE RateForm(const LanesOf<X>& value, Context<X::lanes>* context, double* slot = nullptr)
       : value_(value), slot_(slot), context_(context) {}
 
   /// Coefficient k of the integral. In Start NaN where a factor is not finite, otherwise 0: a form without a
   /// series is noticed at order 0.
-  KOKKOS_FORCEINLINE_FUNCTION const LanesOf<X>& value() const { return value_; }
+  ATRAPOS_FORCEINLINE const LanesOf<X>& value() const { return value_; }
   /// Null: the rate of constants, zero.
-  KOKKOS_FORCEINLINE_FUNCTION Context<X::lanes>* context() const { return context_; }
+  ATRAPOS_FORCEINLINE Context<X::lanes>* context() const { return context_; }
   /// The order-0 lanes of the integral's history; takes and records a slot the first time.
-  KOKKOS_FORCEINLINE_FUNCTION double* slot() const {
+  ATRAPOS_FORCEINLINE double* slot() const {
     if (slot_ == nullptr) {
       slot_ = detail::takeSlots<X>(*context_);
       detail::record<X::pass>(*context_, slot_, value_);
@@ -36,14 +35,14 @@ class RateForm {
     return slot_;
   }
 
-  KOKKOS_FORCEINLINE_FUNCTION RateForm& operator+=(const RateForm& b) { return *this = *this + b; }
-  KOKKOS_FORCEINLINE_FUNCTION RateForm& operator-=(const RateForm& b) { return *this = *this - b; }
+  ATRAPOS_FORCEINLINE RateForm& operator+=(const RateForm& b) { return *this = *this + b; }
+  ATRAPOS_FORCEINLINE RateForm& operator-=(const RateForm& b) { return *this = *this - b; }
   template <class B>
-  KOKKOS_FORCEINLINE_FUNCTION RateForm& operator*=(const B& b) {
+  ATRAPOS_FORCEINLINE RateForm& operator*=(const B& b) {
     return *this = *this * b;
   }
   template <class B>
-  KOKKOS_FORCEINLINE_FUNCTION RateForm& operator/=(const B& b) {
+  ATRAPOS_FORCEINLINE RateForm& operator/=(const B& b) {
     return *this = *this / b;
   }
 
@@ -56,7 +55,7 @@ class RateForm {
 namespace detail {
 
 template <class X>
-KOKKOS_FORCEINLINE_FUNCTION Context<X::lanes>* contextOf(const RateForm<X>& a, const RateForm<X>& b) {
+ATRAPOS_FORCEINLINE Context<X::lanes>* contextOf(const RateForm<X>& a, const RateForm<X>& b) {
   return a.context() != nullptr ? a.context() : b.context();
 }
 
@@ -96,47 +95,47 @@ KOKKOS_INLINE_FUNCTION RateForm<X> rateQuotient(const RateForm<X>& a, const Swee
 }  // namespace detail
 
 template <class X>
-KOKKOS_FORCEINLINE_FUNCTION RateForm<X> operator+(const RateForm<X>& a, const RateForm<X>& b) {
+ATRAPOS_FORCEINLINE RateForm<X> operator+(const RateForm<X>& a, const RateForm<X>& b) {
   return {a.value() + b.value(), detail::contextOf(a, b)};
 }
 template <class X>
-KOKKOS_FORCEINLINE_FUNCTION RateForm<X> operator-(const RateForm<X>& a, const RateForm<X>& b) {
+ATRAPOS_FORCEINLINE RateForm<X> operator-(const RateForm<X>& a, const RateForm<X>& b) {
   return {a.value() - b.value(), detail::contextOf(a, b)};
 }
 template <class X>
-KOKKOS_FORCEINLINE_FUNCTION RateForm<X> operator+(const RateForm<X>& a) {
+ATRAPOS_FORCEINLINE RateForm<X> operator+(const RateForm<X>& a) {
   return a;
 }
 template <class X>
-KOKKOS_FORCEINLINE_FUNCTION RateForm<X> operator-(const RateForm<X>& a) {
+ATRAPOS_FORCEINLINE RateForm<X> operator-(const RateForm<X>& a) {
   return {-a.value(), a.context()};
 }
 
 template <class E, class X>
-KOKKOS_FORCEINLINE_FUNCTION RateForm<X> operator*(const Expression<E, X>& w, const RateForm<X>& a) {
+ATRAPOS_FORCEINLINE RateForm<X> operator*(const Expression<E, X>& w, const RateForm<X>& a) {
   return detail::rateProduct(detail::variable(w.self()), a);
 }
 template <class E, class X>
-KOKKOS_FORCEINLINE_FUNCTION RateForm<X> operator*(const RateForm<X>& a, const Expression<E, X>& w) {
+ATRAPOS_FORCEINLINE RateForm<X> operator*(const RateForm<X>& a, const Expression<E, X>& w) {
   return detail::rateProduct(detail::variable(w.self()), a);
 }
 template <class E, class X>
-KOKKOS_FORCEINLINE_FUNCTION RateForm<X> operator/(const RateForm<X>& a, const Expression<E, X>& w) {
+ATRAPOS_FORCEINLINE RateForm<X> operator/(const RateForm<X>& a, const Expression<E, X>& w) {
   return detail::rateQuotient(a, detail::variable(w.self()));
 }
 
-#define ATRAPOS_RATE_FORM_WITH(PASSIVE)                                                      \
-  template <class X>                                                                         \
-  KOKKOS_FORCEINLINE_FUNCTION RateForm<X> operator*(PASSIVE factor, const RateForm<X>& a) {  \
-    return {a.value() * factor, a.context()};                                                \
-  }                                                                                          \
-  template <class X>                                                                         \
-  KOKKOS_FORCEINLINE_FUNCTION RateForm<X> operator*(const RateForm<X>& a, PASSIVE factor) {  \
-    return {a.value() * factor, a.context()};                                                \
-  }                                                                                          \
-  template <class X>                                                                         \
-  KOKKOS_FORCEINLINE_FUNCTION RateForm<X> operator/(const RateForm<X>& a, PASSIVE divisor) { \
-    return {a.value() / divisor, a.context()};                                               \
+#define ATRAPOS_RATE_FORM_WITH(PASSIVE)                                              \
+  template <class X>                                                                 \
+  ATRAPOS_FORCEINLINE RateForm<X> operator*(PASSIVE factor, const RateForm<X>& a) {  \
+    return {a.value() * factor, a.context()};                                        \
+  }                                                                                  \
+  template <class X>                                                                 \
+  ATRAPOS_FORCEINLINE RateForm<X> operator*(const RateForm<X>& a, PASSIVE factor) {  \
+    return {a.value() * factor, a.context()};                                        \
+  }                                                                                  \
+  template <class X>                                                                 \
+  ATRAPOS_FORCEINLINE RateForm<X> operator/(const RateForm<X>& a, PASSIVE divisor) { \
+    return {a.value() / divisor, a.context()};                                       \
   }
 ATRAPOS_RATE_FORM_WITH(double)
 ATRAPOS_RATE_FORM_WITH(const LanesOf<X>&)

@@ -77,7 +77,7 @@ class SmallLu {
 
  private:
   template <class S>
-  static KOKKOS_FORCEINLINE_FUNCTION void swap(S& a, S& b) {
+  static ATRAPOS_FORCEINLINE void swap(S& a, S& b) {
     const S c = a;
     a = b;
     b = c;

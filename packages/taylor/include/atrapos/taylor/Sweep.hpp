@@ -16,27 +16,26 @@ namespace atrapos::taylor {
 template <class X>
 class Sweep : public Expression<Sweep<X>, X> {
  public:
-  KOKKOS_FORCEINLINE_FUNCTION Sweep() : value_(0.0) {}
-  KOKKOS_FORCEINLINE_FUNCTION Sweep(double constant) : value_(constant) {}
+  ATRAPOS_FORCEINLINE Sweep() : value_(0.0) {}
+  ATRAPOS_FORCEINLINE Sweep(double constant) : value_(constant) {}
   // Written out member by member: the compiler's own copies move the padding too, through memory.
-  KOKKOS_FORCEINLINE_FUNCTION Sweep(const Sweep& b)
+  ATRAPOS_FORCEINLINE Sweep(const Sweep& b)
       : value_(b.value_), slot_(b.slot_), context_(b.context_), zero_(b.zero_) {}
-  KOKKOS_FORCEINLINE_FUNCTION Sweep& operator=(const Sweep& b) {
+  ATRAPOS_FORCEINLINE Sweep& operator=(const Sweep& b) {
     value_ = b.value_;
     slot_ = b.slot_;
     context_ = b.context_;
     zero_ = b.zero_;
     return *this;
   }
-  KOKKOS_FORCEINLINE_FUNCTION Sweep(const LanesOf<X>& constant) : value_(constant) {}
+  ATRAPOS_FORCEINLINE Sweep(const LanesOf<X>& constant) : value_(constant) {}
 
   /// An active value; slot may be null, otherwise the value must be recorded there already.
-  KOKKOS_FORCEINLINE_FUNCTION Sweep(const LanesOf<X>& value, Context<X::lanes>* context,
-                                    double* slot = nullptr)
+  ATRAPOS_FORCEINLINE Sweep(const LanesOf<X>& value, Context<X::lanes>* context, double* slot = nullptr)
       : value_(value), slot_(slot), context_(context) {}
 
   /// An active value with a slot whose coefficient of this order is not known yet and counts as zero.
-  static KOKKOS_FORCEINLINE_FUNCTION Sweep unknown(Context<X::lanes>* context, double* slot) {
+  static ATRAPOS_FORCEINLINE Sweep unknown(Context<X::lanes>* context, double* slot) {
     Sweep a(LanesOf<X>(0.0), context, slot);
     a.zero_ = true;
     return a;
@@ -45,18 +44,18 @@ class Sweep : public Expression<Sweep<X>, X> {
   /// Evaluates a statement. The value never keeps an operand's slot, not even where it equals it: the slots
   /// given away must be the same in every pass.
   template <class E>
-  KOKKOS_FORCEINLINE_FUNCTION Sweep(const Expression<E, X>& e)
+  ATRAPOS_FORCEINLINE Sweep(const Expression<E, X>& e)
       : value_(detail::evaluate(e, e.self().context())), context_(e.self().context()) {}
 
-  KOKKOS_FORCEINLINE_FUNCTION bool isPassive() const { return context_ == nullptr; }
-  KOKKOS_FORCEINLINE_FUNCTION const LanesOf<X>& value() const { return value_; }
-  KOKKOS_FORCEINLINE_FUNCTION Context<X::lanes>* context() const { return context_; }
+  ATRAPOS_FORCEINLINE bool isPassive() const { return context_ == nullptr; }
+  ATRAPOS_FORCEINLINE const LanesOf<X>& value() const { return value_; }
+  ATRAPOS_FORCEINLINE Context<X::lanes>* context() const { return context_; }
   /// Whether this pass's coefficient is known to be zero when compiling: an input that is not known yet.
-  KOKKOS_FORCEINLINE_FUNCTION bool isZero() const { return zero_; }
-  KOKKOS_FORCEINLINE_FUNCTION bool hasSlot() const { return slot_ != nullptr; }
+  ATRAPOS_FORCEINLINE bool isZero() const { return zero_; }
+  ATRAPOS_FORCEINLINE bool hasSlot() const { return slot_ != nullptr; }
 
   /// The order-0 lanes of this active value's history; takes and records a slot the first time.
-  KOKKOS_FORCEINLINE_FUNCTION double* slot() const {
+  ATRAPOS_FORCEINLINE double* slot() const {
     if (slot_ == nullptr) {
       slot_ = detail::takeSlots<X>(*context_);
       detail::record<X::pass>(*context_, slot_, value_);
@@ -65,37 +64,35 @@ class Sweep : public Expression<Sweep<X>, X> {
   }
 
   /// The same quantity (same slot, or still none) with another value in this pass; nothing is recorded.
-  KOKKOS_FORCEINLINE_FUNCTION Sweep withValue(const LanesOf<X>& value) const {
-    return {value, context_, slot_};
-  }
+  ATRAPOS_FORCEINLINE Sweep withValue(const LanesOf<X>& value) const { return {value, context_, slot_}; }
 
   /// The same in another pass of the same context.
   template <class Y>
-  KOKKOS_FORCEINLINE_FUNCTION Sweep<Y> in() const {
+  ATRAPOS_FORCEINLINE Sweep<Y> in() const {
     return isPassive() ? Sweep<Y>(value_) : Sweep<Y>(value_, context_, slot_);
   }
 
   /// The coefficient of the current pass: what a constant contributes is its value in Start, 0 afterwards.
-  KOKKOS_FORCEINLINE_FUNCTION LanesOf<X> coefficient() const {
+  ATRAPOS_FORCEINLINE LanesOf<X> coefficient() const {
     return X::pass != Pass::Start && isPassive() ? LanesOf<X>(0.0) : value_;
   }
-  KOKKOS_FORCEINLINE_FUNCTION detail::PreparedValue<X> prepare() const { return {coefficient()}; }
-  KOKKOS_FORCEINLINE_FUNCTION const LanesOf<X>& constant() const { return value_; }
+  ATRAPOS_FORCEINLINE detail::PreparedValue<X> prepare() const { return {coefficient()}; }
+  ATRAPOS_FORCEINLINE const LanesOf<X>& constant() const { return value_; }
 
   template <class B>
-  KOKKOS_FORCEINLINE_FUNCTION Sweep& operator+=(const B& b) {
+  ATRAPOS_FORCEINLINE Sweep& operator+=(const B& b) {
     return *this = *this + b;
   }
   template <class B>
-  KOKKOS_FORCEINLINE_FUNCTION Sweep& operator-=(const B& b) {
+  ATRAPOS_FORCEINLINE Sweep& operator-=(const B& b) {
     return *this = *this - b;
   }
   template <class B>
-  KOKKOS_FORCEINLINE_FUNCTION Sweep& operator*=(const B& b) {
+  ATRAPOS_FORCEINLINE Sweep& operator*=(const B& b) {
     return *this = *this * b;
   }
   template <class B>
-  KOKKOS_FORCEINLINE_FUNCTION Sweep& operator/=(const B& b) {
+  ATRAPOS_FORCEINLINE Sweep& operator/=(const B& b) {
     return *this = *this / b;
   }
 
@@ -111,11 +108,11 @@ namespace detail {
 /// An operand of a nonlinear operation: a variable itself (the history becomes the variable's own), or the
 /// value of an expression.
 template <class X>
-KOKKOS_FORCEINLINE_FUNCTION const Sweep<X>& variable(const Sweep<X>& a) {
+ATRAPOS_FORCEINLINE const Sweep<X>& variable(const Sweep<X>& a) {
   return a;
 }
 template <class E, class X>
-KOKKOS_FORCEINLINE_FUNCTION Sweep<X> variable(const Expression<E, X>& e) {
+ATRAPOS_FORCEINLINE Sweep<X> variable(const Expression<E, X>& e) {
   return Sweep<X>(e);
 }
 

@@ -15,11 +15,11 @@ template <class T, int N>
 struct Values {
   T v[N];
   Values() = default;
-  KOKKOS_FORCEINLINE_FUNCTION explicit Values(const T* a) {
+  ATRAPOS_FORCEINLINE explicit Values(const T* a) {
     for (int n = 0; n < N; ++n) v[n] = a[n];
   }
-  KOKKOS_FORCEINLINE_FUNCTION const T& entry(int n) const { return v[n]; }
-  KOKKOS_FORCEINLINE_FUNCTION void set(int n, const T& a) { v[n] = a; }
+  ATRAPOS_FORCEINLINE const T& entry(int n) const { return v[n]; }
+  ATRAPOS_FORCEINLINE void set(int n, const T& a) { v[n] = a; }
 };
 
 template <class T, int N>
@@ -35,10 +35,10 @@ template <class T, int N>
 struct Tensor : StorageOf<T, N>::Type {
   using Storage = typename StorageOf<T, N>::Type;
   Tensor() = default;
-  KOKKOS_FORCEINLINE_FUNCTION explicit Tensor(const T* a) : Storage(a) {}
+  ATRAPOS_FORCEINLINE explicit Tensor(const T* a) : Storage(a) {}
 
   /// The entries as variables: a law's outputs.
-  KOKKOS_FORCEINLINE_FUNCTION void store(T* out) const {
+  ATRAPOS_FORCEINLINE void store(T* out) const {
     ATRAPOS_UNROLL
     for (int n = 0; n < N; ++n) out[n] = this->entry(n);
   }
@@ -52,10 +52,10 @@ struct Matrix3 : detail::Tensor<T, 9> {
   using Base = detail::Tensor<T, 9>;
   Matrix3() = default;
   /// From nine variables by rows.
-  KOKKOS_FORCEINLINE_FUNCTION explicit Matrix3(const T* rows) : Base(rows) {}
+  ATRAPOS_FORCEINLINE explicit Matrix3(const T* rows) : Base(rows) {}
   using Base::set;
-  KOKKOS_FORCEINLINE_FUNCTION T operator()(int i, int j) const { return this->entry(3 * i + j); }
-  KOKKOS_FORCEINLINE_FUNCTION void set(int i, int j, const T& a) { Base::set(3 * i + j, a); }
+  ATRAPOS_FORCEINLINE T operator()(int i, int j) const { return this->entry(3 * i + j); }
+  ATRAPOS_FORCEINLINE void set(int i, int j, const T& a) { Base::set(3 * i + j, a); }
 };
 
 /// Symmetric, six entries: xx yy zz xy yz zx.
@@ -64,10 +64,10 @@ struct Symmetric3 : detail::Tensor<T, 6> {
   using Base = detail::Tensor<T, 6>;
   Symmetric3() = default;
   /// From six variables, xx yy zz xy yz zx.
-  KOKKOS_FORCEINLINE_FUNCTION explicit Symmetric3(const T* entries) : Base(entries) {}
+  ATRAPOS_FORCEINLINE explicit Symmetric3(const T* entries) : Base(entries) {}
   using Base::set;
-  KOKKOS_FORCEINLINE_FUNCTION T operator()(int i, int j) const { return this->entry(symmetricIndex(i, j)); }
-  KOKKOS_FORCEINLINE_FUNCTION void set(int i, int j, const T& a) { Base::set(symmetricIndex(i, j), a); }
+  ATRAPOS_FORCEINLINE T operator()(int i, int j) const { return this->entry(symmetricIndex(i, j)); }
+  ATRAPOS_FORCEINLINE void set(int i, int j, const T& a) { Base::set(symmetricIndex(i, j), a); }
 };
 
 namespace detail {
@@ -76,7 +76,7 @@ namespace detail {
 
 struct SymmetricPart {
   template <class V>
-  KOKKOS_FORCEINLINE_FUNCTION void operator()(const V* a, V* out) const {
+  ATRAPOS_FORCEINLINE void operator()(const V* a, V* out) const {
     out[0] = a[0];
     out[1] = a[4];
     out[2] = a[8];
@@ -88,7 +88,7 @@ struct SymmetricPart {
 
 struct Full {
   template <class V>
-  KOKKOS_FORCEINLINE_FUNCTION void operator()(const V* a, V* out) const {
+  ATRAPOS_FORCEINLINE void operator()(const V* a, V* out) const {
     ATRAPOS_UNROLL
     for (int m = 0; m < 9; ++m) out[m] = a[symmetricIndex(m / 3, m % 3)];
   }
@@ -96,7 +96,7 @@ struct Full {
 
 struct Transpose {
   template <class V>
-  KOKKOS_FORCEINLINE_FUNCTION void operator()(const V* a, V* out) const {
+  ATRAPOS_FORCEINLINE void operator()(const V* a, V* out) const {
     ATRAPOS_UNROLL
     for (int m = 0; m < 9; ++m) out[m] = a[3 * (m % 3) + m / 3];
   }
@@ -106,7 +106,7 @@ struct Transpose {
 template <int Step>
 struct Trace {
   template <class V>
-  KOKKOS_FORCEINLINE_FUNCTION void operator()(const V* a, V* out) const {
+  ATRAPOS_FORCEINLINE void operator()(const V* a, V* out) const {
     out[0] = a[0] + a[Step] + a[2 * Step];
   }
 };
@@ -115,7 +115,7 @@ template <class S, int N>
 struct Scale {
   S factor;
   template <class V>
-  KOKKOS_FORCEINLINE_FUNCTION void operator()(const V* a, V* out) const {
+  ATRAPOS_FORCEINLINE void operator()(const V* a, V* out) const {
     ATRAPOS_UNROLL
     for (int n = 0; n < N; ++n) out[n] = factor * a[n];
   }
@@ -124,7 +124,7 @@ struct Scale {
 template <int N>
 struct Plus {
   template <class V>
-  KOKKOS_FORCEINLINE_FUNCTION void operator()(const V* a, const V* b, V* out) const {
+  ATRAPOS_FORCEINLINE void operator()(const V* a, const V* b, V* out) const {
     ATRAPOS_UNROLL
     for (int n = 0; n < N; ++n) out[n] = a[n] + b[n];
   }
@@ -133,7 +133,7 @@ struct Plus {
 template <int N>
 struct Minus {
   template <class V>
-  KOKKOS_FORCEINLINE_FUNCTION void operator()(const V* a, const V* b, V* out) const {
+  ATRAPOS_FORCEINLINE void operator()(const V* a, const V* b, V* out) const {
     ATRAPOS_UNROLL
     for (int n = 0; n < N; ++n) out[n] = a[n] - b[n];
   }
@@ -142,7 +142,7 @@ struct Minus {
 template <int Step, int N>
 struct PlusIdentity {
   template <class V>
-  KOKKOS_FORCEINLINE_FUNCTION void operator()(const V* a, const V* s, V* out) const {
+  ATRAPOS_FORCEINLINE void operator()(const V* a, const V* s, V* out) const {
     ATRAPOS_UNROLL
     for (int n = 0; n < N; ++n) {
       if (n % Step == 0 && n <= 2 * Step)
@@ -158,7 +158,7 @@ template <class S>
 struct Dyad {
   S g[3];
   template <class V>
-  KOKKOS_FORCEINLINE_FUNCTION void operator()(const V* a, const V* s, V* out) const {
+  ATRAPOS_FORCEINLINE void operator()(const V* a, const V* s, V* out) const {
     ATRAPOS_UNROLL
     for (int i = 0; i < 3; ++i) {
       out[i] = a[i] + (g[i] * g[i]) * s[0];
@@ -172,30 +172,30 @@ template <class S>
 struct Projection {
   S g[3];
   template <class V>
-  KOKKOS_FORCEINLINE_FUNCTION void operator()(const V* a, V* out) const {
+  ATRAPOS_FORCEINLINE void operator()(const V* a, V* out) const {
     out[0] = (g[0] * g[0]) * a[0] + (g[1] * g[1]) * a[1] + (g[2] * g[2]) * a[2] +
              (2.0 * (g[0] * g[1])) * a[3] + (2.0 * (g[1] * g[2])) * a[4] + (2.0 * (g[2] * g[0])) * a[5];
   }
 };
 
 template <class Map, class T, int M, int N>
-KOKKOS_FORCEINLINE_FUNCTION void linear(const Map& map, const Values<T, M>& a, Values<T, N>& out) {
+ATRAPOS_FORCEINLINE void linear(const Map& map, const Values<T, M>& a, Values<T, N>& out) {
   map(a.v, out.v);
 }
 template <class Map, class T, int M, int K, int N>
-KOKKOS_FORCEINLINE_FUNCTION void linear(const Map& map, const Values<T, M>& a, const Values<T, K>& b,
-                                        Values<T, N>& out) {
+ATRAPOS_FORCEINLINE void linear(const Map& map, const Values<T, M>& a, const Values<T, K>& b,
+                                Values<T, N>& out) {
   map(a.v, b.v, out.v);
 }
 template <class Map, class X, int M, int N>
-KOKKOS_FORCEINLINE_FUNCTION void linear(const Map& map, const Block<X, M>& a, Block<X, N>& out) {
+ATRAPOS_FORCEINLINE void linear(const Map& map, const Block<X, M>& a, Block<X, N>& out) {
   map(a.v, out.v);
   out.context = a.context;
   out.zero = a.zero;
 }
 template <class Map, class X, int M, int K, int N>
-KOKKOS_FORCEINLINE_FUNCTION void linear(const Map& map, const Block<X, M>& a, const Block<X, K>& b,
-                                        Block<X, N>& out) {
+ATRAPOS_FORCEINLINE void linear(const Map& map, const Block<X, M>& a, const Block<X, K>& b,
+                                Block<X, N>& out) {
   out.context = a.context != nullptr ? a.context : b.context;
   if (out.context == nullptr || (a.counts() && b.counts())) {
     map(a.v, b.v, out.v);
@@ -211,8 +211,8 @@ KOKKOS_FORCEINLINE_FUNCTION void linear(const Map& map, const Block<X, M>& a, co
 }
 
 template <class Terms, class T, int M, int N>
-KOKKOS_FORCEINLINE_FUNCTION void bilinear(const Values<T, M>& a, const Values<T, N>& b,
-                                          Values<T, Terms::numOut>& out) {
+ATRAPOS_FORCEINLINE void bilinear(const Values<T, M>& a, const Values<T, N>& b,
+                                  Values<T, Terms::numOut>& out) {
   ATRAPOS_UNROLL
   for (int n = 0; n < Terms::numOut; ++n) out.v[n] = T(0.0);
   addTerms<Terms>(a.v, b.v, out.v, TermIndices<Terms>());
@@ -223,30 +223,30 @@ using Scalar = Tensor<T, 1>;
 
 }  // namespace detail
 
-#define ATRAPOS_TENSORS(TENSOR, N)                                                           \
-  template <class T>                                                                         \
-  KOKKOS_FORCEINLINE_FUNCTION TENSOR<T> operator+(const TENSOR<T>& A, const TENSOR<T>& B) {  \
-    TENSOR<T> C;                                                                             \
-    detail::linear(detail::Plus<N>{}, A, B, C);                                              \
-    return C;                                                                                \
-  }                                                                                          \
-  template <class T>                                                                         \
-  KOKKOS_FORCEINLINE_FUNCTION TENSOR<T> operator-(const TENSOR<T>& A, const TENSOR<T>& B) {  \
-    TENSOR<T> C;                                                                             \
-    detail::linear(detail::Minus<N>{}, A, B, C);                                             \
-    return C;                                                                                \
-  }                                                                                          \
-  template <class T>                                                                         \
-  KOKKOS_FORCEINLINE_FUNCTION TENSOR<T> operator*(const Passive<T>& s, const TENSOR<T>& A) { \
-    TENSOR<T> C;                                                                             \
-    detail::linear(detail::Scale<Passive<T>, N>{s}, A, C);                                   \
-    return C;                                                                                \
-  }                                                                                          \
-  template <class T>                                                                         \
-  KOKKOS_FORCEINLINE_FUNCTION TENSOR<T> scaled(const TENSOR<T>& A, const T& s) {             \
-    TENSOR<T> C;                                                                             \
-    detail::bilinear<detail::ScaledTerms<N>>(A, detail::Scalar<T>(&s), C);                   \
-    return C;                                                                                \
+#define ATRAPOS_TENSORS(TENSOR, N)                                                   \
+  template <class T>                                                                 \
+  ATRAPOS_FORCEINLINE TENSOR<T> operator+(const TENSOR<T>& A, const TENSOR<T>& B) {  \
+    TENSOR<T> C;                                                                     \
+    detail::linear(detail::Plus<N>{}, A, B, C);                                      \
+    return C;                                                                        \
+  }                                                                                  \
+  template <class T>                                                                 \
+  ATRAPOS_FORCEINLINE TENSOR<T> operator-(const TENSOR<T>& A, const TENSOR<T>& B) {  \
+    TENSOR<T> C;                                                                     \
+    detail::linear(detail::Minus<N>{}, A, B, C);                                     \
+    return C;                                                                        \
+  }                                                                                  \
+  template <class T>                                                                 \
+  ATRAPOS_FORCEINLINE TENSOR<T> operator*(const Passive<T>& s, const TENSOR<T>& A) { \
+    TENSOR<T> C;                                                                     \
+    detail::linear(detail::Scale<Passive<T>, N>{s}, A, C);                           \
+    return C;                                                                        \
+  }                                                                                  \
+  template <class T>                                                                 \
+  ATRAPOS_FORCEINLINE TENSOR<T> scaled(const TENSOR<T>& A, const T& s) {             \
+    TENSOR<T> C;                                                                     \
+    detail::bilinear<detail::ScaledTerms<N>>(A, detail::Scalar<T>(&s), C);           \
+    return C;                                                                        \
   }
 
 /// Sums, differences, a passive factor, and scaled(A, s): every entry times one variable.
@@ -256,7 +256,7 @@ ATRAPOS_TENSORS(Symmetric3, 6)
 
 /// (A + A^T)/2
 template <class T>
-KOKKOS_FORCEINLINE_FUNCTION Symmetric3<T> symmetricPart(const Matrix3<T>& A) {
+ATRAPOS_FORCEINLINE Symmetric3<T> symmetricPart(const Matrix3<T>& A) {
   Symmetric3<T> S;
   detail::linear(detail::SymmetricPart{}, A, S);
   return S;
@@ -264,27 +264,27 @@ KOKKOS_FORCEINLINE_FUNCTION Symmetric3<T> symmetricPart(const Matrix3<T>& A) {
 
 /// The same entries as a full matrix.
 template <class T>
-KOKKOS_FORCEINLINE_FUNCTION Matrix3<T> full(const Symmetric3<T>& S) {
+ATRAPOS_FORCEINLINE Matrix3<T> full(const Symmetric3<T>& S) {
   Matrix3<T> A;
   detail::linear(detail::Full{}, S, A);
   return A;
 }
 
 template <class T>
-KOKKOS_FORCEINLINE_FUNCTION T trace(const Symmetric3<T>& S) {
+ATRAPOS_FORCEINLINE T trace(const Symmetric3<T>& S) {
   detail::Scalar<T> t;
   detail::linear(detail::Trace<1>{}, S, t);
   return t.entry(0);
 }
 template <class T>
-KOKKOS_FORCEINLINE_FUNCTION T trace(const Matrix3<T>& A) {
+ATRAPOS_FORCEINLINE T trace(const Matrix3<T>& A) {
   detail::Scalar<T> t;
   detail::linear(detail::Trace<4>{}, A, t);
   return t.entry(0);
 }
 
 template <class T>
-KOKKOS_FORCEINLINE_FUNCTION Matrix3<T> transpose(const Matrix3<T>& A) {
+ATRAPOS_FORCEINLINE Matrix3<T> transpose(const Matrix3<T>& A) {
   Matrix3<T> B;
   detail::linear(detail::Transpose{}, A, B);
   return B;
@@ -292,13 +292,13 @@ KOKKOS_FORCEINLINE_FUNCTION Matrix3<T> transpose(const Matrix3<T>& A) {
 
 /// The tensor plus s I.
 template <class T>
-KOKKOS_FORCEINLINE_FUNCTION Symmetric3<T> plusIdentity(const Symmetric3<T>& S, const T& s) {
+ATRAPOS_FORCEINLINE Symmetric3<T> plusIdentity(const Symmetric3<T>& S, const T& s) {
   Symmetric3<T> C;
   detail::linear(detail::PlusIdentity<1, 6>{}, S, detail::Scalar<T>(&s), C);
   return C;
 }
 template <class T>
-KOKKOS_FORCEINLINE_FUNCTION Matrix3<T> plusIdentity(const Matrix3<T>& A, const T& s) {
+ATRAPOS_FORCEINLINE Matrix3<T> plusIdentity(const Matrix3<T>& A, const T& s) {
   Matrix3<T> C;
   detail::linear(detail::PlusIdentity<4, 9>{}, A, detail::Scalar<T>(&s), C);
   return C;
@@ -306,7 +306,7 @@ KOKKOS_FORCEINLINE_FUNCTION Matrix3<T> plusIdentity(const Matrix3<T>& A, const T
 
 /// S + s g (x) g with a passive vector g[3].
 template <class T>
-KOKKOS_FORCEINLINE_FUNCTION Symmetric3<T> plusDyad(const Symmetric3<T>& S, const T& s, const Passive<T>* g) {
+ATRAPOS_FORCEINLINE Symmetric3<T> plusDyad(const Symmetric3<T>& S, const T& s, const Passive<T>* g) {
   Symmetric3<T> C;
   detail::linear(detail::Dyad<Passive<T>>{{g[0], g[1], g[2]}}, S, detail::Scalar<T>(&s), C);
   return C;
@@ -314,7 +314,7 @@ KOKKOS_FORCEINLINE_FUNCTION Symmetric3<T> plusDyad(const Symmetric3<T>& S, const
 
 /// g . S g with a passive vector g[3].
 template <class T>
-KOKKOS_FORCEINLINE_FUNCTION T projection(const Symmetric3<T>& S, const Passive<T>* g) {
+ATRAPOS_FORCEINLINE T projection(const Symmetric3<T>& S, const Passive<T>* g) {
   detail::Scalar<T> s;
   detail::linear(detail::Projection<Passive<T>>{{g[0], g[1], g[2]}}, S, s);
   return s.entry(0);
@@ -322,21 +322,21 @@ KOKKOS_FORCEINLINE_FUNCTION T projection(const Symmetric3<T>& S, const Passive<T
 
 /// A^T A
 template <class T>
-KOKKOS_FORCEINLINE_FUNCTION Symmetric3<T> gramian(const Matrix3<T>& A) {
+ATRAPOS_FORCEINLINE Symmetric3<T> gramian(const Matrix3<T>& A) {
   Symmetric3<T> G;
   detail::bilinear<detail::GramianTerms>(A, A, G);
   return G;
 }
 
 template <class T>
-KOKKOS_FORCEINLINE_FUNCTION Matrix3<T> operator*(const Matrix3<T>& A, const Matrix3<T>& B) {
+ATRAPOS_FORCEINLINE Matrix3<T> operator*(const Matrix3<T>& A, const Matrix3<T>& B) {
   Matrix3<T> C;
   detail::bilinear<detail::ProductTerms>(A, B, C);
   return C;
 }
 
 template <class T>
-KOKKOS_FORCEINLINE_FUNCTION Matrix3<T> operator*(const Matrix3<T>& A, const Symmetric3<T>& S) {
+ATRAPOS_FORCEINLINE Matrix3<T> operator*(const Matrix3<T>& A, const Symmetric3<T>& S) {
   Matrix3<T> C;
   detail::bilinear<detail::SymmetricProductTerms>(A, S, C);
   return C;
@@ -344,7 +344,7 @@ KOKKOS_FORCEINLINE_FUNCTION Matrix3<T> operator*(const Matrix3<T>& A, const Symm
 
 /// det(A) A^-T
 template <class T>
-KOKKOS_FORCEINLINE_FUNCTION Matrix3<T> cofactor(const Matrix3<T>& A) {
+ATRAPOS_FORCEINLINE Matrix3<T> cofactor(const Matrix3<T>& A) {
   Matrix3<T> C;
   detail::bilinear<detail::CofactorTerms>(A, A, C);
   return C;
@@ -352,7 +352,7 @@ KOKKOS_FORCEINLINE_FUNCTION Matrix3<T> cofactor(const Matrix3<T>& A) {
 
 /// det(S) S^-1
 template <class T>
-KOKKOS_FORCEINLINE_FUNCTION Symmetric3<T> cofactor(const Symmetric3<T>& S) {
+ATRAPOS_FORCEINLINE Symmetric3<T> cofactor(const Symmetric3<T>& S) {
   Symmetric3<T> C;
   detail::bilinear<detail::SymmetricCofactorTerms>(S, S, C);
   return C;
@@ -360,13 +360,13 @@ KOKKOS_FORCEINLINE_FUNCTION Symmetric3<T> cofactor(const Symmetric3<T>& S) {
 
 /// det(A) from A and its cofactor.
 template <class T>
-KOKKOS_FORCEINLINE_FUNCTION T determinant(const Matrix3<T>& A, const Matrix3<T>& cof) {
+ATRAPOS_FORCEINLINE T determinant(const Matrix3<T>& A, const Matrix3<T>& cof) {
   detail::Scalar<T> d;
   detail::bilinear<detail::DeterminantTerms>(A, cof, d);
   return d.entry(0);
 }
 template <class T>
-KOKKOS_FORCEINLINE_FUNCTION T determinant(const Symmetric3<T>& S, const Symmetric3<T>& cof) {
+ATRAPOS_FORCEINLINE T determinant(const Symmetric3<T>& S, const Symmetric3<T>& cof) {
   detail::Scalar<T> d;
   detail::bilinear<detail::SymmetricDeterminantTerms>(S, cof, d);
   return d.entry(0);
@@ -374,7 +374,7 @@ KOKKOS_FORCEINLINE_FUNCTION T determinant(const Symmetric3<T>& S, const Symmetri
 
 /// A : B
 template <class T>
-KOKKOS_FORCEINLINE_FUNCTION T contraction(const Symmetric3<T>& A, const Symmetric3<T>& B) {
+ATRAPOS_FORCEINLINE T contraction(const Symmetric3<T>& A, const Symmetric3<T>& B) {
   detail::Scalar<T> d;
   detail::bilinear<detail::ContractionTerms>(A, B, d);
   return d.entry(0);

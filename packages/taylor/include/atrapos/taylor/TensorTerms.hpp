@@ -8,7 +8,7 @@
 namespace atrapos::taylor {
 
 /// Position of entry (i, j) of a symmetric tensor: xx yy zz xy yz zx.
-KOKKOS_FORCEINLINE_FUNCTION constexpr int symmetricIndex(int i, int j) {
+ATRAPOS_FORCEINLINE constexpr int symmetricIndex(int i, int j) {
   return i == j ? i : i + j == 1 ? 3 : i + j == 3 ? 4 : 5;
 }
 
