@@ -45,16 +45,16 @@ function(atrapos_in_batches target)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ${ATRAPOS_BATCHES} UNITY_BUILD_MODE BATCH UNITY_BUILD_BATCH_SIZE 8)
 endfunction()
 
-# atrapos_test(<name> [QUICK | COMPUTES] SOURCES ... DEPENDS ... [LABELS unit] [RANKS n...] [SECONDS s] [ENVIRONMENT ...])
+# atrapos_test(<name> [QUICK | COMPUTES] [BATCHES] SOURCES ... DEPENDS ... [LABELS unit] [RANKS n...] [SECONDS s] [ENVIRONMENT ...])
 # One GoogleTest executable and one ctest entry, with several numbers of ranks one each: <name>_np<n>. Its main
 # starts MPI and Kokkos, once. Compiled without optimisation, as most compute next to nothing themselves; QUICK: and without
-# Trilinos' headers; COMPUTES: optimised a little, for it spends its time in loops of its own. SECONDS: what it takes, of
-# long ones, which start first, so that all processors have work to the end.
+# Trilinos' headers; COMPUTES: optimised a little, for it spends its time in loops of its own. BATCHES: sources in batches.
+# SECONDS: what it takes, of long ones, which start first, so that all processors have work to the end.
 function(atrapos_test name)
   if(NOT BUILD_TESTING)
     return()
   endif()
-  cmake_parse_arguments(arg "QUICK;COMPUTES" "TIMEOUT;SECONDS" "SOURCES;DEPENDS;LABELS;RANKS;ENVIRONMENT" ${ARGN})
+  cmake_parse_arguments(arg "QUICK;COMPUTES;BATCHES" "TIMEOUT;SECONDS" "SOURCES;DEPENDS;LABELS;RANKS;ENVIRONMENT" ${ARGN})
   atrapos_find_gtest()
   if(NOT TARGET atrapos_test_main)
     add_library(atrapos_test_main OBJECT ${PROJECT_SOURCE_DIR}/test/support/main.cpp)
@@ -72,6 +72,11 @@ function(atrapos_test name)
     target_compile_options(${name} PRIVATE ${atrapos_quick})
   else()
     atrapos_precompiled(${name} test)
+  endif()
+  if(arg_BATCHES)
+    atrapos_in_batches(${name})
+    # Fixtures stand in the unnamed namespace, which in a batch is not the main file's.
+    target_compile_options(${name} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
   endif()
   if(NOT arg_LABELS)
     set(arg_LABELS unit)

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "support/Refusals.hpp"
 #include "support/Surfaces.hpp"
 
 using namespace atrapos;
@@ -217,17 +218,6 @@ TEST(AnalyticTools, LossOfUniquenessIsSaidInWords) {
   waist.profile = PolynomialProfile::of({5, 0, 0.25});
   expectAmbiguous(waist, {7.0, 0, 0}, "centre of curvature");
   EXPECT_EQ(waist.ambiguity(Vector3{6.9, 0, 0}.data()), "");
-}
-
-template <class F>
-void expectRefused(const F& f, const std::string& words) {
-  try {
-    f();
-    ADD_FAILURE() << "accepted where expected: " << words;
-  } catch (const std::invalid_argument& e) {
-    EXPECT_NE(std::string(e.what()).find(words), std::string::npos) << e.what();
-    EXPECT_EQ(std::string(e.what()).find('\n'), std::string::npos);
-  }
 }
 
 TEST(AnalyticTools, BadToolsAreRefused) {

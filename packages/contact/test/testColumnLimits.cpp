@@ -14,15 +14,15 @@ using namespace atrapos::contact::test;
 
 namespace {
 
-constexpr double length = 4, gap = 1, E = 4;
+constexpr double barLength = 4, barGap = 1, barE = 4;
 
 double barForce(double w) {
-  const double s = 1 + w / length;
-  return E * s * (s * s - 1) / 2;
+  const double s = 1 + w / barLength;
+  return barE * s * (s * s - 1) / 2;
 }
 double stiffness(double w) {
-  const double s = 1 + w / length;
-  return E * (3 * s * s - 1) / (2 * length);
+  const double s = 1 + w / barLength;
+  return barE * (3 * s * s - 1) / (2 * barLength);
 }
 
 struct Contact {
@@ -41,13 +41,13 @@ Contact contactAt(double load, double compliance, double eta) {
 double rate(double coarse, double fine) { return std::log10(std::abs(coarse / fine)); }
 
 TEST(RegularisationLimit, PressedGapIsProportionalToEta) {
-  const double load = barForce(gap) + 2;  // hard contact: R = 2, h = 0
+  const double load = barForce(barGap) + 2;  // hard contact: R = 2, h = 0
   double before = 0;
   for (const double eta : {1e-2, 1e-3, 1e-4}) {
     const Contact c = contactAt(load, 0, eta);
     // h = eta Delta/(R + eta), R = 2 + k h + ...: the constant holds up to O(eta).
-    EXPECT_NEAR(c.h / (eta * gap / 2), 1.0, 2 * eta);
-    EXPECT_NEAR((c.R - 2) / (stiffness(gap) * c.h), 1.0, 2 * eta);
+    EXPECT_NEAR(c.h / (eta * barGap / 2), 1.0, 2 * eta);
+    EXPECT_NEAR((c.R - 2) / (stiffness(barGap) * c.h), 1.0, 2 * eta);
     if (before > 0) {
       EXPECT_NEAR(rate(before, c.h), 1.0, 0.01);
     }  // O(eta) of the constant above
@@ -56,13 +56,13 @@ TEST(RegularisationLimit, PressedGapIsProportionalToEta) {
 }
 
 TEST(RegularisationLimit, OpenForceIsProportionalToEta) {
-  const double w = 0.5 * gap, load = barForce(w);  // hard contact: h = gap/2, R = 0
+  const double w = 0.5 * barGap, load = barForce(w);  // hard contact: h = gap/2, R = 0
   double before = 0;
   for (const double eta : {1e-2, 1e-3, 1e-4}) {
     const Contact c = contactAt(load, 1e-6, eta);
     // R = eta (Delta - h)/h = eta at h = Delta/2; the gap grows by R/k, which takes (1 + 4/k) R off that.
     EXPECT_NEAR(c.R / eta, 1.0, 6 * eta);
-    EXPECT_NEAR((c.h - 0.5 * gap) * stiffness(w) / c.R, 1.0, 2 * eta);
+    EXPECT_NEAR((c.h - 0.5 * barGap) * stiffness(w) / c.R, 1.0, 2 * eta);
     if (before > 0) {
       EXPECT_NEAR(rate(before, c.R), 1.0, 0.02);
     }  // 6 eta/ln 10 at 1e-2
@@ -71,13 +71,13 @@ TEST(RegularisationLimit, OpenForceIsProportionalToEta) {
 }
 
 TEST(RegularisationLimit, TouchingErrorFallsAsTheSquareRootOfEta) {
-  const double load = barForce(gap), k = stiffness(gap);  // hard contact: h = 0, R = 0
+  const double load = barForce(barGap), k = stiffness(barGap);  // hard contact: h = 0, R = 0
   double before = 0;
   for (const double compliance : {0.0, 0.1}) {
     before = 0;
     for (const double eta : {1e-4, 1e-6, 1e-8}) {
       const Contact c = contactAt(load, compliance, eta);
-      const double expected = std::sqrt(eta * gap / (k * (1 + k * compliance)));
+      const double expected = std::sqrt(eta * barGap / (k * (1 + k * compliance)));
       // The next term is of relative order h: eta (Delta - h), and the bar's curvature.
       EXPECT_NEAR(c.h / expected, 1.0, 2 * expected) << compliance << ' ' << eta;
       EXPECT_NEAR(c.R / (k * c.h), 1.0, 2 * expected) << compliance << ' ' << eta;
@@ -90,13 +90,13 @@ TEST(RegularisationLimit, TouchingErrorFallsAsTheSquareRootOfEta) {
 }
 
 TEST(RegularisationLimit, StiffnessErrorIsProportionalToCompliance) {
-  const double load = barForce(gap) + 2, eta = 1e-4;
+  const double load = barForce(barGap) + 2, eta = 1e-4;
   const double barrier = contactAt(load, 0, eta).h;
   double before = 0;
   for (const double compliance : {1e-2, 1e-3, 1e-4}) {
     const Contact c = contactAt(load, compliance, eta);
     // h = (eta Delta - R^2/alpha)/(R + eta): penetration R/alpha. R itself falls by k R/alpha.
-    EXPECT_NEAR((barrier - c.h) / (2 * compliance), 1.0, 2 * compliance * stiffness(gap) + 2 * eta);
+    EXPECT_NEAR((barrier - c.h) / (2 * compliance), 1.0, 2 * compliance * stiffness(barGap) + 2 * eta);
     if (before > 0) {
       EXPECT_NEAR(rate(before, barrier - c.h), 1.0, 0.01);
     }
@@ -106,8 +106,8 @@ TEST(RegularisationLimit, StiffnessErrorIsProportionalToCompliance) {
 
 // At R^2 = alpha eta Delta the two errors cancel: there the surface is where hard contact has it.
 TEST(RegularisationLimit, ErrorsCancelAtTheForceSqrtOfAlphaEtaDelta) {
-  const double eta = 1e-4, compliance = eta * gap / (2.0 * 2.0);
-  const Contact c = contactAt(barForce(gap) + 2, compliance, eta);
+  const double eta = 1e-4, compliance = eta * barGap / (2.0 * 2.0);
+  const Contact c = contactAt(barForce(barGap) + 2, compliance, eta);
   EXPECT_NEAR(c.h, 0.0, 1e-10);  // residual 1e-11 of forces of about 5, over the stiffness 1/compliance and k
   EXPECT_NEAR(c.R, 2.0, 1e-10);
 }

@@ -15,8 +15,6 @@ using namespace atrapos::contact::test;
 
 namespace {
 
-constexpr double eps = 2.2e-16;
-
 /// -R n in closed form.
 template <class Tool, class T>
 void closedForce(const ContactLaw<Tool>& law, bool open, const T* x, double Delta, T* out) {

@@ -19,7 +19,7 @@ using namespace atrapos::contact::test;
 
 namespace {
 
-constexpr double kRadius = 2;
+constexpr double ballRadius = 2;
 
 const std::vector<fem::Topology>& allCells() {
   using fem::Topology;
@@ -51,9 +51,9 @@ TEST(FaceZones, ForceOfAPlateOnARoll) {
           SCOPED_TRACE(fem::topologyName(cell));
           const auto mesh = turned ? fem::test::box(cell, {2, 4, 1}, {3, 4, 1})
                                    : fem::test::box(cell, {4, 2, 1}, {4, 3, 1});
-          const double z = depth - kRadius;
-          const auto roll = turned ? rigidTool(Cylinder{{0, 1.4, z}, {1, 0, 0}, kRadius})
-                                   : rigidTool(Cylinder{{1.4, 0, z}, {0, 1, 0}, kRadius});
+          const double z = depth - ballRadius;
+          const auto roll = turned ? rigidTool(Cylinder{{0, 1.4, z}, {1, 0, 0}, ballRadius})
+                                   : rigidTool(Cylinder{{1.4, 0, z}, {0, 1, 0}, ballRadius});
           fem::FeModel model = solidModel(mesh, 10, 0.3);
           const auto lines = addFaceZones(model, mesh, *roll, {7, m});
           // Six lines across, which go on from face to face.
@@ -64,7 +64,7 @@ TEST(FaceZones, ForceOfAPlateOnARoll) {
           const Numbers none(3 * static_cast<std::size_t>(mesh.numNodes()), 0.0);
           const auto sum =
               resultant(problem.forces(problem.term(1), {fem::test::vectorOf(problem, none), 0}));
-          const double exact = 3 * lineOnCircle(depth, kRadius, 7, m);
+          const double exact = 3 * lineOnCircle(depth, ballRadius, 7, m);
           EXPECT_NEAR(-sum[2], exact, 1e-11 * exact) << depth << ' ' << m;
         }
 }
@@ -72,14 +72,14 @@ TEST(FaceZones, ForceOfAPlateOnARoll) {
 // A disc of contact: lines at the distance s leave of (a^2 - y^2)^(3/2) at its rim what goes like
 // (s/a)^(5/2), to and fro. The pressure alpha (R - rho) over the disc, rho^2 = r^2 + d^2, has a closed form.
 TEST(FaceZones, ForceOfAPlateOnABall) {
-  const double depth = 0.05, d = kRadius - depth, alpha = 7, rim = std::sqrt(kRadius * kRadius - d * d);
+  const double depth = 0.05, d = ballRadius - depth, alpha = 7, rim = std::sqrt(ballRadius * ballRadius - d * d);
   // Integral of (R - rho) d/rho 2 pi r dr, rho from d to R.
   const double exact = alpha * std::acos(-1.0) * d * depth * depth;
   for (const auto cell : {fem::Topology::Hex8, fem::Topology::Tet4})
     for (const int divisions : {4, 8, 16, 32}) {
       const auto mesh = fem::test::box(cell, {divisions, divisions, 1}, {2, 2, 1});
       fem::FeModel model = solidModel(mesh, 10, 0.3);
-      addFaceZones(model, mesh, *rigidTool(Sphere{{1.03, 0.97, -d}, kRadius}), {alpha, 1});
+      addFaceZones(model, mesh, *rigidTool(Sphere{{1.03, 0.97, -d}, ballRadius}), {alpha, 1});
       fem::FeProblem problem(std::move(model));
       const Numbers none(3 * static_cast<std::size_t>(mesh.numNodes()), 0.0);
       const auto sum = resultant(problem.forces(problem.term(1), {fem::test::vectorOf(problem, none), 0}));
@@ -95,7 +95,7 @@ TEST(FaceZones, TangentIsTheSymmetricDerivativeOfTheForce) {
     motion.shift[1][0] = 0.2;
     const auto mesh = fem::test::box(cell, {2, 2, 1}, {2, 2, 1});
     fem::FeModel model = solidModel(mesh, 10, 0.3);
-    addFaceZones(model, mesh, *rigidTool(Sphere{{0.9, 1.2, -kRadius + 0.1}, kRadius}, motion), {5, 1});
+    addFaceZones(model, mesh, *rigidTool(Sphere{{0.9, 1.2, -ballRadius + 0.1}, ballRadius}, motion), {5, 1});
     fem::FeProblem problem(std::move(model));
     const Numbers u = fem::test::randomNumbers(3 * mesh.numNodes(), 0.02, 5);
     const double lambda = 0.1;
@@ -137,7 +137,7 @@ void forceOfFace(const double (*X)[3], double area, const double* center, double
     }
     const T rho = sqrt(x[0] * x[0] + x[1] * x[1] + x[2] * x[2]);
     for (int i = 0; i < 3; ++i) x[i] = x[i] / rho;
-    return T(rho - kRadius);
+    return T(rho - ballRadius);
   };
   const fem::Tabulation across = fem::tabulateFace(fem::Face::Line2, 4),
                         gauss = fem::tabulateFace(fem::Face::Line2, 19);
@@ -174,11 +174,11 @@ void forceOfFace(const double (*X)[3], double area, const double* center, double
 TEST(FaceZones, TangentIsThatOfFadTypesWithLimitsThatMove) {
   using Fad = Sacado::Fad::SFad<double, 24>;
   const fem::Mesh mesh = fem::test::box(fem::Topology::Hex20, {1, 1, 1});
-  const double center[3] = {0.52, 0.5, -kRadius + 0.045};
+  const double center[3] = {0.52, 0.5, -ballRadius + 0.045};
   fem::FeModel model;
   model.dofs = fem::DofMap::displacements(mesh.numNodes());
   const auto lines =
-      addFaceZones(model, mesh, *rigidTool(Sphere{{center[0], center[1], center[2]}, kRadius}), {7, 1});
+      addFaceZones(model, mesh, *rigidTool(Sphere{{center[0], center[1], center[2]}, ballRadius}), {7, 1});
   fem::FeProblem problem(std::move(model));
   // Lines along the first side of the face, or along the second: then the face is looked at from there.
   const double* from = &mesh.coordinates[3 * lines.nodes[0]];
@@ -228,7 +228,7 @@ TEST(FaceZones, SeriesOfAllOrders) {
       model.prescribe(n, 1, 0, 0);
       model.prescribe(n, 2, 0, -1);
     }
-    addFaceZones(model, mesh, *rigidTool(Sphere{{0.9, 1.2, -kRadius}, kRadius}), {200, 1});
+    addFaceZones(model, mesh, *rigidTool(Sphere{{0.9, 1.2, -ballRadius}, ballRadius}), {200, 1});
     fem::FeProblem problem(std::move(model));
     Numbers u;
     const double lambda = 0.04;

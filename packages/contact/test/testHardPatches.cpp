@@ -41,7 +41,7 @@ std::vector<BezierPatch> plateAndArc(double border) {
   return {plate(-1, border), plate(border, 1.05), arc};
 }
 
-struct Seen final : path::Observer {
+struct Steps final : path::Observer {
   std::vector<path::StepReport> steps;
   bool onStep(const path::StepReport& report, const path::Series&) override {
     steps.push_back(report);
@@ -51,7 +51,7 @@ struct Seen final : path::Observer {
 
 struct Path {
   std::unique_ptr<fem::FeProblem> problem;
-  Seen seen;
+  Steps seen;
   path::Outcome outcome;
   Numbers u;
   double force = 0;

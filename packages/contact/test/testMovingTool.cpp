@@ -15,8 +15,6 @@ using namespace atrapos::contact::test;
 
 namespace {
 
-constexpr double eps = 2.2e-16;
-
 template <class Tool>
 struct MovingProjection {
   static constexpr int numInputs = 4, numOutputs = 4, numData = 0;

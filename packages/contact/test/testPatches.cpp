@@ -8,14 +8,13 @@
 #include "atrapos/contact/ContactLaw.hpp"
 #include "support/Differences.hpp"
 #include "support/PatchSurfaces.hpp"
+#include "support/Refusals.hpp"
 
 using namespace atrapos;
 using namespace atrapos::contact;
 using namespace atrapos::contact::test;
 
 namespace {
-
-constexpr double eps = 2.2e-16;
 
 struct PatchProjection {
   static constexpr int numInputs = 3, numOutputs = 6, numData = 3;
@@ -468,17 +467,6 @@ TEST(Patches, LossOfUniquenessIsSaidInWords) {
   const PatchSet plates({low, high});
   EXPECT_NE(plates.ambiguity(Vector3{0.4, 0.3, 0.5}.data()).find("equally near"), std::string::npos);
   EXPECT_EQ(plates.ambiguity(Vector3{0.4, 0.3, 0.4}.data()), "");
-}
-
-template <class F>
-void expectRefused(const F& f, const std::string& words) {
-  try {
-    f();
-    ADD_FAILURE() << "accepted where expected: " << words;
-  } catch (const std::invalid_argument& e) {
-    EXPECT_NE(std::string(e.what()).find(words), std::string::npos) << e.what();
-    EXPECT_EQ(std::string(e.what()).find('\n'), std::string::npos);
-  }
 }
 
 TEST(Patches, BadSurfacesAreRefused) {

@@ -11,13 +11,13 @@
 #include "atrapos/contact/PowerBarrier.hpp"
 #include "atrapos/contact/SmoothedPenalty.hpp"
 #include "support/Differences.hpp"
+#include "support/Refusals.hpp"
 
 using namespace atrapos;
 using namespace atrapos::contact;
+using namespace atrapos::contact::test;
 
 namespace {
-
-constexpr double eps = 2.2e-16;
 
 /// in = gap, data = reference gap, out = pressure.
 template <class Pressure>
@@ -199,16 +199,6 @@ TEST(PressureLaws, ServeContactLaw) {
     EXPECT_GT(jacobian[8], 0.0);
     EXPECT_NO_THROW(contact.validate());
   });
-}
-
-template <class F>
-void expectRefused(const F& f, const std::string& words) {
-  try {
-    f();
-    ADD_FAILURE() << "accepted where expected: " << words;
-  } catch (const std::invalid_argument& e) {
-    EXPECT_NE(std::string(e.what()).find(words), std::string::npos) << e.what();
-  }
 }
 
 TEST(PressureLaws, BadNumbersAreRefused) {

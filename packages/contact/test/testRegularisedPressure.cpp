@@ -11,10 +11,9 @@
 
 using namespace atrapos;
 using contact::RegularisedPressure;
+using namespace atrapos::contact::test;
 
 namespace {
-
-constexpr double eps = 2.2e-16;
 
 /// The law of one variable: in = gap, data = reference gap, out = pressure.
 struct PressureOfGap {

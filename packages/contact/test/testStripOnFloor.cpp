@@ -23,18 +23,18 @@ constexpr double spacing = 0.5 * length / elements;  // of nodes
 constexpr double bending = E * width * thickness * thickness * thickness / 12;
 constexpr double loadAtOne = bending * gap / (length * length * length * length);  // q at Q = 1
 
-struct Row {
+struct BeamRow {
   double Q, tip, tipForce, length, pointForce, moment;
 };
 
-std::vector<Row> referenceRows() {
+std::vector<BeamRow> beamRows() {
   std::ifstream file(ATRAPOS_CONTACT_TEST_DATA "/contact_beam_flat_floor.csv");
-  std::vector<Row> rows;
+  std::vector<BeamRow> rows;
   for (std::string text; std::getline(file, text);) {
     std::replace(text.begin(), text.end(), ',', ' ');
     std::istringstream in(text);
     std::string l;  // "nan" where the strip is free
-    Row row{};
+    BeamRow row{};
     if (in >> row.Q >> row.tip >> row.tipForce >> l >> row.pointForce >> row.moment) {
       row.length = l == "nan" ? 0 : std::stod(l);
       rows.push_back(row);
@@ -77,9 +77,9 @@ struct Seen {
   double tip = NAN, contactForce = NAN, tipForce = NAN, before = NAN, moment = NAN, shear = NAN;
 };
 
-class Watch : public path::Observer {
+class WatchedStrip : public path::Observer {
  public:
-  Watch(const Strip& strip, const std::vector<Row>& rows) : strip_(strip), rows_(rows), seen(rows.size()) {}
+  WatchedStrip(const Strip& strip, const std::vector<BeamRow>& rows) : strip_(strip), rows_(rows), seen(rows.size()) {}
   bool onStep(const path::StepReport& report, const path::Series& series) override {
     for (std::size_t i = 0; i < rows_.size(); ++i)
       for (const double a : series.lambdaFunction().minus(rows_[i].Q).roots(report.length))
@@ -89,9 +89,9 @@ class Watch : public path::Observer {
 
  private:
   const Strip& strip_;
-  const std::vector<Row>& rows_;
+  const std::vector<BeamRow>& rows_;
 
-  void look(const Row& row, const path::Series& series, double a, Seen& s) const {
+  void look(const BeamRow& row, const path::Series& series, double a, Seen& s) const {
     const fem::FeProblem& problem = *strip_.problem;
     auto u = fem::test::zeroVector(problem);
     const double Q = series.evaluate(a, *u), total = Q * loadAtOne * length;
@@ -117,13 +117,13 @@ class Watch : public path::Observer {
 };
 
 TEST(StripOnFloor, AgreesWithBeamTheory) {
-  const std::vector<Row> rows = referenceRows();
+  const std::vector<BeamRow> rows = beamRows();
   ASSERT_EQ(rows.size(), 11u);
   const Strip strip;
-  Watch watch(strip, rows);
+  WatchedStrip watch(strip, rows);
   follow(*strip.problem, {strip.problem->initialState(0), 0.0}, rows.back().Q + 1, watch, path::Options{});
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    const Row& row = rows[i];
+    const BeamRow& row = rows[i];
     const Seen& s = watch.seen[i];
     // What is common to all rows: far-field forces of 123 nodes, 1e-5/Q each times (Delta - h)/h and 8/3 for
     // their effect on the tip, shear 8e-5, a residual of 1e-6. Found: 2.5e-4 in the tip, 1.5e-4 in the

@@ -13,8 +13,6 @@ using namespace atrapos::contact::test;
 
 namespace {
 
-constexpr double eps = 2.2e-16;
-
 /// Random tools with points far off, near the surface and a little inside.
 template <class F>
 void forPlanes(const F& f) {

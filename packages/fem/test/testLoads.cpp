@@ -14,7 +14,7 @@ namespace {
 using Vec3 = std::array<double, 3>;
 
 // Sums of up to a few thousand nodal forces of size 0.1 or less.
-constexpr double rounding = 1e-12;
+constexpr double roundingOfSums = 1e-12;
 
 Vec3 total(const std::vector<double>& force) {
   Vec3 sum{0, 0, 0};
@@ -35,7 +35,7 @@ Vec3 moment(const Mesh& mesh, const std::vector<double>& force) {
 }
 
 void expectNear(const Vec3& a, const Vec3& b) {
-  for (int i = 0; i < 3; ++i) EXPECT_NEAR(a[i], b[i], rounding);
+  for (int i = 0; i < 3; ++i) EXPECT_NEAR(a[i], b[i], roundingOfSums);
 }
 
 std::vector<double> noForce(const Mesh& mesh) { return std::vector<double>(3 * mesh.numNodes(), 0.0); }
@@ -77,7 +77,7 @@ TEST(Loads, TractionHasTheForceAndMomentOfItsFace) {
       const bool onX = name[0] == 'x';
       const double area = onX ? 15 : 6;
       const Vec3 centre = onX ? Vec3{2, 1.5, 2.5} : Vec3{1, 1.5, 0};
-      EXPECT_NEAR(areaOf(mesh, sideSet(mesh, name)), area, rounding);
+      EXPECT_NEAR(areaOf(mesh, sideSet(mesh, name)), area, roundingOfSums);
       expectNear(total(force), {area * t[0], area * t[1], area * t[2]});
       expectNear(moment(mesh, force),
                  {area * (centre[1] * t[2] - centre[2] * t[1]), area * (centre[2] * t[0] - centre[0] * t[2]),
@@ -108,7 +108,7 @@ TEST(Loads, PressureOnAClosedSurface) {
     expectNear(moment(mesh, force), {0, 0, 0});
     double work = 0;
     for (std::size_t d = 0; d < force.size(); ++d) work += force[d] * mesh.coordinates[d];
-    EXPECT_NEAR(work, -3 * 1.7 * volumeOf(mesh), rounding);
+    EXPECT_NEAR(work, -3 * 1.7 * volumeOf(mesh), roundingOfSums);
   }
 }
 

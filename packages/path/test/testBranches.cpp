@@ -8,6 +8,7 @@
 
 #include "atrapos/path/Branches.hpp"
 #include "problems/Bifurcations.hpp"
+#include "problems/Ends.hpp"
 #include "problems/Record.hpp"
 
 using namespace atrapos::path;
@@ -96,14 +97,6 @@ struct Traced {
     EXPECT_EQ(solver.counters().factorizations, all);
   }
 };
-
-Stops loads(std::vector<double> values) {
-  Stops stops;
-  stops.loadFactors = std::move(values);
-  return stops;
-}
-
-double at(const State& state, int i) { return state.u->getData()[i]; }
 
 TEST(Branches, AnInterruptedDiagramGoesOnBitForBit) {
   SwayTruss sway;

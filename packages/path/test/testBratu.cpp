@@ -10,13 +10,13 @@ using namespace atrapos::path;
 namespace {
 
 /// The fold of Bratu's problem: load and value in the middle.
-struct Fold {
+struct BratuFold {
   int count = 0;
   double lambda = 0, middle = 0;
   int steps = 0;
 };
 
-Fold fold(int N, int dimension) {
+BratuFold fold(int N, int dimension) {
   const ChebyshevBratu law(N, dimension);
   JetProblem<ChebyshevBratu> problem(law);
   std::vector<double> weights(law.size(), 0.0);
@@ -27,7 +27,7 @@ Fold fold(int N, int dimension) {
   options.delta = options.residualBound = 1e-11;
   Followed<ChebyshevBratu> f(law, std::vector<double>(law.size(), 0.0), 0, options, stops);
   EXPECT_EQ(f.outcome.reason, EndReason::stopReached) << f.outcome.text;
-  Fold result;
+  BratuFold result;
   result.steps = f.outcome.steps;
   for (std::size_t i = 0; i < f.record.steps.size(); ++i)
     for (const auto& p : f.record.steps[i].limitPoints) {
@@ -41,7 +41,7 @@ Fold fold(int N, int dimension) {
 /// Exact to the 16 digits known; spectral discretisation, so 1e-8 is the accuracy of path and root, not of
 /// the mesh.
 TEST(Bratu, FoldInOneDimension) {
-  const Fold f = fold(24, 1);
+  const BratuFold f = fold(24, 1);
   EXPECT_EQ(f.count, 1);
   EXPECT_NEAR(f.lambda, 3.513830719125161, 1e-8);
   EXPECT_NEAR(f.middle, 1.186842168634389, 1e-8);
@@ -50,7 +50,7 @@ TEST(Bratu, FoldInOneDimension) {
 
 /// Unit square, 100 unknowns: 6.80812442258 by collocation of higher order in the reference.
 TEST(Bratu, FoldInTwoDimensions) {
-  const Fold f = fold(20, 2);
+  const BratuFold f = fold(20, 2);
   EXPECT_EQ(f.count, 1);
   EXPECT_NEAR(f.lambda, 6.80812442258, 6.8e-8);  // 1e-8 of it
   EXPECT_NEAR(f.middle, 1.39166120598, 1e-8);

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "problems/Bifurcations.hpp"
+#include "problems/Ends.hpp"
 #include "problems/Record.hpp"
 
 using namespace atrapos::path;
@@ -10,25 +11,7 @@ using namespace atrapos::path;
 namespace {
 
 template <class Law>
-using Watched = Followed<Law, SymmetricDenseSolver>;
-
-Stops load(double value) {
-  Stops stops;
-  stops.loadFactors = {value};
-  return stops;
-}
-
-template <class Law>
-Stops unknown(const Law& law, int i, double value) {
-  JetProblem<Law> problem(law);
-  std::vector<double> weights(law.size(), 0.0);
-  weights[i] = 1;
-  Stops stops;
-  stops.functionals.push_back({"unknown", problem.vector(weights), value});
-  return stops;
-}
-
-double at(const State& state, int i) { return state.u->getData()[i]; }
+using Symmetric = Followed<Law, SymmetricDenseSolver>;
 
 /// What holds for every path with critical points.
 template <class F>
@@ -49,7 +32,7 @@ TEST(Critical, SwayOfTheTrussBeforeAtAndBehindItsLimitPoint) {
       options.pade = use;
       SwayTruss law;
       law.b = b;
-      Watched<SwayTruss> f(law, {0, 0}, 0, options, unknown(law, 0, 2.2));
+      Symmetric<SwayTruss> f(law, {0, 0}, 0, options, unknown(law, 0, 2.2));
       expectSound(f);
       const auto points = criticalPoints(f.record);
       ASSERT_EQ(points.size(), 2u) << b;
@@ -75,7 +58,7 @@ TEST(Critical, SwayOfTheTrussBeforeAtAndBehindItsLimitPoint) {
 TEST(Critical, TranscriticalPointAndItsTangents) {
   Modes law;
   law.cubic = 1;
-  Watched<Modes> f(law, {0, 0}, 0, Options{}, load(2));
+  Symmetric<Modes> f(law, {0, 0}, 0, Options{}, loads({2}));
   expectSound(f);
   const auto points = criticalPoints(f.record);
   ASSERT_EQ(points.size(), 1u);
@@ -95,7 +78,7 @@ TEST(Critical, PitchforkApproachedFromTheSideBranch) {
   Options options;
   options.direction = -1;
   const double x = 0.5, v = 0.5 + x * x;
-  Watched<Modes> f(law, {v, x}, v + 0.3 * v * v - 0.5 * x * x, options, unknown(law, 1, -0.6));
+  Symmetric<Modes> f(law, {v, x}, v + 0.3 * v * v - 0.5 * x * x, options, unknown(law, 1, -0.6));
   expectSound(f);
   for (const auto& s : f.record.steps) EXPECT_EQ(s.inertia->negative, 0);
   const auto points = criticalPoints(f.record);
@@ -113,7 +96,7 @@ TEST(Critical, TwoEigenvaluesThatVanishTogether) {
   Modes law;
   law.crossing = {0.5, 0.5};
   law.bend = 0.3;
-  Watched<Modes> f(law, {0, 0, 0}, 0, Options{}, load(2));
+  Symmetric<Modes> f(law, {0, 0, 0}, 0, Options{}, loads({2}));
   expectSound(f);
   const auto points = criticalPoints(f.record);
   ASSERT_EQ(points.size(), 1u);
@@ -129,7 +112,7 @@ TEST(Critical, TwoPointsAThousandthApartAreTwo) {
   Modes law;
   law.crossing = {0.5, 0.501};
   law.bend = 0.3;
-  Watched<Modes> f(law, {0, 0, 0}, 0, Options{}, load(2));
+  Symmetric<Modes> f(law, {0, 0, 0}, 0, Options{}, loads({2}));
   expectSound(f);
   const auto points = criticalPoints(f.record);
   ASSERT_EQ(points.size(), 2u);
@@ -143,7 +126,7 @@ TEST(Critical, TwoPointsAThousandthApartAreTwo) {
 
 /// A fold is no bifurcation, and an imperfection above the residual bound keeps the branches apart.
 TEST(Critical, NothingIsReportedWithoutEvidence) {
-  Watched<Truss> fold(Truss{}, {0}, 0, Options{}, unknown(Truss{}, 0, 2.2));
+  Symmetric<Truss> fold(Truss{}, {0}, 0, Options{}, unknown(Truss{}, 0, 2.2));
   expectSound(fold);
   EXPECT_EQ(fold.record.limitPoints().size(), 2u);
   EXPECT_TRUE(criticalPoints(fold.record).empty());
@@ -152,7 +135,7 @@ TEST(Critical, NothingIsReportedWithoutEvidence) {
     Modes law;
     law.imperfection = imperfection;
     law.bend = 0.3;
-    Watched<Modes> f(law, {0, 0}, -imperfection * imperfection * 2, Options{}, load(2));
+    Symmetric<Modes> f(law, {0, 0}, -imperfection * imperfection * 2, Options{}, loads({2}));
     EXPECT_EQ(f.outcome.reason, EndReason::stopReached);
     EXPECT_TRUE(criticalPoints(f.record).empty()) << imperfection;
     // The stable side of the imperfect pitchfork is followed: x > 0 and large.
@@ -167,7 +150,7 @@ TEST(Critical, BucklingLoadsOfAColumn) {
     law.n = n;
     std::vector<double> zero(n + 1, 0.0);
     const double second = law.buckling(2);
-    Watched<Column> f(law, zero, 0, Options{}, load(1.05 * second));
+    Symmetric<Column> f(law, zero, 0, Options{}, loads({1.05 * second}));
     expectSound(f);
     const auto points = criticalPoints(f.record);
     ASSERT_EQ(points.size(), 2u);
@@ -189,7 +172,7 @@ TEST(Stability, CountsInsideStepsAreThoseOfTheTangent) {
     Options options;
     options.pade = use;
     SwayTruss law;
-    Watched<SwayTruss> f(law, {0, 0}, 0, options, unknown(law, 0, 2.2));
+    Symmetric<SwayTruss> f(law, {0, 0}, 0, options, unknown(law, 0, 2.2));
     auto u = f.problem.vector({});
     int known = 0, asked = 0;
     for (std::size_t s = 0; s < f.record.steps.size(); ++s)
@@ -222,7 +205,7 @@ TEST(Critical, ClustersOfManyInOneStep) {
     known.insert(known.end(), {load, load * (1 + apart), load * (1 + 1.3 * apart)});
   }
   std::vector<double> start(law.size(), 0.0);
-  Watched<Modes> f(law, start, 0, Options{}, load(0.8));
+  Symmetric<Modes> f(law, start, 0, Options{}, loads({0.8}));
   expectSound(f);
   ASSERT_EQ(f.outcome.steps, 1);
   const auto points = criticalPoints(f.record);
@@ -245,7 +228,7 @@ TEST(Critical, ALongSearchTellsItsProgress) {
   law.crossing = {0.3, 0.4, 0.4, 0.5, 0.5001, 0.6};
   JetProblem<Modes> problem(law);
   SymmetricDenseSolver solver;
-  PathFollower(problem, solver, Options{}, load(0.8)).run({problem.vector({}), 0}, observer);
+  PathFollower(problem, solver, Options{}, loads({0.8})).run({problem.vector({}), 0}, observer);
   ASSERT_FALSE(observer.told.empty());
   for (std::size_t i = 0; i < observer.told.size(); ++i) {
     EXPECT_EQ(observer.told[i].second, 6);

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "problems/Bifurcations.hpp"
 #include "problems/Record.hpp"
 #include "problems/UnilateralProblem.hpp"
 
@@ -51,16 +52,8 @@ struct Moved {
   }
 };
 
-struct Body {
-  double scale() const { return 0.1; }
-  template <class S>
-  std::vector<S> internal(const std::vector<S>&, const S&) const {
-    return {};
-  }
-};
-
 /// One mass on a hardening spring, u + u^3 = lambda.
-struct OneMass : Body {
+struct OneMass : NoInternal {
   template <class S>
   std::vector<S> forces(const std::vector<S>& u, const S& lambda) const {
     return {u[0] + u[0] * u[0] * u[0] - lambda};
@@ -85,7 +78,7 @@ TEST(Events, AMassMeetsItsStop) {
 
 /// The truss x (1 - x)(2 - x) = lambda, falling after its limit point, meets a stop at x = 1.2: x stays and
 /// the load rises again. A limit point without a horizontal tangent.
-struct TrussBody : Body {
+struct TrussBody : NoInternal {
   template <class S>
   std::vector<S> forces(const std::vector<S>& u, const S& lambda) const {
     return {u[0] * (1 - u[0]) * (2 - u[0]) - lambda};
@@ -114,7 +107,7 @@ TEST(Events, ThePathTurnsAtAStop) {
 
 /// Two masses and a spring between them; the load on the first turns quadratic with lambda so that it comes
 /// off.
-struct ComesOff : Body {
+struct ComesOff : NoInternal {
   template <class S>
   std::vector<S> forces(const std::vector<S>& u, const S& lambda) const {
     return {2 * u[0] - u[1] - 3 * lambda + lambda * lambda, 2 * u[1] - u[0] - 0.1 * lambda};
@@ -136,7 +129,7 @@ TEST(Events, AMassTouchesAndComesOffAgain) {
 }
 
 /// K u = lambda f with K = [2, -1.5; -1.5, 2].
-struct TwoMasses : Body {
+struct TwoMasses : NoInternal {
   double f0 = 1, f1 = 1;
   template <class S>
   std::vector<S> forces(const std::vector<S>& u, const S& lambda) const {
@@ -172,7 +165,7 @@ TEST(Events, OfTwoThatCoincideOnlyOneMayBeAdmissible) {
 
 /// Twelve masses in a row, each on a spring of its own and with springs between them: more events at once
 /// than all choices of them could be tried.
-struct Row : Body {
+struct Row : NoInternal {
   static constexpr int n = 12;
   std::vector<double> load = {1, 0.6, -0.4, 0.9, 1.2, -0.7, -0.1, 0.8, 0.5, -0.3, 1.1, 0.2};
   template <class S>
@@ -448,7 +441,7 @@ TEST(Events, AStateThatCorrectionsDoNotHelpIsNamed) {
 
 /// A second event function that never vanishes, 1/(1 + 25 u^2): at u = 0 its series has the radius 0.2, and
 /// what it is cut to falls through zero a little beyond, where the path's own series is good.
-struct Watched : UnilateralProblem<OneMass> {
+struct NeverVanishing : UnilateralProblem<OneMass> {
   using UnilateralProblem::UnilateralProblem;
   int eventCount() const override { return 2; }
   void eventOrder(int k, std::vector<double>& g) const override {
@@ -468,7 +461,7 @@ struct Watched : UnilateralProblem<OneMass> {
 TEST(Events, ARootThatAFunctionHasNotIsNoEvent) {
   for (const int order : {6, 10, 14, 18, 22}) {
     SCOPED_TRACE(order);
-    Watched problem(WithStops<OneMass>(OneMass{}, {1}));
+    NeverVanishing problem(WithStops<OneMass>(OneMass{}, {1}));
     SymmetricDenseSolver solver;
     Record record;
     Stops stops;

@@ -4,18 +4,12 @@
 
 #include <gtest/gtest.h>
 
+#include "problems/Ends.hpp"
 #include "problems/Record.hpp"
 
 using namespace atrapos::path;
 
 namespace {
-
-struct Fold : Linear {
-  template <class S>
-  std::vector<S> residual(const std::vector<S>& u, const S& lambda) const {
-    return {u[0] * u[0] - lambda};
-  }
-};
 
 struct NoLoad : Linear {
   template <class S>
@@ -38,12 +32,6 @@ struct NoSolution : Linear {
   }
 };
 
-Stops load(double value) {
-  Stops stops;
-  stops.loadFactors = {value};
-  return stops;
-}
-
 /// Straight along u_0 = lambda, left by u_1^2 = 1 - lambda at lambda = 1.
 struct Crossed : Linear {
   int size() const { return 2; }
@@ -64,7 +52,7 @@ struct Mechanism : Linear {
 
 TEST(Failures, StartsAtALimitPoint) {
   // The tangent of u^2 = lambda is exactly zero at 0. One factorization of it, one of the shifted one.
-  Followed<Fold> f(Fold{}, {0}, 0, Options{}, load(1));
+  Followed<Fold> f(Fold{}, {0}, 0, Options{}, loads({1}));
   ASSERT_EQ(f.outcome.reason, EndReason::stopReached) << f.outcome.text;
   // On one of the two halves, as exact as the residual bound is with the slope 2.
   EXPECT_NEAR(std::abs(f.outcome.final.u->getData()[0]), 1, 1e-6);
@@ -73,7 +61,7 @@ TEST(Failures, StartsAtALimitPoint) {
                                           f.outcome.restarts + f.outcome.retreats);
   Options falling;
   falling.direction = -1;
-  Followed<Fold> none(Fold{}, {0}, 0, falling, load(-1));
+  Followed<Fold> none(Fold{}, {0}, 0, falling, loads({-1}));
   EXPECT_EQ(none.outcome.reason, EndReason::singularTangent);
   EXPECT_NE(none.outcome.text.find("grows on both sides"), std::string::npos) << none.outcome.text;
 }
@@ -82,7 +70,7 @@ TEST(Failures, StartsAtABifurcationPoint) {
   for (const double direction : {1.0, -1.0}) {
     Options options;
     options.direction = direction;
-    Followed<Crossed> f(Crossed{}, {1, 0}, 1, options, load(1 + direction));
+    Followed<Crossed> f(Crossed{}, {1, 0}, 1, options, loads({1 + direction}));
     ASSERT_EQ(f.outcome.reason, EndReason::stopReached) << f.outcome.text;
     EXPECT_NEAR(f.outcome.final.u->getData()[0], 1 + direction, 1e-12);  // linear
     EXPECT_NEAR(f.outcome.final.u->getData()[1], 0, 1e-6);  // the residual bound; the other branch has 0 or 1
@@ -90,7 +78,7 @@ TEST(Failures, StartsAtABifurcationPoint) {
 }
 
 TEST(Failures, MechanismNamesItsMotion) {
-  Followed<Mechanism> f(Mechanism{}, {0, 0}, 0, Options{}, load(1));
+  Followed<Mechanism> f(Mechanism{}, {0, 0}, 0, Options{}, loads({1}));
   EXPECT_EQ(f.outcome.reason, EndReason::singularTangent);
   EXPECT_NE(f.outcome.text.find("cannot start here, nor next to it"), std::string::npos) << f.outcome.text;
   EXPECT_NE(f.outcome.text.find("null vector: unknown 1"), std::string::npos) << f.outcome.text;
@@ -123,12 +111,12 @@ TEST(Failures, SingularTangentOnTheWayIsSteppedOver) {
 }
 
 TEST(Failures, LoadWithoutEffect) {
-  Followed<NoLoad> f(NoLoad{}, {0}, 0, Options{}, load(1));
+  Followed<NoLoad> f(NoLoad{}, {0}, 0, Options{}, loads({1}));
   EXPECT_EQ(f.outcome.reason, EndReason::loadWithoutEffect) << f.outcome.text;
 }
 
 TEST(Failures, NotANumberAtTheStart) {
-  Followed<Nan> f(Nan{}, {0}, 0, Options{}, load(1));
+  Followed<Nan> f(Nan{}, {0}, 0, Options{}, loads({1}));
   EXPECT_EQ(f.outcome.reason, EndReason::notFinite) << f.outcome.text;
 }
 
@@ -144,7 +132,7 @@ struct Steep : Linear {
 TEST(Failures, CoefficientsOverflow) {
   Options options;
   options.order = 40;
-  Followed<Steep> f(Steep{}, {0}, 0, options, load(1));
+  Followed<Steep> f(Steep{}, {0}, 0, options, loads({1}));
   EXPECT_EQ(f.outcome.reason, EndReason::stopReached) << f.outcome.text;
   EXPECT_LT(f.record.steps.front().order, 40);
   EXPECT_NEAR(f.outcome.final.u->getData()[0], 1 / (1 + 1e-9), 1e-6);  // the residual's bound
@@ -215,11 +203,11 @@ TEST(Failures, ProblemAndSolverExceptionsBecomeReasons) {
 }
 
 TEST(Failures, StartOutOfEquilibriumIsCorrectedOrRefused) {
-  Followed<Truss> f(Truss{}, {0.35}, 0.3, Options{}, load(0.36));
+  Followed<Truss> f(Truss{}, {0.35}, 0.3, Options{}, loads({0.36}));
   EXPECT_EQ(f.outcome.reason, EndReason::stopReached) << f.outcome.text;
   EXPECT_GT(f.outcome.startIterations, 0);
   EXPECT_EQ(f.outcome.factorizations, f.outcome.steps + f.outcome.corrections + f.outcome.startIterations);
-  Followed<NoSolution> g(NoSolution{}, {0.7}, 0, Options{}, load(1));
+  Followed<NoSolution> g(NoSolution{}, {0.7}, 0, Options{}, loads({1}));
   EXPECT_EQ(g.outcome.reason, EndReason::startNotInEquilibrium);
   EXPECT_EQ(g.outcome.factorizations, g.outcome.startIterations);
 }
@@ -229,7 +217,7 @@ TEST(Failures, TheCallersStartIsNotChanged) {
   DenseSolver solver;
   Record record;
   const auto u = problem.vector({0.35});
-  PathFollower(problem, solver, Options{}, load(0.36)).run({u, 0.3}, record);
+  PathFollower(problem, solver, Options{}, loads({0.36})).run({u, 0.3}, record);
   EXPECT_EQ(u->getData()[0], 0.35);
 }
 

@@ -4,14 +4,13 @@
 
 #include <gtest/gtest.h>
 
+#include "problems/Ends.hpp"
 #include "problems/FollowedModel.hpp"
 
 using namespace atrapos;
 using path::Options;
 
 namespace {
-
-double at(const path::State& state, int i) { return state.u->getData()[i]; }
 
 /// Every model, with default settings: starts in equilibrium, goes to its end, keeps the bound inside the
 /// steps, leaves nothing unexplained.

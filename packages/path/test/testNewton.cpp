@@ -7,6 +7,7 @@
 #include "atrapos/path/NewtonFollower.hpp"
 #include "problems/Bifurcations.hpp"
 #include "problems/ChebyshevBratu.hpp"
+#include "problems/Ends.hpp"
 #include "problems/Record.hpp"
 
 using namespace atrapos::path;
@@ -31,16 +32,6 @@ struct NewtonFollowed {
 
   double final(int i) const { return outcome.final.u->getData()[i]; }
 };
-
-template <class Law>
-Stops displacement(Law law, int dof, double value) {
-  JetProblem<Law> problem(law);
-  std::vector<double> weights(law.size(), 0.0);
-  weights[dof] = 1;
-  Stops stops;
-  stops.functionals.push_back({"displacement", problem.vector(weights), value});
-  return stops;
-}
 
 template <class Followed>
 void expectSound(const Followed& f, double bound) {
@@ -131,7 +122,7 @@ TEST(Newton, AccuracyIsKeptInsideSteps) {
       options.kind = kind;
       options.accuracy = level == 0 ? 1e-5 : 1e-9;
       options.residualBound = 1e-11;
-      NewtonFollowed<Truss> f(law, {0}, 0, options, displacement(law, 0, 2.2));
+      NewtonFollowed<Truss> f(law, {0}, 0, options, unknown(law, 0, 2.2));
       expectSound(f, 1e-11);
       double worst = 0;
       for (std::size_t i = 0; i < f.record.steps.size(); ++i)
@@ -157,7 +148,7 @@ TEST(Newton, TrussSnapsThrough) {
     options.kind = kind;
     options.residualBound = 1e-9;
     options.accuracy = 1e-6;
-    NewtonFollowed<Truss> f(Truss{}, {0}, 0, options, displacement(Truss{}, 0, 2.2));
+    NewtonFollowed<Truss> f(Truss{}, {0}, 0, options, unknown(Truss{}, 0, 2.2));
     expectSound(f, 1e-9);
     EXPECT_NEAR(f.final(0), 2.2, 1e-9);
     EXPECT_NEAR(f.outcome.final.lambda, 2.2 * -1.2 * -0.2,
@@ -181,7 +172,7 @@ TEST(Newton, SpringLoadedTrussSnapsBack) {
       NewtonOptions options;
       options.kind = kind;
       options.accuracy = accuracy;
-      NewtonFollowed<TrussOnSpring> f(law, {0, 0}, 0, options, displacement(law, 0, 2.2));
+      NewtonFollowed<TrussOnSpring> f(law, {0, 0}, 0, options, unknown(law, 0, 2.2));
       expectSound(f, 1e-6);
       const double load = 2.2 * -1.2 * -0.2;
       EXPECT_NEAR(f.outcome.final.lambda, load, 1e-6);  // residual bound x scale 0.1, and some room
@@ -208,14 +199,14 @@ TEST(Newton, BratuAgreesWithTheSeries) {
   JetProblem<ChebyshevBratu> problem(law);
   const int middle = law.size() - 1;
   Followed<ChebyshevBratu> series(law, std::vector<double>(law.size(), 0.0), 0, Options{},
-                                  displacement(law, middle, 2.5));
+                                  unknown(law, middle, 2.5));
   int factorizations[2];
   for (const auto kind : kinds) {
     NewtonOptions options;
     options.kind = kind;
     options.accuracy = 1e-5;
     NewtonFollowed<ChebyshevBratu> f(law, std::vector<double>(law.size(), 0.0), 0, options,
-                                     displacement(law, middle, 2.5));
+                                     unknown(law, middle, 2.5));
     expectSound(f, 1e-6);
     ASSERT_EQ(f.record.limitPoints().size(), 1u);
     EXPECT_NEAR(f.record.limitPoints()[0].lambda, 3.513830719125161, 2e-5);  // the cubic's error at the fold
@@ -241,7 +232,7 @@ TEST(Newton, StepsFollowTheDesiredIterations) {
       NewtonOptions options;
       options.kind = kind;
       options.desiredIterations = desired;
-      NewtonFollowed<TrussOnSpring> f(law, {0, 0}, 0, options, displacement(law, 0, 2.2));
+      NewtonFollowed<TrussOnSpring> f(law, {0, 0}, 0, options, unknown(law, 0, 2.2));
       expectSound(f, 1e-6);
       EXPECT_LT(f.outcome.steps, before) << desired;
       before = f.outcome.steps;
@@ -284,7 +275,7 @@ TEST(Newton, StopsOfAllKinds) {
 /// Goes on from every third step with the same bits.
 TEST(Newton, RestartsBitForBit) {
   const TrussOnSpring law{0.3};
-  const Stops stops = displacement(law, 0, 2.2);
+  const Stops stops = unknown(law, 0, 2.2);
   for (const auto kind : kinds) {
     NewtonOptions options;
     options.kind = kind;
@@ -335,7 +326,7 @@ TEST(Newton, LimitPointsExplainTheInertia) {
   const auto law = TrussOnSpring{0.3};
   NewtonOptions options;
   options.accuracy = 1e-5;
-  NewtonFollowed<TrussOnSpring, SymmetricDenseSolver> f(law, {0, 0}, 0, options, displacement(law, 0, 2.2));
+  NewtonFollowed<TrussOnSpring, SymmetricDenseSolver> f(law, {0, 0}, 0, options, unknown(law, 0, 2.2));
   expectSound(f, 1e-6);
   long long largest = 0;
   for (const auto& s : f.record.steps) {
@@ -351,7 +342,7 @@ TEST(Newton, CutsBackStepsThatAreTooLong) {
     NewtonOptions options;
     options.kind = kind;
     options.firstStep = 1;
-    NewtonFollowed<Truss> f(Truss{}, {0}, 0, options, displacement(Truss{}, 0, 2.2));
+    NewtonFollowed<Truss> f(Truss{}, {0}, 0, options, unknown(Truss{}, 0, 2.2));
     expectSound(f, 1e-6);
     EXPECT_NEAR(f.outcome.final.lambda, 2.2 * -1.2 * -0.2, 1e-6);
     int cutBacks = 0;
@@ -376,15 +367,6 @@ TEST(Newton, ContactCloses) {
                 1e-10);  // 1e-5 h for R and Delta - h; the residual, 1e-6, over alpha is less
   }
 }
-
-/// lambda = u^2.
-struct Fold : NoInternal {
-  int size() const { return 1; }
-  template <class S>
-  std::vector<S> residual(const std::vector<S>& u, const S& lambda) const {
-    return {u[0] * u[0] - lambda};
-  }
-};
 
 TEST(Newton, EndsWithAReason) {
   const auto law = TrussOnSpring{0.3};

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "problems/Bifurcations.hpp"
 #include "problems/Record.hpp"
 #include "problems/UnilateralProblem.hpp"
 
@@ -10,16 +11,8 @@ using namespace atrapos::path;
 // A series has as many orders as its end asks for.
 namespace {
 
-struct Body {
-  double scale() const { return 0.1; }
-  template <class S>
-  std::vector<S> internal(const std::vector<S>&, const S&) const {
-    return {};
-  }
-};
-
 /// Masses on hardening springs, with springs between them.
-struct Masses : Body {
+struct Masses : NoInternal {
   int n = 6;
   template <class S>
   std::vector<S> forces(const std::vector<S>& u, const S& lambda) const {
@@ -102,7 +95,7 @@ TEST(Orders, FallWithTheDistance) {
 }
 
 /// u + u^3 = lambda.
-struct Spring : Body {
+struct Spring : NoInternal {
   int size() const { return 1; }
   template <class S>
   std::vector<S> residual(const std::vector<S>& u, const S& lambda) const {
@@ -145,7 +138,7 @@ TEST(Orders, AllWhereNoEndIsNear) {
 
 /// u = lambda + lambda^9: orders 2 to 8 vanish, and what they say of the remainder is wrong. The residual
 /// says it.
-struct Late : Body {
+struct Late : NoInternal {
   int size() const { return 1; }
   template <class S>
   std::vector<S> residual(const std::vector<S>& u, const S& lambda) const {
@@ -167,7 +160,7 @@ TEST(Orders, AreEnoughOnlyWhereTheResidualSaysSo) {
   EXPECT_NEAR(f.final(0), 0.3 + std::pow(0.3, 9), 1e-10);
 }
 
-struct Linear : Body {
+struct Linear : NoInternal {
   template <class S>
   std::vector<S> forces(const std::vector<S>& u, const S& lambda) const {
     return {u[0] - lambda};

@@ -5,6 +5,7 @@
 
 #include "../src/PadeFit.hpp"
 #include "../src/PadePatience.hpp"
+#include "problems/Ends.hpp"
 #include "problems/Record.hpp"
 
 using namespace atrapos::path;
@@ -121,12 +122,7 @@ template <class Law>
 Followed<Law> followed(Law law, std::vector<double> u, int dof, double value, PadeUse use) {
   Options options;
   options.pade = use;
-  JetProblem<Law> problem(law);
-  std::vector<double> weights(law.size(), 0.0);
-  weights[dof] = 1;
-  Stops stops;
-  stops.functionals.push_back({"displacement", problem.vector(weights), value});
-  return Followed<Law>(law, u, 0, options, stops);
+  return Followed<Law>(law, u, 0, options, unknown(law, dof, value));
 }
 
 /// Fewer steps at the same residual, inside the steps too, and the same path.

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "problems/Ends.hpp"
 #include "problems/Record.hpp"
 
 using namespace atrapos::path;
@@ -45,16 +46,6 @@ void expectSound(Followed<Law>& f, double bound = 1e-6) {
   EXPECT_EQ(f.outcome.pathLength, length);
 }
 
-template <class Law>
-Stops displacement(Law law, int dof, double value) {
-  JetProblem<Law> problem(law);
-  std::vector<double> weights(law.size(), 0.0);
-  weights[dof] = 1;
-  Stops stops;
-  stops.functionals.push_back({"displacement", problem.vector(weights), value});
-  return stops;
-}
-
 /// For limit points to eight digits: the load there is off by the residual, i.e. bound x scale.
 Options tight(double direction = 1) {
   Options options;
@@ -66,7 +57,7 @@ Options tight(double direction = 1) {
 
 TEST(Path, BarThroughItsLimitPoint) {
   const Options options = tight(-1);
-  Followed<StvkBar> f(StvkBar{}, {0}, 0, options, displacement(StvkBar{}, 0, -0.7));
+  Followed<StvkBar> f(StvkBar{}, {0}, 0, options, unknown(StvkBar{}, 0, -0.7));
   expectSound(f, 1e-9);
   ASSERT_EQ(f.record.limitPoints().size(), 1u);
   const auto limit = f.record.limitPoints()[0];
@@ -90,7 +81,7 @@ TEST(Path, BarAgreesWithTheTable) {
     if (row.size() < 2 || row[0] > 0.99) continue;
     Options options;
     options.direction = -1;
-    Followed<StvkBar> f(StvkBar{}, {0}, 0, options, displacement(StvkBar{}, 0, row[0] - 1));
+    Followed<StvkBar> f(StvkBar{}, {0}, 0, options, unknown(StvkBar{}, 0, row[0] - 1));
     EXPECT_NEAR(f.outcome.final.lambda, row[1], 1.1e-7);  // residual bound 1e-6 x scale 0.1, and 15 digits
     ++compared;
   }
@@ -98,7 +89,7 @@ TEST(Path, BarAgreesWithTheTable) {
 }
 
 TEST(Path, TrussSnapsThrough) {
-  Followed<Truss> f(Truss{}, {0}, 0, tight(), displacement(Truss{}, 0, 2.2));
+  Followed<Truss> f(Truss{}, {0}, 0, tight(), unknown(Truss{}, 0, 2.2));
   expectSound(f, 1e-9);
   const auto limits = f.record.limitPoints();
   ASSERT_EQ(limits.size(), 2u);
@@ -109,7 +100,7 @@ TEST(Path, TrussSnapsThrough) {
   int compared = 0;
   for (const auto& row : table("vonmises_truss_stvk.csv")) {
     if (row.size() < 2 || row[0] <= 0) continue;
-    Followed<Truss> to(Truss{}, {0}, 0, Options{}, displacement(Truss{}, 0, row[0]));
+    Followed<Truss> to(Truss{}, {0}, 0, Options{}, unknown(Truss{}, 0, row[0]));
     EXPECT_NEAR(to.outcome.final.lambda, row[1], 1.1e-7) << row[0];  // bound 1e-6 x scale 0.1
     ++compared;
   }
@@ -120,7 +111,7 @@ TEST(Path, TrussSnapsThrough) {
 TEST(Path, SpringLoadedTrussSnapsBack) {
   const double k = 0.3;
   const auto law = TrussOnSpring{k};
-  Followed<TrussOnSpring> f(law, {0, 0}, 0, tight(), displacement(law, 0, 2.2));
+  Followed<TrussOnSpring> f(law, {0, 0}, 0, tight(), unknown(law, 0, 2.2));
   expectSound(f, 1e-9);
   const auto limits = f.record.limitPoints();
   ASSERT_EQ(limits.size(), 2u);
@@ -139,7 +130,7 @@ TEST(Path, SpringLoadedTrussSnapsBack) {
 }
 
 TEST(Path, OnePointBratuIsExact) {
-  Followed<Bratu> f(Bratu{1}, {0}, 0, tight(), displacement(Bratu{1}, 0, 3));
+  Followed<Bratu> f(Bratu{1}, {0}, 0, tight(), unknown(Bratu{1}, 0, 3));
   expectSound(f, 1e-9);
   ASSERT_EQ(f.record.limitPoints().size(), 1u);
   EXPECT_NEAR(f.record.limitPoints()[0].lambda, 8 / std::exp(1.0), 1e-8);  // 8 u exp(-u), fold at u = 1
@@ -151,7 +142,7 @@ TEST(Path, BratuFoldConverges) {
   double fold[2];
   for (const int level : {0, 1}) {
     const Bratu law{level == 0 ? 15 : 31};
-    Followed<Bratu> f(law, std::vector<double>(law.n, 0.0), 0, Options{}, displacement(law, law.n / 2, 3));
+    Followed<Bratu> f(law, std::vector<double>(law.n, 0.0), 0, Options{}, unknown(law, law.n / 2, 3));
     expectSound(f);
     ASSERT_EQ(f.record.limitPoints().size(), 1u);
     fold[level] = f.record.limitPoints()[0].lambda;
@@ -183,7 +174,7 @@ TEST(Path, PerturbedPitchfork) {
 
 TEST(Path, PitchforkFold) {
   const Pitchfork law{0.1};
-  Followed<Pitchfork> f(law, {-1}, 1.1, tight(-1), displacement(law, 0, -0.1));
+  Followed<Pitchfork> f(law, {-1}, 1.1, tight(-1), unknown(law, 0, -0.1));
   expectSound(f, 1e-9);
   ASSERT_EQ(f.record.limitPoints().size(), 1u);
   EXPECT_NEAR(f.record.limitPoints()[0].lambda, 3 * std::pow(0.05, 2.0 / 3), 1e-8);
@@ -191,10 +182,10 @@ TEST(Path, PitchforkFold) {
 
 TEST(Path, BothDirectionsComeBack) {
   const auto law = TrussOnSpring{0.3};
-  Followed<TrussOnSpring> out(law, {0, 0}, 0, Options{}, displacement(law, 0, 1.2));
+  Followed<TrussOnSpring> out(law, {0, 0}, 0, Options{}, unknown(law, 0, 1.2));
   Options back;  // on the falling part dlambda > 0 leads back
   Followed<TrussOnSpring> home(law, {out.final(0), out.final(1)}, out.outcome.final.lambda, back,
-                               displacement(law, 0, 0));
+                               unknown(law, 0, 0));
   expectSound(home);
   EXPECT_NEAR(home.outcome.final.lambda, 0, 1e-7);  // residual bound x scale
   EXPECT_EQ(home.record.limitPoints().size(), 1u);
@@ -207,7 +198,7 @@ TEST(Path, CorrectionsAreCountedAsFactorizations) {
   options.relaxResidual = false;
   options.correctAbove = 1e-3;
   options.pade = PadeUse::off;  // a fraction is shortened until it needs none
-  Followed<TrussOnSpring> f(law, {0, 0}, 0, options, displacement(law, 0, 2.2));
+  Followed<TrussOnSpring> f(law, {0, 0}, 0, options, unknown(law, 0, 2.2));
   expectSound(f);
   EXPECT_GT(f.outcome.corrections, 0);
   for (const auto& s : f.record.steps)
@@ -226,7 +217,7 @@ TEST(Path, CorrectionWorksAtALimitPoint) {
   options.residualBound = 1e-2;  // ... and below the bound: no cut-backs, both runs take the same steps
   options.correctAbove = 1e-10;
   options.delta = 0.1;
-  Followed<Truss> f(Truss{}, {0}, 0, options, displacement(Truss{}, 0, 1));  // to know where
+  Followed<Truss> f(Truss{}, {0}, 0, options, unknown(Truss{}, 0, 1));  // to know where
   Stops stops;
   for (const auto& s : f.record.steps)
     for (const auto& p : s.limitPoints) stops.pathLength = s.pathLengthStart + p.a;
@@ -247,7 +238,7 @@ TEST(Path, EveryOrderFollowsThePath) {
     options.maxSteps = 20000;
     const auto followed = [&](PadeUse pade) {
       options.pade = pade;
-      Followed<Truss> f(Truss{}, {0}, 0, options, displacement(Truss{}, 0, 2.2));
+      Followed<Truss> f(Truss{}, {0}, 0, options, unknown(Truss{}, 0, 2.2));
       expectSound(f);
       EXPECT_NEAR(f.outcome.final.lambda, 2.2 * -1.2 * -0.2, 1.1e-7) << order;  // bound x scale
       return f.outcome.steps;
@@ -265,8 +256,8 @@ TEST(Path, EveryOrderFollowsThePath) {
 /// length that is rounded to the other side changes the later ones.
 TEST(Path, StepCountIsStable) {
   const auto law = TrussOnSpring{0.3};
-  Followed<TrussOnSpring> f(law, {0, 0}, 0, Options{}, displacement(law, 0, 2.2));
-  Followed<TrussOnSpring> g(law, {1e-9, 1e-9}, 2e-9, Options{}, displacement(law, 0, 2.2));
+  Followed<TrussOnSpring> f(law, {0, 0}, 0, Options{}, unknown(law, 0, 2.2));
+  Followed<TrussOnSpring> g(law, {1e-9, 1e-9}, 2e-9, Options{}, unknown(law, 0, 2.2));
   EXPECT_LE(std::abs(f.outcome.steps - g.outcome.steps), 1);
   EXPECT_LE(f.outcome.steps, 17);  // 13 here: the spring is long against its weight near the folds
 }
@@ -275,10 +266,10 @@ TEST(Path, WeightIsFixedAlongThePathAndCanBeGiven) {
   const auto law = TrussOnSpring{0.3};
   Options options;
   options.weight = 0.25;
-  Followed<TrussOnSpring> f(law, {0, 0}, 0, options, displacement(law, 0, 2.2));
+  Followed<TrussOnSpring> f(law, {0, 0}, 0, options, unknown(law, 0, 2.2));
   expectSound(f);
   for (const auto& s : f.record.series) EXPECT_EQ(s.weight(), 0.25);
-  Followed<TrussOnSpring> g(law, {0, 0}, 0, Options{}, displacement(law, 0, 2.2));
+  Followed<TrussOnSpring> g(law, {0, 0}, 0, Options{}, unknown(law, 0, 2.2));
   for (const auto& s : g.record.series) EXPECT_EQ(s.weight(), g.outcome.weight);
 }
 

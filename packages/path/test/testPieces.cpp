@@ -93,13 +93,13 @@ class TwoSpringsProblem final : public JetProblem<TwoSprings>, public Pieces {
   int ofSeries_ = 0;
 };
 
-struct Moved {
+struct MovedSprings {
   TwoSpringsProblem problem;
   SymmetricDenseSolver solver;
   Record record;
   Outcome outcome;
 
-  Moved(const TwoSprings& law, double end, const Start* from = nullptr,
+  MovedSprings(const TwoSprings& law, double end, const Start* from = nullptr,
         double jumpBound = Options{}.jumpBound)
       : problem(law) {
     Stops stops;
@@ -121,7 +121,7 @@ struct Moved {
 
 // The same slope but another curvature: the residual beyond falls with the square of the way only.
 TEST(Pieces, AJumpOfTheCurvature) {
-  const Moved f({0, 4, -1}, 1.5);
+  const MovedSprings f({0, 4, -1}, 1.5);
   ASSERT_EQ(f.outcome.reason, EndReason::stopReached) << f.outcome.text;
   ASSERT_EQ(f.breaks().size(), 1u);
   EXPECT_NEAR(f.breaks()[0].end.u->getData()[0], 1, 1e-6);  // Newton's correction may move it
@@ -134,7 +134,7 @@ TEST(Pieces, AJumpOfTheCurvature) {
 
 // Softening from the border on: the path goes on in x, so lambda turns there.
 TEST(Pieces, AKinkMayBeALimitPoint) {
-  const Moved f({0, -1, 0}, 1.5);
+  const MovedSprings f({0, -1, 0}, 1.5);
   ASSERT_EQ(f.outcome.reason, EndReason::stopReached) << f.outcome.text;
   EXPECT_NEAR(f.outcome.final.lambda, 1.5, 2e-6);
   const auto limits = f.record.limitPoints();
@@ -146,13 +146,13 @@ TEST(Pieces, AKinkMayBeALimitPoint) {
 
 // Where the functions differ by less than the bound of the residual, a border ends no step.
 TEST(Pieces, ABorderThatDoesNotMatter) {
-  const Moved across({0, 4, 3}, 1.001);  // off by 1e-9
+  const MovedSprings across({0, 4, 3}, 1.001);  // off by 1e-9
   ASSERT_EQ(across.outcome.reason, EndReason::stopReached) << across.outcome.text;
   EXPECT_TRUE(across.breaks().empty());
 }
 
 TEST(Pieces, AJumpOfTheForceEndsThePath) {
-  const Moved f({0.1, 4, 0}, 1.5);
+  const MovedSprings f({0.1, 4, 0}, 1.5);
   EXPECT_EQ(f.outcome.reason, EndReason::problemFailed);
   EXPECT_NE(f.outcome.text.find("the force jumps at piece 1"), std::string::npos) << f.outcome.text;
   EXPECT_NEAR(f.outcome.final.lambda, 2, 4e-6);
@@ -163,7 +163,7 @@ TEST(Pieces, ALittleJumpIsPassed) {
   // Down and up: where the force rises at the border, that path begins at a larger load.
   for (const double jump : {-2e-4, 2e-4}) {
     SCOPED_TRACE(jump);
-    const Moved f({jump, 4, -1}, 1.5);
+    const MovedSprings f({jump, 4, -1}, 1.5);
     ASSERT_EQ(f.outcome.reason, EndReason::stopReached) << f.outcome.text;
     ASSERT_EQ(f.breaks().size(), 1u);
     const StepReport& at = f.breaks()[0];
@@ -177,7 +177,7 @@ TEST(Pieces, ALittleJumpIsPassed) {
     EXPECT_EQ(f.outcome.factorizations, f.outcome.steps + f.outcome.corrections + f.outcome.closings +
                                             f.outcome.criticalFactorizations + f.outcome.eventTrials);
 
-    const Moved strict({jump, 4, -1}, 1.5, nullptr, 0);
+    const MovedSprings strict({jump, 4, -1}, 1.5, nullptr, 0);
     EXPECT_EQ(strict.outcome.reason, EndReason::problemFailed);
     EXPECT_NE(strict.outcome.text.find("the force jumps at piece 1"), std::string::npos)
         << strict.outcome.text;
@@ -186,11 +186,11 @@ TEST(Pieces, ALittleJumpIsPassed) {
 
 TEST(Pieces, RestartsHaveTheSameBits) {
   const auto expectSameBits = [](const TwoSprings& law, double jumpBound) {
-    const Moved whole(law, 1.5, nullptr, jumpBound);
+    const MovedSprings whole(law, 1.5, nullptr, jumpBound);
     const auto& all = whole.record.steps;
     ASSERT_GE(all.size(), 3u);
     for (std::size_t s = 0; s + 1 < all.size(); ++s) {
-      const Moved rest(law, 1.5, &all[s].next, jumpBound);
+      const MovedSprings rest(law, 1.5, &all[s].next, jumpBound);
       EXPECT_EQ(rest.outcome.reason, whole.outcome.reason);
       EXPECT_EQ(rest.outcome.steps, whole.outcome.steps);
       EXPECT_EQ(rest.outcome.final.lambda, whole.outcome.final.lambda);

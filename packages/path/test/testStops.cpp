@@ -4,20 +4,15 @@
 
 #include "atrapos/path/NewtonFollower.hpp"
 #include "problems/Bifurcations.hpp"
+#include "problems/Ends.hpp"
 #include "problems/Record.hpp"
 
 using namespace atrapos::path;
 
 namespace {
 
-Stops load(std::vector<double> values) {
-  Stops stops;
-  stops.loadFactors = std::move(values);
-  return stops;
-}
-
 TEST(Stops, LoadFactorIsHitExactly) {
-  Followed<Truss> f(Truss{}, {0}, 0, Options{}, load({0.3}));
+  Followed<Truss> f(Truss{}, {0}, 0, Options{}, loads({0.3}));
   EXPECT_EQ(f.outcome.reason, EndReason::stopReached);
   EXPECT_EQ(f.outcome.text, "load factor 0.3 reached");
   EXPECT_NEAR(f.outcome.final.lambda, 0.3, 1e-15);  // root to rounding
@@ -25,19 +20,19 @@ TEST(Stops, LoadFactorIsHitExactly) {
 }
 
 TEST(Stops, FallingLoadComesAfterTheLimitPoint) {
-  Followed<Truss> f(Truss{}, {0}, 0, Options{}, load({-0.2}));
+  Followed<Truss> f(Truss{}, {0}, 0, Options{}, loads({-0.2}));
   EXPECT_NEAR(f.outcome.final.lambda, -0.2, 1e-15);
   EXPECT_GT(f.final(0), 1);
   Options down;
   down.direction = -1;
-  Followed<Truss> g(Truss{}, {0}, 0, down, load({-0.2}));
+  Followed<Truss> g(Truss{}, {0}, 0, down, loads({-0.2}));
   EXPECT_NEAR(g.outcome.final.lambda, -0.2, 1e-15);
   EXPECT_LT(g.final(0), 0);
 }
 
 TEST(Stops, WhicheverComesFirst) {
   JetProblem<Truss> p(Truss{});
-  Stops stops = load({0.38, 2.0});
+  Stops stops = loads({0.38, 2.0});
   stops.functionals.push_back({"deflection", p.vector({1}), 0.2});
   Followed<Truss> f(Truss{}, {0}, 0, Options{}, stops);
   EXPECT_EQ(f.outcome.text, "deflection 0.2 reached");
@@ -63,22 +58,22 @@ TEST(Stops, ACorrectionAtAStopKeepsTheStop) {
   Followed<TrussOnSpring> f(TrussOnSpring{}, {0, 0}, 0, options, stops);
   EXPECT_NEAR(f.final(1), 1.0, 1e-14);        // a few roundings of the corrected state
   EXPECT_LE(f.outcome.worstResidual, 1e-14);  // correctAbove is below rounding: Newton went as far as it goes
-  Followed<TrussOnSpring> g(TrussOnSpring{}, {0, 0}, 0, options, load({0.33}));
+  Followed<TrussOnSpring> g(TrussOnSpring{}, {0, 0}, 0, options, loads({0.33}));
   EXPECT_NEAR(g.outcome.final.lambda, 0.33, 1e-15);
 }
 
 TEST(Stops, StartOnTheStopMovesOn) {
   // Starts at lambda = 0, asks for lambda = 0: the next such point is the flat truss, x = 1.
-  Followed<Truss> f(Truss{}, {0}, 0, Options{}, load({0}));
+  Followed<Truss> f(Truss{}, {0}, 0, Options{}, loads({0}));
   EXPECT_EQ(f.outcome.reason, EndReason::stopReached);
   EXPECT_NEAR(f.final(0), 1, 1e-6);
   // And from a state that an earlier run left on its stop.
-  Followed<Truss> first(Truss{}, {0}, 0, Options{}, load({0.3}));
-  Followed<Truss> second(Truss{}, {first.final(0)}, first.outcome.final.lambda, Options{}, load({0.3}));
+  Followed<Truss> first(Truss{}, {0}, 0, Options{}, loads({0.3}));
+  Followed<Truss> second(Truss{}, {first.final(0)}, first.outcome.final.lambda, Options{}, loads({0.3}));
   EXPECT_GT(second.final(0), 1 - 1 / std::sqrt(3.0));
   EXPECT_NEAR(second.outcome.final.lambda, 0.3, 1e-15);
   // Off by a rounding, so that the crossing lies a hair ahead of the start.
-  Followed<Truss> third(Truss{}, {first.final(0)}, std::nextafter(0.3, 0.0), Options{}, load({0.3}));
+  Followed<Truss> third(Truss{}, {first.final(0)}, std::nextafter(0.3, 0.0), Options{}, loads({0.3}));
   EXPECT_GT(third.final(0), 1 - 1 / std::sqrt(3.0));
 }
 
@@ -87,7 +82,7 @@ TEST(Stops, TinyValuesAreNoStartOnTheStop) {
   // The path leaves the undeformed state through both, with 1e-300 an eps of the first step ahead.
   for (const double value : {1e-13, 1e-300}) {
     SCOPED_TRACE(value);
-    Followed<Truss> f(Truss{}, {0}, 0, Options{}, load({value}));
+    Followed<Truss> f(Truss{}, {0}, 0, Options{}, loads({value}));
     EXPECT_EQ(f.outcome.reason, EndReason::stopReached);
     EXPECT_EQ(f.outcome.steps, 1);
     EXPECT_EQ(f.outcome.final.lambda, value);
@@ -208,7 +203,7 @@ TEST(Stops, StepLimitAndObserver) {
 }
 
 TEST(Stops, TerminatingSeriesGoesAsFarAsAllowed) {
-  Followed<Linear> f(Linear{}, {0}, 0, Options{}, load({5}));
+  Followed<Linear> f(Linear{}, {0}, 0, Options{}, loads({5}));
   EXPECT_EQ(f.outcome.steps, 1);
   EXPECT_NEAR(f.final(0), 2.5, 1e-13);  // roundings of a step of length 7
   EXPECT_TRUE(std::isinf(f.record.steps[0].radius));

@@ -8,6 +8,9 @@
 
 namespace atrapos::contact::test {
 
+/// Of doubles: what one operation rounds by.
+constexpr double eps = 2.2e-16;
+
 /// The derivative of N values against central differences, whose error is f''' step^2/6: it must fall by 4 at
 /// every halving. f takes the signed step; `rounding` is the absolute error of one value of f. Where the
 /// error is of the size of rounding (a linear function), being that small is all that is asked for.

@@ -71,8 +71,6 @@ inline std::vector<OverSurface> pointsOver(const Parametrised& s, Random& random
   return points;
 }
 
-constexpr double eps = 2.2e-16;
-
 template <class Tool>
 void isTheNearestSurface(const Tool& tool, const Parametrised& s, Random& random, double size) {
   int i = 0;

@@ -126,6 +126,14 @@ struct Linear {
   }
 };
 
+/// lambda = u^2.
+struct Fold : Linear {
+  template <class S>
+  std::vector<S> residual(const std::vector<S>& u, const S& lambda) const {
+    return {u[0] * u[0] - lambda};
+  }
+};
+
 /// n Saint Venant-Kirchhoff bars one after the other (EA = 1, total length 1), pulled by lambda at the end:
 /// all stretches solve s_i (s_i^2 - 1)/2 = lambda. On the homogeneous path the limit point s = 1/sqrt(3) is
 /// where all n eigenvalues vanish: from there on bars may unload one by one.
