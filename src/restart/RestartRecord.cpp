@@ -381,7 +381,7 @@ std::string packed(const path::BranchProgress& progress, std::size_t branches, s
   // Of the landmarks the last one: those before are in the records of their steps.
   const bool marked = progress.path && !progress.path->landmarks.empty();
   p.put(marked);
-  if (marked) putPlain(progress.path->landmarks.back(), p);
+  if (marked) putPlain(progress.path->landmarks.last(), p);
   if (progress.path)
     put(*progress.path, p);
   else
@@ -434,13 +434,14 @@ void apply(const std::string& record, bool last, const std::string& file,
   u.get(diagram.uncounted);
   u.require(diagram.unexplained >= 0 && diagram.uncounted >= 0);
   u.get(diagram.branches[progress.current].end);
-  std::vector<path::Landmark> landmarks;
+  path::Trail landmarks;
   if (progress.path) landmarks = std::move(progress.path->landmarks);
   if (u.yes()) {
-    path::Landmark& mark = landmarks.emplace_back();
+    path::Landmark mark;
     getPlain(mark, u);
     for (const auto& place : {mark.place, mark.direction, mark.end})
       u.require(std::all_of(place.begin(), place.end(), [](double x) { return std::isfinite(x); }));
+    landmarks.add(mark);
   }
   progress.path.reset();
   if (head.over) {

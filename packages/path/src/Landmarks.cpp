@@ -43,7 +43,7 @@ double cosine(const Place& a, const Place& b, const Place& scale) {
 
 }  // namespace
 
-Landmarks::Landmarks(const Map& map, const std::vector<Landmark>& known) {
+Landmarks::Landmarks(const Map& map, const Trail& known) {
   for (std::size_t w = 0; w < weights_.size(); ++w) {
     weights_[w] = Teuchos::rcp(new Vector(Teuchos::rcpFromRef(map)));
     const auto values = weights_[w]->getDataNonConst();
@@ -52,7 +52,7 @@ Landmarks::Landmarks(const Map& map, const std::vector<Landmark>& known) {
       values[i] = std::sin((dof + 1) * (w == 0 ? 12.9898 : 78.233));  // no multiple of a period
     }
   }
-  for (const Landmark& mark : known) {
+  for (const Landmark& mark : known.all()) {
     widen(mark);
     add(mark);
   }
@@ -85,6 +85,7 @@ void Landmarks::add(const Landmark& mark) {
   for (std::size_t m = 0; m < marks_.size(); ++m)
     if (largest(minus(mark.end, marks_[m].place), scale()) > kAway) left_[m] = 1;
   marks_.push_back(mark);
+  trail_.add(mark);
   left_.push_back(0);
 }
 

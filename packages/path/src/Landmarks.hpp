@@ -17,9 +17,9 @@ namespace atrapos::path {
 class Landmarks {
  public:
   /// `known`: of a path that goes on.
-  Landmarks(const Map& map, const std::vector<Landmark>& known);
+  Landmarks(const Map& map, const Trail& known);
 
-  const std::vector<Landmark>& all() const { return marks_; }
+  const Trail& trail() const { return trail_; }
 
   /// Notes an accepted step, and returns the number of the earlier step at whose start the path is again on
   /// this one; none where it is not.
@@ -38,6 +38,7 @@ class Landmarks {
   std::array<RCP<Vector>, std::tuple_size_v<Place> - 1> weights_;
   Place low_{}, high_{};  ///< of all ends of steps
   std::vector<Landmark> marks_;
+  Trail trail_;  ///< the same
   std::vector<char> left_;  ///< [mark] the path has been far from it since
 };
 

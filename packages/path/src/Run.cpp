@@ -180,7 +180,7 @@ Start Run::next() const {
   next.order = path_.order;
   next.padeFailures = patience_.failures;
   next.padeWait = patience_.wait;
-  if (landmarks_) next.landmarks = landmarks_->all();
+  if (landmarks_) next.landmarks = landmarks_->trail();
   stability_.tell(next);
   next.limitPoints = limitPoints_;
   next.bifurcations = bifurcations_;

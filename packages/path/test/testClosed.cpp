@@ -58,3 +58,34 @@ TEST(Closed, StopsComeFirst) {
   Followed<Circle> f(Circle{}, {1, 2}, 2, Options{}, stops);
   EXPECT_EQ(f.outcome.reason, EndReason::stopReached) << f.outcome.text;
 }
+
+TEST(Trail, SharesWhatItHasInCommonAndMayBeLong) {
+  const auto numbers = [](const Trail& trail) {
+    std::vector<int> steps;
+    for (const Landmark& mark : trail.all()) steps.push_back(mark.step);
+    return steps;
+  };
+  const auto mark = [](int step) {
+    Landmark m;
+    m.step = step;
+    return m;
+  };
+  Trail first;
+  EXPECT_TRUE(first.empty());
+  first.add(mark(1));
+  first.add(mark(2));
+  const Landmark* shared = &first.last();
+  Trail second = first;
+  EXPECT_EQ(&second.last(), shared);
+  first.add(mark(3));
+  second.add(mark(4));
+  EXPECT_EQ(numbers(first), (std::vector<int>{1, 2, 3}));
+  EXPECT_EQ(numbers(second), (std::vector<int>{1, 2, 4}));
+  // As deep as that no stack is.
+  for (int step = 5; step < 1000000; ++step) second.add(mark(step));
+  Trail third = second;
+  second = {};
+  EXPECT_EQ(third.last().step, 999999);
+  third = {};
+  EXPECT_EQ(numbers(first), (std::vector<int>{1, 2, 3}));
+}

@@ -1,12 +1,12 @@
 #pragma once
 
-#include <array>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "atrapos/linear/TangentSolver.hpp"
+#include "atrapos/path/Landmark.hpp"
 #include "atrapos/path/Series.hpp"
 
 namespace atrapos::path {
@@ -76,15 +76,6 @@ struct FollowedEigenvalue {
   double rate = 0;  ///< by the path parameter; not a number where it was not wanted
 };
 
-/// A step in a few numbers, by which a path is known again that comes back: the load, and two sums over the
-/// unknowns with weights that look like random numbers, the same on every distribution over ranks.
-struct Landmark {
-  using Place = std::array<double, 3>;
-  int step = 0;
-  Place place{}, direction{};  ///< at the step's start, and their derivatives by a
-  Place end{};                 ///< at its end
-};
-
 /// Where and how a path starts. The state alone starts a new one; the other entries go on with one that was
 /// interrupted, and are taken from StepReport::next as they are.
 struct Start {
@@ -104,7 +95,7 @@ struct Start {
   std::vector<int> due;                ///< not applied yet at this state, and their functions are zero here
   int order = 0;                       ///< of the series to come; 0: Options::order
   int padeFailures = 0, padeWait = 0;  ///< when the rational form is tried again
-  std::vector<Landmark> landmarks;     ///< of all steps before; of paths that remember none
+  Trail landmarks;                     ///< of all steps before; of paths that remember none
   /// Those of the step that led here, from which the ones at this state are found.
   std::vector<FollowedEigenvalue> eigenvalues;
   /// How many negative ones to expect here where they are counted one by one.
