@@ -55,7 +55,7 @@ std::string sample() {
   progress.path->events = {1, 2};
   progress.path->eigenvalues = {{vector(4), 0.5, 0.1}, {vector(5), 0.7, 0.2}};
   progress.path->stop = "load_factor";
-  progress.path->landmarks = {{1, {0.1, 0.2, 0.3}, {1, 0, 0}, {1, 1, 1}}};
+  progress.path->landmarks.add({1, {0.1, 0.2, 0.3}, {1, 0, 0}, {1, 1, 1}});
   RestartFile out(file, problem(), true);
   out.append(progress, {{3, 1}, {1, 2}, {1, 3}, {0, 4}, {1, 5}});
   path::BranchPoint& point = progress.diagram.points.emplace_back();
