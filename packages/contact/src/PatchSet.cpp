@@ -3,11 +3,17 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
+#include <tuple>
 
 namespace atrapos::contact {
 namespace {
 
+constexpr int kMaxSamples = 13;  ///< of a patch each way
+
+/// The law's data of a point that is over no patch.
+constexpr std::array<double, 3> overNothing{-1, 0, 0};
+
+double length(const double* a) { return std::sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]); }
 double distance(const PatchPoint& s, const double* x) { return std::sqrt(2 * SquaredDistance(s, x).value); }
 
 }  // namespace
@@ -22,7 +28,7 @@ PatchSet::PatchSet(std::vector<BezierPatch> patches, bool reversed, double thick
     for (int d = 0; d < 2; ++d) degree_[d] = std::max(degree_[d], patch.degree[d]);
     for (const double w : patch.weights) rational_ = rational_ || w != 1;
   }
-  numSamples_ = std::min(2 * std::max(degree_[0], degree_[1]) + 3, 13);
+  numSamples_ = std::min(2 * std::max(degree_[0], degree_[1]) + 3, kMaxSamples);
   double low[3], high[3];
   std::fill_n(low, 3, std::numeric_limits<double>::infinity());
   std::fill_n(high, 3, -std::numeric_limits<double>::infinity());
@@ -41,13 +47,7 @@ PatchSet::PatchSet(std::vector<BezierPatch> patches, bool reversed, double thick
     patches_.push_back(std::move(patch));
   }
   for (int c = 0; c < 3; ++c) size_ = std::max(size_, high[c] - low[c]);
-  for (int n = 0; n < numPatches(); ++n)
-    for (int a = 0; a < numSamples_; ++a)
-      for (int b = 0; b < numSamples_; ++b) {
-        const double t[2] = {-1 + 2.0 * a / (numSamples_ - 1), -1 + 2.0 * b / (numSamples_ - 1)};
-        patches_[n].samples.push_back(point(n, t));
-      }
-  requireNormals();
+  sample();
   findSharedEdges();
   makeTool(reversed);
 }
@@ -56,22 +56,38 @@ PatchPoint PatchSet::point(int patch, const double* t) const {
   return PatchPoint::of(patches_[patch].coefficients.data(), degree_[0], degree_[1], t[0], t[1]);
 }
 
-void PatchSet::requireNormals() const {
+void PatchSet::sample() {
   for (int n = 0; n < numPatches(); ++n) {
-    double largest = 0;
-    for (const PatchPoint& s : patches_[n].samples)
-      for (int c = 0; c < 3; ++c) largest = std::max({largest, std::fabs(s.S1[c]), std::fabs(s.S2[c])});
-    for (std::size_t i = 0; i < patches_[n].samples.size(); ++i) {
-      const PatchPoint& s = patches_[n].samples[i];
-      double N[3];
-      s.cross(N);
-      // Relative to the longest tangent of the patch: a side that shrinks to a point has none.
-      if (!(std::sqrt(N[0] * N[0] + N[1] * N[1] + N[2] * N[2]) > 1e-9 * largest * largest))
-        detail::refuse("patch surface", "the normal of patch " + std::to_string(n + 1) + " vanishes at (" +
-                                            detail::shown(s.S[0]) + ", " + detail::shown(s.S[1]) + ", " +
-                                            detail::shown(s.S[2]) +
-                                            "): cut the surface there or move control points that coincide");
-    }
+    Patch& patch = patches_[n];
+    std::vector<PatchPoint> points;
+    double slope[2] = {0, 0};
+    for (int a = 0; a < numSamples_; ++a)
+      for (int b = 0; b < numSamples_; ++b) {
+        const double t[2] = {-1 + 2.0 * a / (numSamples_ - 1), -1 + 2.0 * b / (numSamples_ - 1)};
+        const PatchPoint& s = points.emplace_back(point(n, t));
+        patch.samples.push_back({s.S[0], s.S[1], s.S[2]});
+        slope[0] = std::max(slope[0], length(s.S1));
+        slope[1] = std::max(slope[1], length(s.S2));
+      }
+    requireNormal(n, points);
+    // Half the way between samples, with slopes between them that are half as large again.
+    patch.reach = 1.5 * (slope[0] + slope[1]) / (numSamples_ - 1);
+  }
+}
+
+void PatchSet::requireNormal(int patch, const std::vector<PatchPoint>& samples) const {
+  double largest = 0;
+  for (const PatchPoint& s : samples)
+    for (int c = 0; c < 3; ++c) largest = std::max({largest, std::fabs(s.S1[c]), std::fabs(s.S2[c])});
+  for (const PatchPoint& s : samples) {
+    double N[3];
+    s.cross(N);
+    // Relative to the longest tangent of the patch: a side that shrinks to a point has none.
+    if (!(length(N) > 1e-9 * largest * largest))
+      detail::refuse("patch surface", "the normal of patch " + std::to_string(patch + 1) + " vanishes at (" +
+                                          detail::shown(s.S[0]) + ", " + detail::shown(s.S[1]) + ", " +
+                                          detail::shown(s.S[2]) +
+                                          "): cut the surface there or move control points that coincide");
   }
 }
 
@@ -101,10 +117,12 @@ Foot PatchSet::descend(int patch, double t1, double t2, const double* x) const {
       return (held[0] ? 0 : std::fabs(at.g[0])) + (held[1] ? 0 : std::fabs(at.g[1]));
     };
     const auto levels = [&](const SquaredDistance& at) { return slope(at) < slope(f); };
-    constexpr double close = 1e-4;
-    bool found = f.convex() && std::fabs(dt[0]) + std::fabs(dt[1]) < close && moves(1, levels);
+    constexpr double close = 1e-4, there = 1e-13;
+    const double asked = std::fabs(dt[0]) + std::fabs(dt[1]);
+    bool found = f.convex() && asked < close && moves(1, levels);
+    if (asked < there) break;
     for (double share = 1; share > 1e-6 && !found; share /= 2) found = moves(share, falls);
-    if (moved < 1e-13) break;
+    if (moved < there) break;
   }
   foot.distance = distance(s, x);
   const SquaredDistance f(s, x);
@@ -114,19 +132,24 @@ Foot PatchSet::descend(int patch, double t1, double t2, const double* x) const {
   return foot;
 }
 
-Foot PatchSet::nearestOn(int patch, const double* x) const {
+/// The nearest point of the patch; one at an infinite distance where it is farther than the limit.
+Foot PatchSet::nearestOn(int patch, const double* x, double limit) const {
   // From the best sample and from the best one that is not its neighbour.
-  const auto& samples = patches_[patch].samples;
+  const Patch& own = patches_[patch];
   const int n = numSamples_;
-  int best = 0, other = -1;
-  std::vector<double> squares;
-  squares.reserve(samples.size());
-  for (const PatchPoint& s : samples) {
-    double square = 0;
-    for (int c = 0; c < 3; ++c) square += (x[c] - s.S[c]) * (x[c] - s.S[c]);
-    squares.push_back(square);
+  std::array<double, kMaxSamples * kMaxSamples> squares;
+  for (int i = 0; i < n * n; ++i) {
+    squares[i] = 0;
+    for (int c = 0; c < 3; ++c) squares[i] += (x[c] - own.samples[i][c]) * (x[c] - own.samples[i][c]);
   }
-  best = static_cast<int>(std::min_element(squares.begin(), squares.end()) - squares.begin());
+  const int best =
+      static_cast<int>(std::min_element(squares.begin(), squares.begin() + n * n) - squares.begin());
+  if (std::sqrt(squares[best]) - own.reach > limit) {
+    Foot far;
+    far.distance = std::numeric_limits<double>::infinity();
+    return far;
+  }
+  int other = -1;
   for (int i = 0; i < n * n; ++i) {
     const bool neighbour = std::abs(i / n - best / n) <= 1 && std::abs(i % n - best % n) <= 1;
     if (!neighbour && (other < 0 || squares[i] < squares[other])) other = i;
@@ -135,7 +158,8 @@ Foot PatchSet::nearestOn(int patch, const double* x) const {
     return descend(patch, -1 + 2.0 * (i / n) / (n - 1), -1 + 2.0 * (i % n) / (n - 1), x);
   };
   const Foot first = from(best);
-  if (other < 0) return first;
+  // What is not around the best sample is too far.
+  if (other < 0 || first.distance < std::sqrt(squares[other]) - own.reach) return first;
   const Foot second = from(other);
   return second.distance < first.distance ? second : first;
 }
@@ -166,26 +190,34 @@ bool PatchSet::beyondEdge(const Foot& foot, const double* x) const {
 
 Foot PatchSet::nearest(const double* x) const {
   Foot best = nearestPoint(x);
-  if (beyondEdge(best, x)) best.patch = -1;
+  if (best.patch >= 0 && beyondEdge(best, x)) best.patch = -1;
   return best;
 }
 
-/// The nearest point of all patches, edges included.
-Foot PatchSet::nearestPoint(const double* x) const {
-  std::vector<double> bounds;
-  for (const Patch& patch : patches_) bounds.push_back(boxDistance(patch, x));
-  std::vector<int> order(patches_.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::sort(order.begin(), order.end(), [&](int a, int b) { return bounds[a] < bounds[b]; });
+/// The patch that comes behind `last` in the order of distances to boxes, and its distance; -1: none.
+std::pair<int, double> PatchSet::nextByBox(const double* x, std::pair<int, double> last) const {
+  std::pair<int, double> next{-1, std::numeric_limits<double>::infinity()};
+  for (int n = 0; n < numPatches(); ++n) {
+    const double bound = boxDistance(patches_[n], x);
+    const bool behind = bound > last.second || (bound == last.second && n > last.first);
+    if (behind && bound < next.second) next = {n, bound};
+  }
+  return next;
+}
+
+/// The nearest point of all patches, edges included; `known`: that of one of them.
+Foot PatchSet::nearestPoint(const double* x, const Foot* known) const {
+  const double same = 1e-12 * size_;
   Foot best;
   best.distance = std::numeric_limits<double>::infinity();
-  for (const int n : order) {
-    if (bounds[n] > best.distance) break;
-    const Foot foot = nearestOn(n, x);
+  for (auto [n, bound] = nextByBox(x, {-1, 0}); n >= 0; std::tie(n, bound) = nextByBox(x, {n, bound})) {
+    const double limit = known ? std::min(known->distance, best.distance) : best.distance;
+    if (bound > limit) break;
+    const Foot foot = known && known->patch == n ? *known : nearestOn(n, x, limit + 2 * same);
     // Beside a border the feet on both of its patches are equally near but for the square of the way to it:
     // the one that x does not pull over its border. On it, the first.
     const double nearer = best.distance - foot.distance;
-    const bool equal = std::fabs(nearer) <= 1e-12 * size_;
+    const bool equal = std::fabs(nearer) <= same;
     if (equal ? foot.beyond < best.beyond - 1e-14 * size_ : nearer > 0) best = foot;
   }
   return best;
@@ -204,24 +236,25 @@ bool PatchSet::onEdge(const Foot& foot) const {
 }
 
 std::array<double, 3> PatchSet::locate(const double* x, int preferred) const {
-  const Foot any = nearestPoint(x);
   if (preferred < 0 || preferred >= numPatches()) {
-    if (preferred == -1 && onEdge(any)) return {-1, 0, 0};
-    return locate(x);
+    const Foot any = nearestPoint(x);
+    return any.patch >= 0 && preferred == -1 && onEdge(any) ? overNothing : dataOf(any, x);
   }
-  const Foot own = nearestOn(preferred, x);
+  const Foot own = nearestOn(preferred, x), any = nearestPoint(x, &own);
   const double trial[3] = {static_cast<double>(preferred), own.t[0], own.t[1]};
   double y[6];
   tool_.start(x, trial, y);
   const bool near = std::max(std::fabs(y[4]), std::fabs(y[5])) <= 1 + kOnBorder &&
                     own.distance <= any.distance + kOnBorder * size_ && gapAt(own, x) >= -thickness_;
-  if (!near) return locate(x);
+  if (!near) return dataOf(any, x);
   return {trial[0], y[4], y[5]};
 }
 
-std::array<double, 3> PatchSet::locate(const double* x) const {
-  const Foot foot = nearest(x);
-  if (foot.patch < 0 || gapAt(foot, x) < -thickness_) return {-1, 0, 0};
+std::array<double, 3> PatchSet::locate(const double* x) const { return dataOf(nearestPoint(x), x); }
+
+/// Of a point at x whose nearest point of all is this.
+std::array<double, 3> PatchSet::dataOf(const Foot& foot, const double* x) const {
+  if (foot.patch < 0 || beyondEdge(foot, x) || gapAt(foot, x) < -thickness_) return overNothing;
   return {static_cast<double>(foot.patch), foot.t[0], foot.t[1]};
 }
 

@@ -208,6 +208,38 @@ TEST(Patches, DistanceIsThatOfSamples) {
   }
 }
 
+// Patches that are passed over, and starts that are left out, have no nearer point, however far the tool is;
+// a patch that is preferred is looked at first and changes nothing elsewhere.
+TEST(Patches, NothingIsNearerThanTheNearest) {
+  Random random(46);
+  std::vector<BezierPatch> patches;
+  for (int n = 0; n < 6; ++n) {
+    BezierPatch patch = wavyPatch(n % 2 == 1, 5 + n);
+    const Vector3 shift{random.between(-4, 4), random.between(-4, 4), random.between(-4, 4)};
+    for (auto& point : patch.points)
+      for (int c = 0; c < 3; ++c) point[c] += shift[c];
+    patches.push_back(patch);
+  }
+  const PatchSet set(patches);
+  std::vector<Vector3> samples;
+  for (const BezierPatch& patch : patches)
+    for (int a = -20; a <= 20; ++a)
+      for (int b = -20; b <= 20; ++b) samples.push_back(at(patch, a / 20.0, b / 20.0));
+  for (int i = 0; i < 400; ++i) {
+    const double far = i % 4 == 0 ? 40 : 6;
+    const Vector3 x{random.between(-far, far), random.between(-far, far), random.between(-far, far)};
+    double least = 1e300;
+    for (const Vector3& place : samples) least = std::min(least, length(sum(x, -1, place)));
+    EXPECT_LE(set.nearest(x.data()).distance, least) << "point " << i;
+    const auto alone = set.locate(x.data());
+    for (int n = 0; n < 6; ++n) {
+      const auto preferred = set.locate(x.data(), n);
+      for (int d = 0; d < 3; ++d)
+        EXPECT_NEAR(preferred[d], alone[d], 1e-9) << "point " << i << ", patch " << n;
+    }
+  }
+}
+
 TEST(Patches, DerivativesThreeWays) {
   Random random(46);
   for (const bool rational : {false, true}) {

@@ -148,6 +148,29 @@ LineProbe probe(const LineLaws& laws, int Q, const double* xi, const double* c, 
                    [&](const double* places) { return laws.located(Q, places, preferred); });
 }
 
+std::vector<double> gaps(const LineLaws& laws, int Q, const double* xi, const double* c, double lambda) {
+  const int J = laws.placeInputs(), H = laws.placeOutputs();
+  std::vector<double> in(Q * J * L), out(H * Q * L), scratch(laws.projection->historyDoubles(0)), gap(Q * L);
+  for (int q = 0; q < Q; ++q)
+    for (int lane = 0; lane < L; ++lane) {
+      for (int i = 0; i < 3; ++i) {
+        double x = 0;
+        for (int k = laws.degree; k >= 0; --k) x = x * xi[q * L + lane] + c[(3 * k + i) * L + lane];
+        in[(q * J + i) * L + lane] = x;
+      }
+      if (J == 4) in[(q * J + 3) * L + lane] = lambda;
+    }
+  const auto data = laws.located(Q, in.data());
+  laws.projection->value({Q, L, data.data(), scratch.data()}, in.data(), out.data());
+  for (int q = 0; q < Q; ++q)
+    for (int lane = 0; lane < L; ++lane)
+      gap[q * L + lane] =
+          laws.hasPieces() && data[(q * laws.pieces.numData + laws.pieces.piece) * L + lane] < 0
+              ? std::numeric_limits<double>::infinity()
+              : out[H * q * L + lane];
+  return gap;
+}
+
 void LinePoints::reserve(int batches, int maxOrder) {
   start_ = seriesOrder(0, maxOrder);
   curveDoubles_ = P_ * laws_.curve->seriesDoubles(start_);
@@ -190,7 +213,8 @@ void LinePoints::start(int b, const double* xi, const Hold* hold, const double* 
   }
   laws_.slope->start({P_, L, nullptr, own + curveDoubles_ + projectionDoubles_}, start_, onSlope.data(),
                      slope.data(), failure);
-  const LineProbe at = probe(laws_, P_, xi, c, lambda, preferred);
+  const LineProbe at = probeWith(laws_, P_, xi, c, lambda,
+                                 [&](const double*) -> const std::vector<double>& { return located; });
   for (int p = 0; p < P_; ++p)
     for (int lane = 0; lane < L; ++lane) {
       Point& point = points_[(static_cast<std::size_t>(b) * P_ + p) * L + lane];

@@ -54,6 +54,10 @@ struct LineProbe {
 LineProbe probe(const LineLaws& laws, int numPoints, const double* xi, const double* c, double lambda,
                 const int* preferred = nullptr);
 
+/// The gaps alone.
+std::vector<double> gaps(const LineLaws& laws, int numPoints, const double* xi, const double* c,
+                         double lambda);
+
 /// Series of points of lines whose places are local unknowns xi(a): roots of the gap, of its slope, or of the
 /// way to a border of the piece. To order k, with what r(xi, c) = 0 leaves at xi_k = 0,
 ///     xi_k = -(r_k + dr/dc c_k)/(dr/dxi),

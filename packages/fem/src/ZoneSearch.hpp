@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -24,6 +25,29 @@ constexpr double kBeyondEnds = 0.25;
 
 /// Of kLanes lines, c [coefficient][lane].
 std::vector<GapShape> gapShapes(const LineLaws& laws, const double* c, double lambda);
+
+/// The same of batches of lines, for which residual, tangent, series, events and results of one state ask by
+/// turns: what the last few states had is not looked for again.
+class KnownShapes {
+ public:
+  explicit KnownShapes(int batches = 0) : of_(batches) {}
+
+  /// Valid until others of this batch are asked for.
+  const std::vector<GapShape>& of(const LineLaws& laws, int batch, const double* c, double lambda);
+
+ private:
+  struct Known {
+    std::vector<double> c;
+    double lambda = 0;
+    std::vector<GapShape> shapes;
+  };
+  static constexpr int kStates = 4;
+  struct Batch {
+    std::array<Known, kStates> states;
+    int next = 0;  ///< to be overwritten
+  };
+  std::vector<Batch> of_;
+};
 
 /// The root of the gap of one line, c [coefficient], between two places where it has different signs.
 double rootBetween(const LineLaws& laws, const double* c, double lambda, double from, double to);

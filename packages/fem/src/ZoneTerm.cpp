@@ -413,9 +413,9 @@ class ZoneTerm final : public EventTerm {
     for (int b = 0; b < batches(); ++b) {
       const auto lines = linesOf(b);
       gather(lines.data(), static_cast<int>(lines.size()), u, 1, c.data());
-      const LineProbe at = probe(laws_, static_cast<int>(Q), xi.data(), c.data(), lambda);
+      const auto gap = gaps(laws_, static_cast<int>(Q), xi.data(), c.data(), lambda);
       for (std::size_t lane = 0; lane < lines.size(); ++lane) {
-        for (std::size_t q = 0; q < Q; ++q) result.values[M * (lines[lane] * Q + q)] = at.gap[q * L + lane];
+        for (std::size_t q = 0; q < Q; ++q) result.values[M * (lines[lane] * Q + q)] = gap[q * L + lane];
         for (int i = 0; i < 3; ++i) middles[3 * lines[lane] + i] = c[i * L + lane];
       }
     }
@@ -567,7 +567,7 @@ class ZoneTerm final : public EventTerm {
       const auto lines = linesOf(b);
       gather(lines.data(), static_cast<int>(lines.size()), u, 1, c.data());
       if (onlyNear && !anyNear(c.data(), lambda)) continue;
-      const auto shapes = gapShapes(laws_, c.data(), lambda);
+      const auto& shapes = shapes_.of(laws_, b, c.data(), lambda);
       for (std::size_t lane = 0; lane < lines.size(); ++lane) {
         double own[kMostCoefficients];
         for (int m = 0; m < C; ++m) own[m] = c[m * L + lane];
@@ -579,13 +579,12 @@ class ZoneTerm final : public EventTerm {
   /// Whether a line of the batch may come to the tool: gaps change by no more than places do.
   bool anyNear(const double* c, double lambda) const {
     const std::vector<double> middle(L, 0.0);
-    const LineProbe at = probe(laws_, 1, middle.data(), c, lambda);
+    const auto gap = gaps(laws_, 1, middle.data(), c, lambda);
     for (int lane = 0; lane < L; ++lane) {
       double reach = 0;
       for (int k = 1; k <= laws_.degree; ++k)
         reach += std::hypot(c[3 * k * L + lane], c[(3 * k + 1) * L + lane], c[(3 * k + 2) * L + lane]);
-      if (!(at.gap[lane] > reach) || std::isinf(at.gap[lane]))
-        return true;  // over nothing: its ends may not be
+      if (!(gap[lane] > reach) || std::isinf(gap[lane])) return true;  // over nothing: its ends may not be
     }
     return false;
   }
@@ -600,7 +599,7 @@ class ZoneTerm final : public EventTerm {
     for (int b = 0; b < batches(); ++b) {
       const auto lines = linesOf(b);
       gather(lines.data(), static_cast<int>(lines.size()), u, 1, c.data());
-      const auto shapes = gapShapes(laws_, c.data(), lambda);
+      const auto& shapes = shapes_.of(laws_, b, c.data(), lambda);
       for (int lane = 0; lane < L; ++lane) {
         const bool real = lane < static_cast<int>(lines.size());
         const int e = lines[real ? lane : 0];
@@ -728,6 +727,7 @@ class ZoneTerm final : public EventTerm {
   /// What belongs to lines, and their conditions.
   void makeArrays() {
     const int C = laws_.coefficients();
+    shapes_ = KnownShapes(batches());
     lengths_.clear();
     for (int e = 0; e < numEntities(); ++e) {
       const double* chord = &lines_.coefficients[e * C + 3];
@@ -763,11 +763,12 @@ class ZoneTerm final : public EventTerm {
   std::vector<int> conditionOf_;         ///< [line][end or extremum] its own condition
   std::vector<int> active_;              ///< [own condition]
   std::unique_ptr<PointPieces> pieces_;  ///< [line][zone][limit]; null where the tool has no pieces
-  std::vector<double> lengths_;          ///< [line]
-  std::vector<int> dofs_;                ///< [line][node]
-  int balance_ = 0;                      ///< of the forces (DofMap::balances)
-  std::vector<int> positions_;           ///< [line][node][node] in the tangent's rows
-  double extent_ = 0;                    ///< largest coordinate
+  mutable KnownShapes shapes_;
+  std::vector<double> lengths_;  ///< [line]
+  std::vector<int> dofs_;        ///< [line][node]
+  int balance_ = 0;              ///< of the forces (DofMap::balances)
+  std::vector<int> positions_;   ///< [line][node][node] in the tangent's rows
+  double extent_ = 0;            ///< largest coordinate
   int maxOrder_ = 0;
   std::vector<std::vector<int>> seriesLines_;  ///< [batch of zones] their lines, of the series under way
   std::vector<std::vector<int>> seriesNth_;    ///< [batch of zones][lane] which of the zones of its line

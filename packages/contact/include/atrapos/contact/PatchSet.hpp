@@ -3,6 +3,7 @@
 #include <array>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "atrapos/contact/BezierPatch.hpp"
@@ -62,20 +63,24 @@ class PatchSet {
  private:
   struct Patch {
     std::vector<double> coefficients;
-    std::vector<PatchPoint> samples;                ///< [a][b] at numSamples_ places each way
-    double low[3], high[3];                         ///< box of the control points, which holds the patch
+    std::vector<std::array<double, 3>> samples;  ///< [a][b] at numSamples_ places each way
+    double reach = 0;                            ///< no point of the patch is farther from the nearest sample
+    double low[3], high[3];                      ///< box of the control points, which holds the patch
     bool shared[4] = {false, false, false, false};  ///< t1 = -1, t1 = 1, t2 = -1, t2 = 1
   };
 
   PatchPoint point(int patch, const double* t) const;
-  Foot nearestOn(int patch, const double* x) const;
+  Foot nearestOn(int patch, const double* x, double limit = std::numeric_limits<double>::infinity()) const;
   Foot descend(int patch, double t1, double t2, const double* x) const;
   double boxDistance(const Patch& patch, const double* x) const;
-  Foot nearestPoint(const double* x) const;
+  Foot nearestPoint(const double* x, const Foot* known = nullptr) const;
+  std::pair<int, double> nextByBox(const double* x, std::pair<int, double> last) const;
   bool onEdge(const Foot& foot) const;
   bool beyondEdge(const Foot& foot, const double* x) const;
   double gapAt(const Foot& foot, const double* x) const;
-  void requireNormals() const;
+  std::array<double, 3> dataOf(const Foot& foot, const double* x) const;
+  void sample();
+  void requireNormal(int patch, const std::vector<PatchPoint>& samples) const;
   void findSharedEdges();
   void makeTool(bool reversed);
 

@@ -52,22 +52,40 @@ template <int NX, int NY, int ND, class G, class X>
 KOKKOS_INLINE_FUNCTION bool solveLanes(const G& g, const Sweep<X>* x, const LanesOf<X>* data, LanesOf<X>* y,
                                        bool inverted, LanesOf<X>* inverse, Failures<X::lanes>* failures) {
   bool converged = true;
+  double start0[NY];
+  for (int j = 0; j < NY; ++j) start0[j] = y[j][0];
   for (int j = 0; j < NY * NY; ++j) inverse[j] = LanesOf<X>(0.0);
   for (int l = 0; l < X::lanes; ++l) {
-    LocalNewton<NX, NY, ND> newton;
     double x0[NX], y0[NY], data0[ND + 1];
-    for (int j = 0; j < NX; ++j) x0[j] = x[j].value()[l];
-    for (int j = 0; j < ND; ++j) data0[j] = data[j][l];
-    for (int j = 0; j < NY; ++j) y0[j] = y[j][l];
-    const bool good = newton.solve(g, x0, data0, y0, !inverted);
-    converged = converged && good;
-    if (!good && failures != nullptr) failures->note(l, Operation::Implicit, newton.size);
-    for (int j = 0; j < NY; ++j) y[j][l] = good ? y0[j] : std::numeric_limits<double>::quiet_NaN();
-    if (!inverted) continue;
-    double inverse0[NY * NY];
-    if (good) newton.lu.invert(inverse0);
-    for (int j = 0; j < NY * NY; ++j)
-      inverse[j][l] = good ? inverse0[j] : std::numeric_limits<double>::quiet_NaN();
+    // Lanes beyond the last point of a row repeat its first, and a single point is in all of them.
+    bool repeats = l > 0 && converged;
+    for (int j = 0; j < NX; ++j) {
+      x0[j] = x[j].value()[l];
+      repeats = repeats && x0[j] == x[j].value()[0];
+    }
+    for (int j = 0; j < ND; ++j) {
+      data0[j] = data[j][l];
+      repeats = repeats && data0[j] == data[j][0];
+    }
+    for (int j = 0; j < NY; ++j) {
+      y0[j] = y[j][l];
+      repeats = repeats && y0[j] == start0[j];
+    }
+    if (repeats) {
+      for (int j = 0; j < NY; ++j) y[j][l] = y[j][0];
+      for (int j = 0; j < NY * NY; ++j) inverse[j][l] = inverse[j][0];
+    } else {
+      LocalNewton<NX, NY, ND> newton;
+      const bool good = newton.solve(g, x0, data0, y0, !inverted);
+      converged = converged && good;
+      if (!good && failures != nullptr) failures->note(l, Operation::Implicit, newton.size);
+      for (int j = 0; j < NY; ++j) y[j][l] = good ? y0[j] : std::numeric_limits<double>::quiet_NaN();
+      if (!inverted) continue;
+      double inverse0[NY * NY];
+      if (good) newton.lu.invert(inverse0);
+      for (int j = 0; j < NY * NY; ++j)
+        inverse[j][l] = good ? inverse0[j] : std::numeric_limits<double>::quiet_NaN();
+    }
   }
   return converged;
 }
