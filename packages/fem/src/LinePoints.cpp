@@ -74,7 +74,34 @@ std::vector<double> LineLaws::located(int numPoints, const double* places, const
   return data;
 }
 
+std::vector<double> LineLaws::projected(int numPoints, const double* places) const {
+  const int H = placeOutputs();
+  const auto data = located(numPoints, places);
+  std::vector<double> out(H * numPoints * L), scratch(projection->historyDoubles(0));
+  projection->value({numPoints, L, data.data(), scratch.data()}, places, out.data());
+  for (int q = 0; q < numPoints; ++q)
+    for (int lane = 0; lane < L; ++lane)
+      if (overNothing(data, q, lane)) out[H * q * L + lane] = std::numeric_limits<double>::infinity();
+  return out;
+}
+
 namespace {
+
+/// The projection's inputs at points of lines, [point][input][lane].
+std::vector<double> placesOn(const LineLaws& laws, int Q, const double* xi, const double* c, double lambda) {
+  const int J = laws.placeInputs(), P = laws.degree;
+  std::vector<double> in(Q * J * L, 0.0);
+  for (int q = 0; q < Q; ++q)
+    for (int lane = 0; lane < L; ++lane) {
+      const double s = xi[q * L + lane];
+      for (int i = 0; i < 3; ++i) {
+        const double c2 = P == 2 ? c[(6 + i) * L + lane] : 0;
+        in[(q * J + i) * L + lane] = c[i * L + lane] + s * (c[(3 + i) * L + lane] + s * c2);
+      }
+      if (J == 4) in[(q * J + 3) * L + lane] = lambda;
+    }
+  return in;
+}
 
 /// dataAt(places): the projection's data, [point][datum][lane].
 template <class DataAt>
@@ -83,18 +110,16 @@ LineProbe probeWith(const LineLaws& laws, int Q, const double* xi, const double*
   const int J = laws.placeInputs(), H = laws.placeOutputs(), P = laws.degree;
   LineProbe r;
   r.along.resize(3 * Q * L);
-  std::vector<double> in(Q * J * L, 0.0), bend(3 * Q * L, 0.0);
+  const auto in = placesOn(laws, Q, xi, c, lambda);
+  std::vector<double> bend(3 * Q * L, 0.0);
   for (int q = 0; q < Q; ++q)
     for (int lane = 0; lane < L; ++lane) {
       const double s = xi[q * L + lane];
       for (int i = 0; i < 3; ++i) {
-        const double c0 = c[i * L + lane], c1 = c[(3 + i) * L + lane],
-                     c2 = P == 2 ? c[(6 + i) * L + lane] : 0;
-        in[(q * J + i) * L + lane] = c0 + s * (c1 + s * c2);
+        const double c1 = c[(3 + i) * L + lane], c2 = P == 2 ? c[(6 + i) * L + lane] : 0;
         r.along[(3 * q + i) * L + lane] = c1 + 2 * c2 * s;
         bend[(3 * q + i) * L + lane] = 2 * c2;
       }
-      if (J == 4) in[(q * J + 3) * L + lane] = lambda;
     }
   std::vector<double> scratch(laws.projection->historyDoubles(0)), out(H * Q * L), jacobian(H * J * Q * L);
   const auto& data = dataAt(in.data());
@@ -125,7 +150,7 @@ LineProbe probeWith(const LineLaws& laws, int Q, const double* xi, const double*
         r.in[(2 * q + i) * L + lane] = out[(H * q + 4 + i) * L + lane];
         for (int j = 0; j < J; ++j) r.inBy[((2 * q + i) * 4 + j) * L + lane] = by(4 + i, j);
       }
-      if (!laws.hasPieces() || data[(q * laws.pieces.numData + laws.pieces.piece) * L + lane] >= 0) continue;
+      if (!laws.overNothing(data, q, lane)) continue;
       r.gap[m] = std::numeric_limits<double>::infinity();
       r.slope[m] = r.bend[m] = 0;
       for (int j = 0; j < 4; ++j) r.gradient[(4 * q + j) * L + lane] = 0;
@@ -149,25 +174,10 @@ LineProbe probe(const LineLaws& laws, int Q, const double* xi, const double* c, 
 }
 
 std::vector<double> gaps(const LineLaws& laws, int Q, const double* xi, const double* c, double lambda) {
-  const int J = laws.placeInputs(), H = laws.placeOutputs();
-  std::vector<double> in(Q * J * L), out(H * Q * L), scratch(laws.projection->historyDoubles(0)), gap(Q * L);
-  for (int q = 0; q < Q; ++q)
-    for (int lane = 0; lane < L; ++lane) {
-      for (int i = 0; i < 3; ++i) {
-        double x = 0;
-        for (int k = laws.degree; k >= 0; --k) x = x * xi[q * L + lane] + c[(3 * k + i) * L + lane];
-        in[(q * J + i) * L + lane] = x;
-      }
-      if (J == 4) in[(q * J + 3) * L + lane] = lambda;
-    }
-  const auto data = laws.located(Q, in.data());
-  laws.projection->value({Q, L, data.data(), scratch.data()}, in.data(), out.data());
-  for (int q = 0; q < Q; ++q)
-    for (int lane = 0; lane < L; ++lane)
-      gap[q * L + lane] =
-          laws.hasPieces() && data[(q * laws.pieces.numData + laws.pieces.piece) * L + lane] < 0
-              ? std::numeric_limits<double>::infinity()
-              : out[H * q * L + lane];
+  const int H = laws.placeOutputs();
+  const auto out = laws.projected(Q, placesOn(laws, Q, xi, c, lambda).data());
+  std::vector<double> gap(Q * L);
+  for (int q = 0; q < Q; ++q) std::copy_n(&out[H * q * L], L, &gap[q * L]);
   return gap;
 }
 

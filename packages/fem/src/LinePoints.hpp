@@ -27,6 +27,12 @@ struct LineLaws {
   /// The projection's data at places, [point][input][lane] -> [point][datum][lane]; empty where it has none.
   /// preferred: [point][lane] the piece to be taken where a place lies on the border of several; null: any.
   std::vector<double> located(int numPoints, const double* places, const int* preferred = nullptr) const;
+  /// Whether a place with these data is over nothing: its gap is infinite and does not change.
+  bool overNothing(const std::vector<double>& data, int point, int lane) const {
+    return hasPieces() && data[(point * pieces.numData + pieces.piece) * L + lane] < 0;
+  }
+  /// The projection at places, [point][output][lane].
+  std::vector<double> projected(int numPoints, const double* places) const;
 };
 
 /// What keeps a point of a line at its place.

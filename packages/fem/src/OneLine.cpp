@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace atrapos::fem {
 
@@ -36,12 +35,10 @@ std::pair<double, double> OneLine::gapAndSlope(double xi) const {
   const int J = laws_.placeInputs();
   double x[4], along[3];
   place(xi, x, along);
-  std::vector<double> in(J * L), out(laws_.placeOutputs() * L), scratch(laws_.projection->historyDoubles(0));
+  std::vector<double> in(J * L);
   for (int j = 0; j < J; ++j) std::fill_n(&in[j * L], L, x[j]);
-  const auto data = laws_.located(1, in.data());
-  if (laws_.hasPieces() && data[laws_.pieces.piece * L] < 0)
-    return {std::numeric_limits<double>::infinity(), 0.0};
-  laws_.projection->value({1, L, data.data(), scratch.data()}, in.data(), out.data());
+  const auto out = laws_.projected(1, in.data());
+  if (std::isinf(out[0])) return {out[0], 0.0};
   return {out[0], out[L] * along[0] + out[2 * L] * along[1] + out[3 * L] * along[2]};
 }
 

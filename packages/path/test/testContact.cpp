@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "problems/Ends.hpp"
 #include "problems/Record.hpp"
 
 using namespace atrapos::path;
@@ -20,8 +21,7 @@ TEST(Contact, AgreesWithTheTable) {
     double alpha, eta, u, h, R, lambda;
     if (!(in >> alpha >> eta >> u >> h >> R >> lambda) || u == 0) continue;
     const Contact law{alpha, eta};
-    Stops stops;
-    stops.loadFactors = {lambda};
+    Stops stops = loads({lambda});
     Followed<Contact> f(law, {0}, 0, Options{}, stops, 1.0);
     EXPECT_EQ(f.outcome.reason, EndReason::stopReached) << f.outcome.text;
     EXPECT_NEAR(f.final(0), u, 1.1e-6) << alpha << ' ' << eta;  // residual bound x scale / stiffness >= 1
@@ -32,8 +32,7 @@ TEST(Contact, AgreesWithTheTable) {
 }
 
 int steps(double alpha, double eta, double internalWeight) {
-  Stops stops;
-  stops.loadFactors = {3};
+  Stops stops = loads({3});
   Options options;
   options.pade = PadeUse::off;  // it passes the branch points in its own way
   Followed<Contact> f(Contact{alpha, eta}, {0}, 0, options, stops, internalWeight);

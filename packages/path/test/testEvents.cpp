@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "problems/Bifurcations.hpp"
+#include "problems/Ends.hpp"
 #include "problems/Record.hpp"
 #include "problems/UnilateralProblem.hpp"
 
@@ -20,8 +21,7 @@ struct Moved {
   Outcome outcome;
   Moved(Body body, std::vector<double> stops, double end, Options options = {})
       : problem(WithStops<Body>(body, stops)) {
-    Stops at;
-    at.loadFactors = {end};
+    Stops at = loads({end});
     options.maxSteps = 60;
     outcome = PathFollower(problem, solver, options, at).run({problem.vector({}), 0}, record);
     EXPECT_EQ(solver.counters().factorizations, outcome.factorizations);
@@ -240,8 +240,7 @@ TEST(Events, ARestartKeepsTheirBits) {
       return true;
     }
   };
-  Stops stops;
-  stops.loadFactors = {2.9};
+  Stops stops = loads({2.9});
   const auto follow = [&](UnilateralProblem<ComesOff>& problem, const Start& start, int maxSteps,
                           Steps& seen) {
     SymmetricDenseSolver solver;
@@ -295,8 +294,7 @@ TEST(Events, ARestartTurnsWhereThePathWouldHave) {
         if (!p.smooth) all.push_back({s.pathLengthStart + p.a, p.lambda, p.maximum});
     return all;
   };
-  Stops stops;
-  stops.loadFactors = {1.0};
+  Stops stops = loads({1.0});
   const WithStops<TrussBody> body(TrussBody{}, {1.2});
   const auto follow = [&](const Start* from, int maxSteps, Record& record) {
     UnilateralProblem<TrussBody> problem(body);
@@ -345,8 +343,7 @@ TEST(Events, APathThatMayNotGoOnEndsWithAReason) {
   Hopeless problem(WithStops<OneMass>(OneMass{}, {1}));
   SymmetricDenseSolver solver;
   Record record;
-  Stops stops;
-  stops.loadFactors = {3};
+  Stops stops = loads({3});
   const auto outcome = PathFollower(problem, solver, Options{}, stops).run({problem.vector({}), 0}, record);
   EXPECT_EQ(outcome.reason, EndReason::noAdmissibleDirection) << outcome.text;
   EXPECT_NEAR(outcome.final.lambda, 2, 1e-6);
@@ -368,8 +365,7 @@ TEST(Events, AChangeThatTheStateDoesNotSolveIsNamed) {
   Jumps problem(WithStops<OneMass>(OneMass{}, {1}));
   SymmetricDenseSolver solver;
   Record record;
-  Stops stops;
-  stops.loadFactors = {3};
+  Stops stops = loads({3});
   const auto outcome = PathFollower(problem, solver, Options{}, stops).run({problem.vector({}), 0}, record);
   EXPECT_EQ(outcome.reason, EndReason::problemFailed);
   EXPECT_NE(outcome.text.find("does not solve the problem as an event has changed it"), std::string::npos)
@@ -392,8 +388,7 @@ TEST(Events, AStateBehindOneIsCorrected) {
     Record record;
     Options options;
     options.order = order;
-    Stops stops;
-    stops.loadFactors = {3};
+    Stops stops = loads({3});
     const auto outcome = PathFollower(problem, solver, options, stops).run({problem.vector({}), 0}, record);
     EXPECT_EQ(outcome.reason, EndReason::stopReached) << outcome.text;
     EXPECT_EQ(outcome.events, 1);
@@ -410,8 +405,7 @@ TEST(Events, ACorrectionBehindOneMissesNoStop) {
   Early problem(WithStops<OneMass>(OneMass{}, {1}));
   SymmetricDenseSolver solver;
   Record record;
-  Stops stops;
-  stops.loadFactors = {2 - 8e-7};
+  Stops stops = loads({2 - 8e-7});
   const auto outcome = PathFollower(problem, solver, Options{}, stops).run({problem.vector({}), 0}, record);
   EXPECT_EQ(outcome.reason, EndReason::stopReached) << outcome.text;
   EXPECT_EQ(outcome.final.lambda, 2 - 8e-7);
@@ -431,8 +425,7 @@ TEST(Events, AStateThatCorrectionsDoNotHelpIsNamed) {
   Rough problem(WithStops<OneMass>(OneMass{}, {1}));
   SymmetricDenseSolver solver;
   Record record;
-  Stops stops;
-  stops.loadFactors = {3};
+  Stops stops = loads({3});
   const auto outcome = PathFollower(problem, solver, Options{}, stops).run({problem.vector({}), 0}, record);
   EXPECT_EQ(outcome.reason, EndReason::stepTooSmall);
   EXPECT_NE(outcome.text.find("behind an event the relative residual 3"), std::string::npos) << outcome.text;
@@ -464,8 +457,7 @@ TEST(Events, ARootThatAFunctionHasNotIsNoEvent) {
     NeverVanishing problem(WithStops<OneMass>(OneMass{}, {1}));
     SymmetricDenseSolver solver;
     Record record;
-    Stops stops;
-    stops.loadFactors = {3};
+    Stops stops = loads({3});
     Options options;
     options.order = order;
     const auto outcome = PathFollower(problem, solver, options, stops).run({problem.vector({}), 0}, record);

@@ -6,6 +6,7 @@
 
 #include "atrapos/linear/MakeTangentSolver.hpp"
 #include "problems/Bifurcations.hpp"
+#include "problems/Ends.hpp"
 #include "problems/Record.hpp"
 
 using namespace atrapos;
@@ -84,8 +85,7 @@ struct FollowedHopf {
     unsymmetric.symmetric = false;
     solver = linear::makeTangentSolver(unsymmetric);
     options.direction = to > from ? 1 : -1;
-    Stops stops;
-    stops.loadFactors = {to};
+    Stops stops = loads({to});
     outcome =
         PathFollower(problem, *solver, options, stops).run({problem.vector(law.rest(from)), from}, record);
     EXPECT_EQ(outcome.reason, EndReason::stopReached) << outcome.text;
@@ -173,8 +173,7 @@ TEST(Hopf, DivergenceIsNone) {
   Column law;
   law.n = 20;
   law.follow = 1.0 / 3;
-  Stops stops;
-  stops.loadFactors = {1.02 * law.buckling(1)};
+  Stops stops = loads({1.02 * law.buckling(1)});
   JetProblem<Column> problem(law);
   linear::TangentSolverOptions unsymmetric;
   unsymmetric.symmetric = false;
@@ -209,8 +208,7 @@ TEST(Hopf, SenseOfAPitchforkByWhatHasRates) {
   for (const bool up : {true, false}) {
     Options options = FollowedHopf::withHopf();
     options.direction = up ? 1 : -1;
-    Stops stops;
-    stops.loadFactors = {up ? 5.0 : 3.0};
+    Stops stops = loads({up ? 5.0 : 3.0});
     Record record;
     const double start = up ? 3 : 5;
     const auto outcome =

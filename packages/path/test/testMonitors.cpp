@@ -5,6 +5,7 @@
 #include "atrapos/path/Branches.hpp"
 #include "atrapos/path/Forced.hpp"
 #include "problems/Bifurcations.hpp"
+#include "problems/Ends.hpp"
 #include "problems/FollowedModel.hpp"
 
 using namespace atrapos;
@@ -52,8 +53,7 @@ TEST(Imperfect, AForceIsTheImperfectionOfTheLaw) {
   Modes perfect, built;
   perfect.bend = built.bend = 0.3;
   built.imperfection = size;
-  Stops stops;
-  stops.loadFactors = {2};
+  Stops stops = loads({2});
   JetProblem<Modes> problem(perfect);
   ForcedProblem imperfect(problem, {problem.vector({0, size}), {}});
   SymmetricDenseSolver solver;
@@ -79,8 +79,7 @@ TEST(Imperfect, AForceOfAShapeMovesByThatShape) {
   const auto shape = problem.vector(mode);
   ForcedProblem imperfect(problem, {forceOfShape(problem, start, *shape), {}});
   SymmetricDenseSolver solver;
-  Stops stops;
-  stops.loadFactors = {4};
+  Stops stops = loads({4});
   for (const double sense : {1.0, -1.0}) {
     auto d = problem.vector(mode);
     d->scale(sense);
@@ -120,8 +119,7 @@ TEST(Forced, WhatHoldsAStateFades) {
   EXPECT_EQ(held.residual(start, r).norm, 0);
   ASSERT_GT(problem.residual(start, r).relative(), 1e-2);
   SymmetricDenseSolver solver;
-  Stops stops;
-  stops.loadFactors = {1};
+  Stops stops = loads({1});
   Record record;
   Options options;
   options.residualBound = options.delta = 1e-9;

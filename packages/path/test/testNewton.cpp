@@ -303,8 +303,7 @@ TEST(Newton, RestartsBitForBit) {
 TEST(Newton, BifurcationPointsAreSeenInTheInertia) {
   Column law;
   law.n = 8;
-  Stops stops;
-  stops.loadFactors = {1.3 * law.buckling(1)};
+  Stops stops = loads({1.3 * law.buckling(1)});
   NewtonOptions options;
   options.maxStep = 0.2;
   NewtonFollowed<Column, SymmetricDenseSolver> f(law, std::vector<double>(law.size(), 0.0), 0, options,
@@ -354,8 +353,7 @@ TEST(Newton, CutsBackStepsThatAreTooLong) {
 
 /// Contact that closes, nearly hard.
 TEST(Newton, ContactCloses) {
-  Stops stops;
-  stops.loadFactors = {20};
+  Stops stops = loads({20});
   for (const auto kind : kinds) {
     NewtonOptions options;
     options.kind = kind;

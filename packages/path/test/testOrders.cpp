@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "problems/Bifurcations.hpp"
+#include "problems/Ends.hpp"
 #include "problems/Record.hpp"
 #include "problems/UnilateralProblem.hpp"
 
@@ -37,8 +38,7 @@ struct Path {
 
   Path(B body, std::vector<double> stops, double end, Options options)
       : problem(WithStops<B>(body, std::move(stops))) {
-    Stops at;
-    at.loadFactors = {end};
+    Stops at = loads({end});
     outcome = PathFollower(problem, solver, options, at).run({problem.vector({}), 0}, record);
     EXPECT_EQ(outcome.reason, EndReason::stopReached) << outcome.text;
     EXPECT_EQ(solver.counters().factorizations, outcome.factorizations);
@@ -104,8 +104,7 @@ struct Spring : NoInternal {
 };
 
 TEST(Orders, FallNearAStopAndAtTheLongestStep) {
-  Stops stops;
-  stops.loadFactors = {0.03};
+  Stops stops = loads({0.03});
   const Followed<Spring> near(Spring{}, {0}, 0, Options{}, stops);
   ASSERT_EQ(near.record.steps.size(), 1u);
   EXPECT_LT(near.record.steps[0].order, 10);
@@ -148,8 +147,7 @@ struct Late : NoInternal {
 };
 
 TEST(Orders, AreEnoughOnlyWhereTheResidualSaysSo) {
-  Stops stops;
-  stops.loadFactors = {0.3};
+  Stops stops = loads({0.3});
   Options options;
   options.maxStep = 1;
   const Followed<Late> f(Late{}, {0}, 0, options, stops);
@@ -191,8 +189,7 @@ TEST(Orders, DoNotLoseAnEventThatTheyDoNotShow) {
 TEST(Orders, AreThoseOfAnUninterruptedPath) {
   const std::vector<double> walls = {0.4, 0.39, 0.38, 0.36, 0.33, 0.29};
   const Path<Masses> whole(Masses{}, walls, 1, Options{});
-  Stops stops;
-  stops.loadFactors = {1};
+  Stops stops = loads({1});
   for (std::size_t s = 0; s + 1 < whole.record.steps.size(); ++s) {
     UnilateralProblem<Masses> again(WithStops<Masses>(Masses{}, walls));
     Options head;

@@ -154,8 +154,7 @@ TEST(Pade, SavesStepsAtTheSameResidual) {
 /// The branch points of the contact law bound the polynomial, not the fraction.
 TEST(Pade, PassesTheContactLawsBranchPoints) {
   Options options;
-  Stops stops;
-  stops.loadFactors = {3};
+  Stops stops = loads({3});
   options.pade = PadeUse::off;
   Followed<Contact> off(Contact{1e6, 1e-5}, {0}, 0, options, stops);
   options.pade = PadeUse::automatic;

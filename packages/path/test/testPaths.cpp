@@ -161,8 +161,7 @@ TEST(Path, PerturbedPitchfork) {
     if (row[1] <= -1.0 || row[0] < 1e-3) continue;
     // From a start that is known exactly: lambda = u^2 - eps / u.
     const double u0 = 0.5 * row[0];
-    Stops stops;
-    stops.loadFactors = {row[1]};
+    Stops stops = loads({row[1]});
     Followed<Pitchfork> f(law, {u0}, u0 * u0 - law.eps / u0, Options{}, stops);
     EXPECT_EQ(f.outcome.reason, EndReason::stopReached) << f.outcome.text;
     const double slope = std::abs(2 * row[2] + law.eps / (row[2] * row[2])) * row[2];      // |dR/du|
@@ -287,8 +286,7 @@ struct StiffBar : Linear {
 // the second makes that good. Halved until none raises the residual, iterations would be 4e-3 of what is
 // needed.
 TEST(Path, AStartMayRaiseTheResidualOnce) {
-  Stops stops;
-  stops.loadFactors = {0.1};
+  Stops stops = loads({0.1});
   Followed<StiffBar> f(StiffBar{}, {0, 0}, 0.03, Options{}, stops);
   EXPECT_EQ(f.outcome.reason, EndReason::stopReached) << f.outcome.text;
   EXPECT_LE(f.outcome.startIterations, 6);

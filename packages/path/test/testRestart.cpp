@@ -6,6 +6,7 @@
 #include "../src/FieldSizes.hpp"
 #include "../src/GeometricProgression.hpp"
 #include "problems/Bifurcations.hpp"
+#include "problems/Ends.hpp"
 #include "problems/Record.hpp"
 
 using namespace atrapos::path;
@@ -140,8 +141,7 @@ TEST(BranchJump, BranchesAThousandthApartAreNotMixed) {
         options.delta = options.residualBound = delta;
         options.pade = use;
         options.maxSteps = 2000;
-        Stops stops;
-        stops.loadFactors = {2};
+        Stops stops = loads({2});
         Followed<Modes, SymmetricDenseSolver> f(law, {0, 0}, -2e-6, options, stops);
         EXPECT_EQ(f.outcome.reason, EndReason::stopReached) << order << ' ' << delta << f.outcome.text;
         EXPECT_GT(f.final(1), 1) << order << ' ' << delta;  // 1.106; 0 or -1.105 on the others

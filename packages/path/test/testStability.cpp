@@ -11,6 +11,7 @@
 #include "atrapos/linear/MakeTangentSolver.hpp"
 #include "atrapos/path/Branches.hpp"
 #include "problems/Bifurcations.hpp"
+#include "problems/Ends.hpp"
 #include "problems/Record.hpp"
 
 using namespace atrapos;
@@ -52,8 +53,7 @@ struct FollowedUnsymmetric {
   Outcome outcome;
 
   FollowedUnsymmetric(Law law, double loadFactor, Options options = {}) : problem(law) {
-    Stops stops;
-    stops.loadFactors = {loadFactor};
+    Stops stops = loads({loadFactor});
     outcome = PathFollower(problem, *solver, options, stops).run({problem.vector({}), 0}, record);
     EXPECT_EQ(outcome.reason, EndReason::stopReached) << outcome.text;
   }
@@ -172,8 +172,7 @@ TEST(Stability, BranchesOfAnUnsymmetricProblem) {
       return true;
     }
   } watch;
-  Stops stops;
-  stops.loadFactors = {1.1 * law.buckling(1)};
+  Stops stops = loads({1.1 * law.buckling(1)});
   BranchFollower follower(problem, *solver, Options{}, stops, {});
   const auto diagram = follower.run({problem.vector({}), 0}, watch);
   ASSERT_EQ(diagram.branches.size(), 3u);
